@@ -1,0 +1,32 @@
+#pragma once
+// Axis-aligned bounding box; empty until something is included.
+
+#include "geometry/vector.h"
+
+#include <limits>
+
+namespace hemilux {
+
+struct Box {
+    Vec3 low{std::numeric_limits<double>::infinity()};
+    Vec3 high{-std::numeric_limits<double>::infinity()};
+
+    void include(const Vec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    void include(const Box& other) {
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+    }
+    [[nodiscard]] bool empty() const { return !(low.x <= high.x); }
+    [[nodiscard]] Vec3 centre() const { return 0.5 * (low + high); }
+    [[nodiscard]] Vec3 extent() const { return empty() ? Vec3(0.0) : high - low; }
+    /// Half of the surface area, to which the probability of a random line's visit is proportional.
+    [[nodiscard]] double half_area() const {
+        const Vec3 d = extent();
+        return d.x * d.y + d.y * d.z + d.z * d.x;
+    }
+};
+
+} // namespace hemilux

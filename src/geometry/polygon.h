@@ -1,0 +1,35 @@
+#pragma once
+// The two shapes of a scene, triangle and planar convex quad, under one type, so that a quad is one
+// surface everywhere: it is counted once, sampled once and intersected once.
+
+#include "geometry/vector.h"
+
+#include <array>
+#include <cstdint>
+
+namespace hemilux {
+
+/// Corners of a triangle (corner[3] == corner[2]) or of a planar convex quad, counter-clockwise
+/// seen from the front.
+struct Polygon {
+    std::array<Vec3, 4> corner{};
+
+    [[nodiscard]] bool is_triangle() const { return corner[2] == corner[3]; }
+    [[nodiscard]] int size() const { return is_triangle() ? 3 : 4; }
+
+    /// Half the cross product of the diagonals: length = area, direction = front side.
+    [[nodiscard]] Vec3 area_vector() const {
+        return 0.5 * glm::cross(corner[2] - corner[0], corner[3] - corner[1]);
+    }
+    [[nodiscard]] double area() const { return glm::length(area_vector()); }
+    /// Unit normal of the front side; NaN for a polygon without area.
+    [[nodiscard]] Vec3 normal() const { return glm::normalize(area_vector()); }
+    /// Centre of mass.
+    [[nodiscard]] Vec3 centre() const;
+    /// A point uniform over the area for u uniform in [0,1)^2; keeps stratification of u.
+    [[nodiscard]] Vec3 sample(Vec2 u) const;
+    /// The same polygon seen from behind.
+    [[nodiscard]] Polygon flipped() const;
+};
+
+} // namespace hemilux
