@@ -1,0 +1,53 @@
+#pragma once
+// A ray against one facet: shared by the BVH and by the brute-force referee, so that a test of one
+// against the other is a test of the traversal alone.
+
+#include "bvh/tracer.h"
+#include "geometry/watertight.h"
+
+#include <span>
+
+namespace hemilux {
+
+/// Corner indices into the vertices; [3] == [2] for a triangle.
+using FacetCorners = std::array<std::uint32_t, 4>;
+
+/// The facets to be traced.
+struct FacetSoup {
+    std::span<const Vec3> vertices;
+    std::span<const FacetCorners> facets;
+};
+
+/// True, and the hit filled in, when facet `corners` is struck at a t in (ray.t_min, t_max].
+template <EdgeRule rule>
+[[nodiscard]] inline bool hit_facet(std::span<const Vec3> vertices, const FacetCorners& corners,
+                                    const ShearedRay& sheared, double t_min, double t_max,
+                                    Hit& hit) {
+    const Vec3 p0 = sheared.transform(vertices[corners[0]]);
+    const Vec3 p1 = sheared.transform(vertices[corners[1]]);
+    const Vec3 p2 = sheared.transform(vertices[corners[2]]);
+    TriangleHit found;
+    bool second_half = false;
+    if (!hit_triangle<rule>(p0, p1, p2, t_min, t_max, found)) {
+        if (corners[2] == corners[3])
+            return false;
+        const Vec3 p3 = sheared.transform(vertices[corners[3]]);
+        if (!hit_triangle<rule>(p0, p2, p3, t_min, t_max, found))
+            return false;
+        second_half = true;
+    }
+    hit.t = found.t;
+    hit.u = found.u;
+    hit.v = found.v;
+    hit.second_half = second_half;
+    hit.front = found.front;
+    return true;
+}
+
+/// Whether a hit at t on `facet` comes before the best so far; ties go to the smaller index, so
+/// that the answer does not depend on the order of visits.
+[[nodiscard]] inline bool comes_before(double t, std::uint32_t facet, const Hit& best) {
+    return t < best.t || (t == best.t && facet < best.facet);
+}
+
+} // namespace hemilux

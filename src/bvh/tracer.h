@@ -1,0 +1,54 @@
+#pragma once
+// The questions that radiosity asks about rays, and the one interface behind which they are
+// answered: by the BVH in programs, by brute force in tests.
+
+#include "geometry/vector.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace hemilux {
+
+/// Marks "no facet".
+inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// origin + t direction, for t in (t_min, t_max]. The direction need not be of unit length.
+struct Ray {
+    Vec3 origin;
+    Vec3 direction;
+    double t_max = std::numeric_limits<double>::infinity();
+    /// Large enough that a coplanar duplicate of the facet the ray starts on is not struck by
+    /// rounding noise, small enough that no wall that the origin is near to is missed. (Scenes lie
+    /// in [-1,1]^3.)
+    double t_min = 1e-13;
+    /// The planar facet that the ray starts on; it cannot be hit again, so it is left out. This
+    /// stands in place of an epsilon.
+    std::uint32_t from = none;
+};
+
+/// Where a ray strikes a facet.
+struct Hit {
+    std::uint32_t facet;
+    double t;
+    /// Barycentric coordinates in the triangle struck: point = (1-u-v) p0 + u p1 + v p2, the
+    /// triangle being corners (0,1,2), or (0,2,3) in the second half of a quad.
+    double u, v;
+    bool second_half;
+    bool front; ///< the counter-clockwise side was struck
+};
+
+class Tracer {
+  public:
+    virtual ~Tracer() = default;
+    /// The nearest facet; of several at the same distance the one with the smallest index.
+    [[nodiscard]] virtual std::optional<Hit> closest(const Ray& ray) const = 0;
+    /// Whether anything but `target` lies on the ray before t_max.
+    [[nodiscard]] virtual bool occluded(const Ray& ray, std::uint32_t target = none) const = 0;
+    /// How many facets the ray pierces; one through a shared edge or vertex pierces one of those
+    /// that lie around it.
+    [[nodiscard]] virtual std::uint32_t count(const Ray& ray) const = 0;
+};
+
+} // namespace hemilux

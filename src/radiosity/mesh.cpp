@@ -1,0 +1,202 @@
+#include "radiosity/mesh.h"
+
+#include "geometry/numeric.h"
+#include "radiosity/rng.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace hemilux {
+namespace {
+
+/// How many pieces no longer than `max_edge` a length is cut into; a rounding error makes no
+/// further one.
+std::uint32_t pieces(double length, double max_edge) {
+    constexpr double slack = 1e-9;
+    const double n = std::ceil(length / max_edge - slack);
+    return n < 1 ? 1 : static_cast<std::uint32_t>(std::min(n, 1e9));
+}
+
+LocalFrame frame_of(const Scene& scene) {
+    Box bounds;
+    for (const Facet& facet : scene.facets)
+        for (const std::uint32_t v : facet.vertex)
+            bounds.include(scene.vertices[v]);
+    const Vec3 half = 0.5 * bounds.extent();
+    int exponent = 0;
+    std::frexp(std::max({half.x, half.y, half.z}), &exponent);
+    return {bounds.centre(), std::ldexp(1.0, -exponent)};
+}
+
+/// Piece i of n for a coordinate in [0,1] that may be outside by a rounding error; NaN is 0.
+std::uint32_t piece_at(double x, std::uint32_t n) {
+    const double i = std::floor(x * n);
+    return i > 0 ? static_cast<std::uint32_t>(std::min(i, n - 1.0)) : 0;
+}
+
+} // namespace
+
+Mesh::Mesh(Scene scene, const MeshOptions& options)
+    : scene_(std::move(scene)), two_sided_(options.two_sided) {
+    if (scene_.facets.empty())
+        throw std::invalid_argument("the scene has no face with an area");
+    frame_ = frame_of(scene_);
+    vertices_.reserve(scene_.vertices.size());
+    for (const Vec3& v : scene_.vertices)
+        vertices_.push_back(frame_.to_local(v));
+    divisions_.reserve(scene_.facets.size());
+    for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
+        divide(f, options);
+}
+
+Frame Mesh::hemisphere_frame(std::uint32_t patch) const {
+    const double turn = static_cast<double>(mix_bits(patch + 1u) >> 11) * 0x1p-53;
+    return Frame::from_normal(patches_[patch].normal).turned(2 * std::numbers::pi * turn);
+}
+
+FacetSoup Mesh::soup() const { return {vertices_, corners_}; }
+
+void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
+    const Facet& facet = scene_.facets[f];
+    corners_.push_back(facet.vertex);
+    Polygon shape;
+    for (std::size_t i = 0; i < 4; ++i)
+        shape.corner[i] = vertices_[facet.vertex[i]];
+    const double max_edge = options.max_edge > 0 ? options.max_edge * frame_.scale
+                                                 : std::numeric_limits<double>::infinity();
+    Division division{};
+    division.first_patch = static_cast<std::uint32_t>(patches_.size());
+    const std::size_t room = options.max_patches - std::min(options.max_patches, patches_.size());
+    std::vector<Polygon> made;
+    if (shape.is_triangle())
+        divide_triangle(division, shape, max_edge, room, made);
+    else
+        divide_quad(division, shape, max_edge, room, made);
+
+    const Vec3 facet_normal = shape.area() > 0 ? shape.normal() : Vec3(0, 0, 1);
+    for (const Polygon& piece : made) {
+        const double area = piece.area();
+        const Vec3 normal = area > 0 ? piece.normal() : facet_normal;
+        patches_.push_back({piece, piece.centre(), normal, area, f, facet.material, false});
+        if (two_sided_)
+            patches_.push_back(
+                {piece.flipped(), piece.centre(), -normal, area, f, facet.material, true});
+    }
+    divisions_.push_back(division);
+}
+
+void Mesh::check_room(double count, std::size_t room) {
+    if (!(count <= static_cast<double>(room)))
+        throw std::invalid_argument("the division of faces makes too many patches; choose a larger "
+                                    "maximal edge length");
+}
+
+void Mesh::divide_quad(Division& division, const Polygon& shape, double max_edge, std::size_t room,
+                       std::vector<Polygon>& made) const {
+    const auto& p = shape.corner;
+    const auto longer = [](const Vec3& a, const Vec3& b) {
+        return std::max(glm::length(a), glm::length(b));
+    };
+    const std::uint32_t n = pieces(longer(p[1] - p[0], p[2] - p[3]), max_edge);
+    const std::uint32_t m = pieces(longer(p[3] - p[0], p[2] - p[1]), max_edge);
+    check_room(double(n) * m, room);
+    division.columns = n;
+    division.rows = m;
+
+    // g = ga e1 + gb e3 in the quad's plane, e1 and e3 being the edges at corner 0.
+    const Vec3 e1 = p[1] - p[0], e3 = p[3] - p[0], g = p[0] - p[1] + p[2] - p[3];
+    const double a = glm::dot(e1, e1), b = glm::dot(e1, e3), c = glm::dot(e3, e3);
+    const double g1 = glm::dot(g, e1), g3 = glm::dot(g, e3), determinant = a * c - b * b;
+    if (determinant > 0) {
+        division.g_x = (g1 * c - g3 * b) / determinant;
+        division.g_y = (g3 * a - g1 * b) / determinant;
+    }
+    if (n == 1 && m == 1) {
+        made.push_back(shape);
+        return;
+    }
+    const auto point = [&](std::uint32_t i, std::uint32_t j) {
+        const double s = double(i) / n, t = double(j) / m;
+        return (1 - t) * ((1 - s) * p[0] + s * p[1]) + t * ((1 - s) * p[3] + s * p[2]);
+    };
+    for (std::uint32_t j = 0; j < m; ++j)
+        for (std::uint32_t i = 0; i < n; ++i)
+            made.push_back({{point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)}});
+}
+
+void Mesh::divide_triangle(Division& division, const Polygon& shape, double max_edge,
+                           std::size_t room, std::vector<Polygon>& made) {
+    const auto opposite = [&](std::size_t i) {
+        return glm::length(shape.corner[(i + 2) % 3] - shape.corner[(i + 1) % 3]);
+    };
+    std::size_t apex = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (opposite(i) < opposite(apex))
+            apex = i;
+    const Vec3 a = shape.corner[apex];
+    const Vec3 ab = shape.corner[(apex + 1) % 3] - a, ac = shape.corner[(apex + 2) % 3] - a;
+    const std::uint32_t n = pieces(std::max(glm::length(ab), glm::length(ac)), max_edge);
+    if (n == 1) {
+        made.push_back(shape);
+        return;
+    }
+    check_room(n, room);
+    division.rows = n;
+    division.apex = static_cast<std::uint8_t>(apex);
+    division.strips = static_cast<std::uint32_t>(strip_first_.size());
+    const auto point = [&](double r, double w) { return a + r * ((1 - w) * ab + w * ac); };
+    for (std::uint32_t k = 0; k < n; ++k) {
+        strip_first_.push_back(static_cast<std::uint32_t>(made.size()));
+        const double inner = double(k) / n, outer = double(k + 1) / n;
+        const std::uint32_t m = k == 0 ? 1 : pieces(opposite(apex) * outer, max_edge);
+        check_room(double(made.size()) + m, room);
+        for (std::uint32_t j = 0; j < m; ++j) {
+            const double w0 = double(j) / m, w1 = double(j + 1) / m;
+            const Vec3 q1 = point(outer, w0), q2 = point(outer, w1);
+            if (k == 0)
+                made.push_back({{a, q1, q2, q2}});
+            else
+                made.push_back({{point(inner, w0), q1, q2, point(inner, w1)}});
+        }
+    }
+    strip_first_.push_back(static_cast<std::uint32_t>(made.size()));
+}
+
+std::uint32_t Mesh::piece_of_quad(const Division& division, const Hit& hit) const {
+    // The point is corner0 + x e1 + y e3; corner 2 lies at (1 + g_x, 1 + g_y).
+    const double to_corner2 = hit.second_half ? hit.u : hit.v;
+    const double x = to_corner2 * (1 + division.g_x) + (hit.second_half ? 0 : hit.u);
+    const double y = to_corner2 * (1 + division.g_y) + (hit.second_half ? hit.v : 0);
+    // Bilinear: x = s + s t g_x, y = t + s t g_y. Eliminating s leaves a quadratic in t.
+    const double b = 1 + x * division.g_y - y * division.g_x;
+    const double t = 2 * y / (b + safe_sqrt(b * b + 4 * division.g_x * y));
+    const double s = x / (1 + t * division.g_x);
+    return piece_at(t, division.rows) * division.columns + piece_at(s, division.columns);
+}
+
+std::uint32_t Mesh::piece_of_triangle(const Division& division, const Hit& hit) const {
+    const std::array<double, 3> weight{1 - hit.u - hit.v, hit.u, hit.v};
+    const double b = weight[(division.apex + 1u) % 3], c = weight[(division.apex + 2u) % 3];
+    const std::uint32_t k = piece_at(b + c, division.rows);
+    const std::uint32_t first = strip_first_[division.strips + k];
+    const std::uint32_t m = strip_first_[division.strips + k + 1] - first;
+    return first + piece_at(c / (b + c), m);
+}
+
+std::uint32_t Mesh::patch_at(const Hit& hit) const {
+    if (!hit.front && !two_sided_)
+        return none;
+    const Division& division = divisions_[hit.facet];
+    std::uint32_t piece = 0;
+    if (division.strips != none)
+        piece = piece_of_triangle(division, hit);
+    else if (division.rows * division.columns > 1)
+        piece = piece_of_quad(division, hit);
+    return two_sided_ ? division.first_patch + 2 * piece + (hit.front ? 0 : 1)
+                      : division.first_patch + piece;
+}
+
+} // namespace hemilux

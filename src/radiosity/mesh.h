@@ -1,0 +1,105 @@
+#pragma once
+// The scene as the solvers see it: facets divided into patches, moved into a local frame.
+//
+// Rays are traced against whole facets, which share the vertices of the file, and the struck patch
+// is found from the coordinates inside the facet. So dividing a face costs the BVH nothing, and two
+// neighbours divided differently have no crack between them.
+
+#include "bvh/intersect.h"
+#include "geometry/box.h"
+#include "geometry/frame.h"
+#include "geometry/polygon.h"
+#include "radiosity/scene.h"
+
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+struct MeshOptions {
+    /// Divide facets until no edge is longer [m]; 0 keeps each facet as one patch. Halving it gives
+    /// about four times as many patches.
+    double max_edge = 0;
+    /// Give every facet a patch on its back too.
+    bool two_sided = false;
+    /// More patches than this are refused before they are made.
+    std::size_t max_patches = 50'000'000;
+};
+
+/// A piece of a facet with constant radiosity, in the local frame.
+struct Patch {
+    Polygon shape; ///< counter-clockwise from the side that this patch is
+    Vec3 centre;   ///< centre of mass
+    Vec3 normal;   ///< unit, to the side that emits and reflects
+    double area;
+    std::uint32_t facet;
+    std::uint32_t material;
+    bool back; ///< the reverse of a two-sided facet
+};
+
+/// The frame of computation: world = centre + local / scale. The scale is a power of two, so that
+/// nothing is lost by it, and the scene lies within [-1,1]^3.
+struct LocalFrame {
+    Vec3 centre{0.0};
+    double scale = 1.0;
+    [[nodiscard]] Vec3 to_local(const Vec3& world) const { return (world - centre) * scale; }
+    [[nodiscard]] Vec3 to_world(const Vec3& local) const { return centre + local / scale; }
+    [[nodiscard]] double area_to_world(double area) const { return area / (scale * scale); }
+};
+
+class Mesh {
+  public:
+    /// Throws std::invalid_argument when the scene has no facet or too many patches would be made.
+    explicit Mesh(Scene scene, const MeshOptions& options = {});
+
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const LocalFrame& frame() const { return frame_; }
+    [[nodiscard]] std::span<const Patch> patches() const { return patches_; }
+    [[nodiscard]] const Material& material(std::uint32_t patch) const {
+        return scene_.materials[patches_[patch].material];
+    }
+    /// Vertices of the scene in the local frame, indexed by Facet::vertex.
+    [[nodiscard]] std::span<const Vec3> vertices() const { return vertices_; }
+    /// The frame in which the subdivided hemisphere of a patch stands: turned about the normal by
+    /// an angle hashed from the patch's index, so that its vertices do not run along the edges of a
+    /// regular mesh (docs/decisions.md, D12).
+    [[nodiscard]] Frame hemisphere_frame(std::uint32_t patch) const;
+    /// The facets for a tracer to copy or to refer to.
+    [[nodiscard]] FacetSoup soup() const;
+    /// The patch that was struck; none where the back of a one-sided facet was.
+    [[nodiscard]] std::uint32_t patch_at(const Hit& hit) const;
+
+  private:
+    /// How a facet is divided. A quad: rows along its first and third edge, columns along the
+    /// others, by the bilinear map. A triangle: strips parallel to its shortest edge, strip k cut
+    /// into columns_of(k) by lines through the opposite vertex (the apex).
+    struct Division {
+        std::uint32_t first_patch;
+        std::uint32_t rows = 1, columns = 1;
+        std::uint32_t strips = none; ///< triangle: where its strips begin in strip_first_
+        std::uint8_t apex = 0;       ///< triangle: which corner
+        double g_x = 0,
+               g_y = 0; ///< quad: corner0 - 1 + 2 - 3 in the basis of its edges at corner 0
+    };
+
+    void divide(std::uint32_t facet, const MeshOptions& options);
+    void divide_quad(Division& division, const Polygon& shape, double max_edge, std::size_t room,
+                     std::vector<Polygon>& made) const;
+    void divide_triangle(Division& division, const Polygon& shape, double max_edge,
+                         std::size_t room, std::vector<Polygon>& made);
+    static void check_room(double count, std::size_t room);
+    [[nodiscard]] std::uint32_t piece_of_quad(const Division& division, const Hit& hit) const;
+    [[nodiscard]] std::uint32_t piece_of_triangle(const Division& division, const Hit& hit) const;
+
+    Scene scene_;
+    LocalFrame frame_;
+    std::vector<Vec3> vertices_;
+    std::vector<FacetCorners> corners_;
+    std::vector<Patch> patches_;
+    std::vector<Division> divisions_;
+    std::vector<std::uint32_t>
+        strip_first_; ///< pieces of a triangle before strip k; one more at the end
+    bool two_sided_ = false;
+};
+
+} // namespace hemilux
