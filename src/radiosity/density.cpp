@@ -1,0 +1,154 @@
+#include "radiosity/density.h"
+
+#include "radiosity/mesh.h"
+#include "radiosity/solver.h"
+#include "radiosity/workers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+/// Walks the tree of one patch depth-first. count_at(vertex) is asked once for each vertex of the
+/// triangles that exist, always in the same order: the writer traces a ray there, the reader takes
+/// the next byte. leaf(cell, mean) is called for each triangle that is not divided.
+template <class CountAt, class Leaf>
+class TreeWalk {
+  public:
+    TreeWalk(const Hemisphere& hemisphere, double threshold, CountAt& count_at, Leaf& leaf)
+        : hemisphere_(hemisphere), threshold_(threshold), count_at_(count_at), leaf_(leaf) {
+        std::fill_n(count_.begin(), hemisphere.vertices().size(), unknown);
+    }
+
+    void run() {
+        for (std::size_t root = 0; root < Hemisphere::cells_up_to(0); ++root) {
+            for (const std::uint16_t v : hemisphere_.cells()[root].vertex)
+                ask(v);
+            visit(root);
+        }
+    }
+
+  private:
+    static constexpr std::int16_t unknown = -1;
+    static constexpr std::size_t most_vertices = 2113; ///< at Hemisphere::max_depth
+
+    void ask(std::uint16_t vertex) {
+        if (count_[vertex] == unknown)
+            count_[vertex] = count_at_(vertex);
+    }
+
+    void visit(std::size_t index) {
+        const Hemisphere::Cell& cell = hemisphere_.cells()[index];
+        const int sum = count_[cell.vertex[0]] + count_[cell.vertex[1]] + count_[cell.vertex[2]];
+        const double mean = sum / 3.0;
+        if (cell.level == hemisphere_.depth() || !(mean > threshold_)) {
+            leaf_(static_cast<std::uint16_t>(index), mean);
+            return;
+        }
+        for (const std::uint16_t v : cell.midpoint)
+            ask(v);
+        for (std::size_t child = 0; child < 4; ++child)
+            visit(cell.first_child + child);
+    }
+
+    const Hemisphere& hemisphere_;
+    double threshold_;
+    CountAt& count_at_;
+    Leaf& leaf_;
+    std::array<std::int16_t, most_vertices> count_;
+};
+
+template <class CountAt, class Leaf>
+void walk_tree(const Hemisphere& hemisphere, double threshold, CountAt&& count_at, Leaf&& leaf) {
+    TreeWalk(hemisphere, threshold, count_at, leaf).run();
+}
+
+} // namespace
+
+Vec3 density_direction(const Vec3& vertex) {
+    constexpr double lift = 0.01; // sine of the elevation
+    return glm::normalize(Vec3(vertex.x, vertex.y, std::max(vertex.z, lift)));
+}
+
+DensityMap::DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere& hemisphere,
+                       double threshold, const Workers& workers, Monitor& monitor)
+    : hemisphere_(hemisphere), threshold_(threshold) {
+    const std::size_t patches = mesh.patches().size();
+    std::vector<Vec3> directions;
+    for (const Vec3& v : hemisphere.vertices())
+        directions.push_back(density_direction(v));
+    Blocks blocks((patches + block_size - 1) / block_size);
+    workers.for_chunks(patches, block_size, [&](std::size_t begin, std::size_t end) {
+        Block& block = blocks[begin / block_size];
+        for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
+            const Patch& patch = mesh.patches()[i];
+            const Frame frame = mesh.hemisphere_frame(static_cast<std::uint32_t>(i));
+            const std::size_t start = block.counts.size();
+            const auto count_at = [&](std::uint16_t v) {
+                Ray ray{patch.centre, frame.to_world(directions[v])};
+                ray.from = patch.facet;
+                const auto count = static_cast<std::uint8_t>(std::min(tracer.count(ray), 255u));
+                block.counts.push_back(count);
+                return static_cast<std::int16_t>(count);
+            };
+            walk_tree(hemisphere, threshold, count_at, [](std::uint16_t, double) {});
+            block.lengths.push_back(static_cast<std::uint16_t>(block.counts.size() - start));
+        }
+        monitor.rays += block.counts.size();
+    });
+    store(blocks, patches);
+}
+
+void DensityMap::store(const Blocks& blocks, std::size_t patches) {
+    std::size_t longest = 0;
+    for (const Block& block : blocks) {
+        rays_ += block.counts.size();
+        for (const std::uint16_t length : block.lengths)
+            longest = std::max<std::size_t>(longest, length);
+    }
+    // Patches one after the other with an index, or all as long as the longest: whichever is
+    // smaller.
+    if (longest * patches <= rays_ + blocks.size() * sizeof(block_start_[0])) {
+        stride_ = longest;
+        counts_.resize(longest * patches);
+    } else {
+        counts_.reserve(rays_);
+    }
+    std::size_t patch = 0;
+    for (const Block& block : blocks) {
+        if (stride_ == 0) {
+            block_start_.push_back(counts_.size());
+            counts_.insert(counts_.end(), block.counts.begin(), block.counts.end());
+            continue;
+        }
+        const std::uint8_t* from = block.counts.data();
+        for (const std::uint16_t length : block.lengths) {
+            std::copy_n(from, length, counts_.data() + stride_ * patch++);
+            from += length;
+        }
+    }
+}
+
+const std::uint8_t* DensityMap::counts_of(std::uint32_t patch) const {
+    if (stride_ > 0)
+        return counts_.data() + patch * stride_;
+    const std::uint8_t* at = counts_.data() + block_start_[patch / block_size];
+    for (std::size_t i = patch % block_size; i > 0; --i)
+        walk_tree(
+            hemisphere_, threshold_, [&](std::uint16_t) { return std::int16_t{*at++}; },
+            [](std::uint16_t, double) {});
+    return at;
+}
+
+void DensityMap::leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) const {
+    result.clear();
+    const std::uint8_t* at = counts_of(patch);
+    walk_tree(
+        hemisphere_, threshold_, [&](std::uint16_t) { return std::int16_t{*at++}; },
+        [&](std::uint16_t cell, double mean) {
+            result.push_back({cell, static_cast<float>(mean)});
+        });
+}
+
+} // namespace hemilux

@@ -1,0 +1,70 @@
+#pragma once
+// Preprocessing of the paper (section 5a): how many surfaces a patch has in each direction, in
+// bytes.
+//
+// The counts at the vertices determine the mean of every triangle, and whether a triangle is
+// divided follows from its mean and the threshold. So a patch keeps one byte per vertex of the
+// triangles that exist and no flags: 5 bytes if nothing is divided, 41 at most at depth 2, where
+// the paper's one byte per triangle would be 84 (docs/decisions.md, D8).
+
+#include "bvh/tracer.h"
+#include "radiosity/hemisphere.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+class Workers;
+struct Monitor;
+
+/// A triangle that is not divided, with the mean of its three vertex counts [surfaces per ray].
+struct DensityLeaf {
+    std::uint16_t cell; ///< of Hemisphere::cells()
+    float density;
+};
+
+/// The direction of a density ray through a vertex of the table. Vertices on the horizon lie in the
+/// patch's plane, where a count would hang on rounding errors; their rays are lifted a little.
+[[nodiscard]] Vec3 density_direction(const Vec3& vertex);
+
+class DensityMap {
+  public:
+    /// Shoots the density rays from every patch centre; a triangle whose mean exceeds the threshold
+    /// is divided, down to the hemisphere's depth. Counts saturate at 255.
+    DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere& hemisphere,
+               double threshold, const Workers& workers, Monitor& monitor);
+
+    /// The leaves of a patch's tree, in the table's depth-first order.
+    void leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) const;
+
+    [[nodiscard]] std::uint64_t rays() const { return rays_; }
+    /// Everything that is kept: counts and the index to find them.
+    [[nodiscard]] std::uint64_t bytes() const {
+        return counts_.size() + block_start_.size() * sizeof(block_start_[0]);
+    }
+
+  private:
+    /// Patches are of different length; only the start of each block is kept.
+    static constexpr std::size_t block_size = 64;
+
+    /// The counts of the patches of one block and how many each patch has.
+    struct Block {
+        std::vector<std::uint8_t> counts;
+        std::vector<std::uint16_t> lengths;
+    };
+    using Blocks = std::vector<Block>;
+
+    void store(const Blocks& blocks, std::size_t patches);
+    [[nodiscard]] const std::uint8_t* counts_of(std::uint32_t patch) const;
+
+    const Hemisphere& hemisphere_;
+    double threshold_;
+    std::vector<std::uint8_t> counts_;
+    std::vector<std::uint64_t> block_start_; ///< empty where stride_ is used
+    std::size_t stride_ = 0;                 ///< bytes of each patch; 0 where the index is used
+    std::uint64_t rays_ = 0;
+};
+
+} // namespace hemilux

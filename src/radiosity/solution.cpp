@@ -1,0 +1,76 @@
+#include "radiosity/solution.h"
+
+#include "radiosity/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hemilux {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double squared(const Vec3& v) { return glm::dot(v, v); }
+
+/// sqrt(sum of squared errors / sum of squared values); NaN where there is no value.
+struct Ratio {
+    double error = 0, value = 0;
+    [[nodiscard]] double root() const { return value > 0 ? std::sqrt(error / value) : nan; }
+};
+
+} // namespace
+
+RelativeError true_error(const Mesh& mesh, std::span<const Vec3> radiosity,
+                         std::span<const Vec3> reference, const std::vector<bool>& detail) {
+    Ratio all, inside, outside;
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
+        const double area = mesh.patches()[i].area;
+        const double error = area * squared(radiosity[i] - reference[i]);
+        const double value = area * squared(reference[i] - mesh.material(i).emission);
+        Ratio& part = !detail.empty() && detail[i] ? inside : outside;
+        for (Ratio* ratio : {&all, &part}) {
+            ratio->error += error;
+            ratio->value += value;
+        }
+    }
+    return {all.root(), inside.root(), outside.root()};
+}
+
+double estimated_error(const Mesh& mesh, const Solution& solution) {
+    Ratio all;
+    for (std::uint32_t i = 0; i < solution.radiosity.size(); ++i) {
+        const double area = mesh.patches()[i].area;
+        const double error = area * squared(solution.standard_error[i]);
+        all.error += error;
+        // The square of an estimate is too large by its variance.
+        all.value += area * squared(solution.radiosity[i] - mesh.material(i).emission) - error;
+    }
+    return all.error == 0 ? 0 : all.root();
+}
+
+ZScores z_scores(const Mesh& mesh, const Solution& solution, std::span<const Vec3> reference,
+                 std::span<const Vec3> reference_error, std::uint64_t min_hits) {
+    ZScores z;
+    double sum = 0, squares = 0;
+    for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
+        if (solution.hits[i] < min_hits)
+            continue;
+        for (int c = 0; c < 3; ++c) {
+            const double sigma = std::hypot(solution.standard_error[i][c], reference_error[i][c]);
+            if (!(sigma > 0))
+                continue;
+            const double score = (solution.radiosity[i][c] - reference[i][c]) / sigma;
+            sum += score;
+            squares += score * score;
+            z.largest = std::max(z.largest, std::abs(score));
+            ++z.count;
+        }
+    }
+    const auto n = static_cast<double>(z.count);
+    z.mean = z.count > 0 ? sum / n : nan;
+    z.rms = z.count > 0 ? std::sqrt(squares / n) : nan;
+    return z;
+}
+
+} // namespace hemilux

@@ -1,0 +1,61 @@
+#pragma once
+// What every method delivers: radiosity per patch and how far off it may be.
+
+#include "geometry/vector.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+/// Power per channel, in world units [W].
+struct EnergyBalance {
+    Vec3 emitted{0.0};
+    Vec3 absorbed{0.0};
+    Vec3 escaped{0.0};
+};
+
+struct Solution {
+    std::vector<Vec3> radiosity;      ///< B per patch [W/m2 leaving], own emission included
+    std::vector<Vec3> standard_error; ///< of B, from the spread of the steps; NaN before two steps
+    std::vector<std::uint64_t> hits;  ///< energy rays that struck each patch
+    EnergyBalance energy;
+    std::uint32_t steps = 0;
+    std::uint64_t rays_energy = 0;
+    std::uint64_t rays_density = 0;
+    std::uint64_t bytes_density = 0; ///< of the density store; 0 where a method keeps none
+    double seconds_density = 0;      ///< spent before the first step
+};
+
+/// Errors relative to the reflected radiosity (RMS over area and channels, see docs): either over
+/// all patches or split by a mask.
+struct RelativeError {
+    double all = 0;
+    double detail = 0; ///< patches under the mask; NaN if there are none
+    double rest = 0;   ///< the others; NaN if there are none
+};
+
+/// sqrt(sum_i A_i |B_i - B*_i|^2 / sum_i A_i |B*_i - E_i|^2).
+[[nodiscard]] RelativeError true_error(const Mesh& mesh, std::span<const Vec3> radiosity,
+                                       std::span<const Vec3> reference,
+                                       const std::vector<bool>& detail = {});
+
+/// The same from the solution's own standard errors; NaN before two steps.
+[[nodiscard]] double estimated_error(const Mesh& mesh, const Solution& solution);
+
+/// Standardised differences z = (B - B*) / sigma over patches with at least `min_hits` and all
+/// channels with a positive sigma, where sigma^2 adds both standard errors.
+struct ZScores {
+    double mean = 0;
+    double rms = 0;
+    double largest = 0; ///< in magnitude
+    std::size_t count = 0;
+};
+[[nodiscard]] ZScores z_scores(const Mesh& mesh, const Solution& solution,
+                               std::span<const Vec3> reference,
+                               std::span<const Vec3> reference_error, std::uint64_t min_hits = 30);
+
+} // namespace hemilux

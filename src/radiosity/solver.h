@@ -1,0 +1,97 @@
+#pragma once
+// What the program and the tests know of a method: its name, and that it takes steps, each of which
+// improves the solution.
+
+#include "bvh/tracer.h"
+#include "radiosity/solution.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace hemilux {
+
+class Mesh;
+
+struct SolveOptions {
+    /// Mean energy rays per patch and step, N_hemi of the paper. More: fewer, longer steps.
+    double rays = 64;
+    /// Levels of subdivision of the hemisphere, 0 to 5: 4, 20, 84, ... triangles.
+    int depth = 2;
+    /// A triangle whose mean density is higher is divided.
+    double threshold = 0;
+    /// The rules as printed in the paper; biased (docs/decisions.md, D1, D2, D10).
+    bool literal = false;
+    std::uint64_t seed = 1;
+    /// 0: one per core. The result does not depend on it.
+    unsigned threads = 0;
+};
+
+/// The first that is met ends the run. With none given, `default_steps`.
+struct StopRule {
+    std::optional<std::uint32_t> steps;
+    std::optional<double> seconds;
+    std::optional<double> error; ///< estimated relative error, e.g. .01
+    static constexpr std::uint32_t default_steps = 16;
+};
+
+/// How a caller watches a run and ends it early. All members may be used from any thread.
+struct Monitor {
+    std::atomic<std::uint64_t> rays{0};         ///< traced so far, density rays included
+    std::atomic<bool> interrupted{false};       ///< set by the caller: stop as soon as possible
+    std::atomic<double> step_share{0};          ///< how much of the present step is done, 0 to 1
+    std::atomic<const char*> phase{"starting"}; ///< a word for the progress bar
+};
+
+class Solver {
+  public:
+    virtual ~Solver() = default;
+    /// Improves the solution. False when interrupted: the solution is then that of the steps
+    /// before.
+    virtual bool step() = 0;
+    [[nodiscard]] virtual const Solution& solution() const = 0;
+    /// The solver's own stop, e.g. nothing is left to shoot.
+    [[nodiscard]] virtual bool finished() const { return false; }
+};
+
+/// What a solver works on; all of it outlives the solver.
+struct SolverInput {
+    const Mesh& mesh;
+    const Tracer& tracer;
+    const SolveOptions& options;
+    Monitor& monitor;
+};
+
+/// A method as the user picks it.
+struct Method {
+    std::string_view name;    ///< of --method
+    std::string_view summary; ///< one line for --help, with the source
+    bool has_literal;         ///< --literal changes it
+    bool unbiased;            ///< each step, in its corrected form; else consistent
+    StopRule default_stop;    ///< where the user gives none
+    std::unique_ptr<Solver> (*make)(const SolverInput&);
+};
+
+/// All methods, one per file of strategies/ and solvers/, in alphabetical order.
+[[nodiscard]] std::span<const Method* const> methods();
+/// nullptr if there is no such method.
+[[nodiscard]] const Method* find_method(std::string_view name);
+
+/// A row of the steps log.
+struct StepRecord {
+    std::uint32_t step;
+    std::uint64_t rays; ///< every ray so far
+    double seconds;     ///< since the solver was made
+    double estimated_error;
+};
+
+/// Steps until the rule or the monitor ends the run. `after_step` sees each new solution.
+/// Returns false when interrupted.
+bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
+         const std::function<void(const StepRecord&, const Solution&)>& after_step = {});
+
+} // namespace hemilux

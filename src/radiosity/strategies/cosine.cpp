@@ -1,0 +1,36 @@
+// Progressive ray refinement for Monte Carlo radiosity (paper section 3.3; Feda and Purgathofer
+// 1993).
+//
+// The hemisphere is one cell: all rays of a patch follow the cosine law. Steps of few rays each are
+// combined by their numbers of rays; with equal steps the rule "divide by k what was received" is
+// the running mean. Needs no preprocessing and no memory. The yardstick for all others.
+
+#include "radiosity/shooting.h"
+
+namespace hemilux {
+namespace {
+
+class Cosine final : public Strategy {
+  public:
+    void deal(std::uint32_t, std::vector<CellShare>& shares) const override {
+        shares.assign(1, {whole_hemisphere, 1.0, 1.0});
+    }
+};
+
+std::unique_ptr<Strategy> make_cosine(const SolverInput&, const Hemisphere&, const Workers&) {
+    return std::make_unique<Cosine>();
+}
+
+} // namespace
+
+extern const Method cosine_method;
+const Method cosine_method{
+    .name = "progressive-monte-carlo",
+    .summary = "steps of random cosine-distributed rays (Feda and Purgathofer 1993; paper 3.3)",
+    .has_literal = false,
+    .unbiased = true,
+    .default_stop = {.steps = 16, .seconds = {}, .error = {}},
+    .make = shoot_with<make_cosine>,
+};
+
+} // namespace hemilux

@@ -1,0 +1,96 @@
+// Hemisphere subdivision (paper section 5; Plemenos and Jolivet 1998).
+//
+// Before solving, each patch counts along few rays how many surfaces lie in each direction and
+// divides the triangles of its hemisphere where the mean count is above a threshold (density.h).
+// Each step then shoots rays in proportion to power and density:
+//
+//     N_tr = N_hemi A_tr / A_hemi D_tr / D_average,   Phi_tr = Phi_patch A_tr / A_hemi.
+//
+// A is the projected solid angle, so that Lambert's law holds whatever the triangles (D1), and
+// D_average is weighted by the same areas, so that the N_tr sum to N_hemi (D4). With --literal A is
+// the solid angle, as printed: the light is then distributed wrongly, however many rays are shot.
+//
+// Good where small objects crowd in few directions; bad where a wall hides a crowd, to which it
+// sends rays in vain. Costs at most 41 rays and bytes per patch at depth 2.
+
+#include "radiosity/density.h"
+#include "radiosity/shooting.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace hemilux {
+namespace {
+
+class HemisphereStrategy final : public Strategy {
+  public:
+    HemisphereStrategy(const SolverInput& input, const Hemisphere& hemisphere,
+                       const Workers& workers)
+        : hemisphere_(hemisphere), literal_(input.options.literal),
+          density_(input.mesh, input.tracer, hemisphere, input.options.threshold, workers,
+                   input.monitor) {}
+
+    void deal(std::uint32_t patch, std::vector<CellShare>& shares) const override {
+        thread_local std::vector<DensityLeaf> leaves;
+        density_.leaves(patch, leaves);
+        shares.clear();
+        double average = 0; // D_average
+        for (const DensityLeaf& leaf : leaves) {
+            shares.push_back({leaf.cell, area_share(leaf.cell), 0});
+            average += shares.back().power * leaf.density;
+        }
+        deal_rays(leaves, average, shares);
+    }
+
+    [[nodiscard]] std::uint64_t density_rays() const override { return density_.rays(); }
+    [[nodiscard]] std::uint64_t density_bytes() const override { return density_.bytes(); }
+
+  private:
+    /// A triangle whose three vertices saw little may still hold something: it keeps this share of
+    /// the average density, so that no ray carries more than four times the mean (D5).
+    static constexpr double least_density = 0.25;
+
+    /// A_tr / A_hemi
+    [[nodiscard]] double area_share(std::uint16_t cell) const {
+        const Hemisphere::Cell& c = hemisphere_.cells()[cell];
+        return literal_ ? c.solid_angle / (2 * std::numbers::pi)
+                        : c.projected_solid_angle / std::numbers::pi;
+    }
+
+    void deal_rays(const std::vector<DensityLeaf>& leaves, double average,
+                   std::vector<CellShare>& shares) const {
+        const double least = literal_ ? 0 : least_density * average;
+        double sum = 0;
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            // Where nothing was seen anywhere, rays follow the power.
+            const double density = average > 0 ? std::max<double>(leaves[i].density, least) : 1;
+            shares[i].rays = shares[i].power * density;
+            sum += shares[i].rays;
+        }
+        for (CellShare& share : shares)
+            share.rays /= sum;
+    }
+
+    const Hemisphere& hemisphere_;
+    bool literal_;
+    DensityMap density_;
+};
+
+std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisphere& hemisphere,
+                                          const Workers& workers) {
+    return std::make_unique<HemisphereStrategy>(input, hemisphere, workers);
+}
+
+} // namespace
+
+extern const Method hemisphere_method;
+const Method hemisphere_method{
+    .name = "hemisphere",
+    .summary = "hemisphere subdivision guided by densities (Plemenos and Jolivet 1998; paper 5)",
+    .has_literal = true,
+    .unbiased = true,
+    .default_stop = {.steps = 16, .seconds = {}, .error = {}},
+    .make = shoot_with<make_hemisphere>,
+};
+
+} // namespace hemilux

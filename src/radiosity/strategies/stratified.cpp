@@ -1,0 +1,46 @@
+// The control: the triangles of the hemisphere subdivision without any density.
+//
+// All triangles of the last level, rays in proportion to power: what the technique gains by merely
+// dividing the hemisphere, before it has looked at the scene. No density rays, no memory.
+
+#include "radiosity/shooting.h"
+
+#include <numbers>
+
+namespace hemilux {
+namespace {
+
+class Stratified final : public Strategy {
+  public:
+    explicit Stratified(const Hemisphere& hemisphere) {
+        const auto& cells = hemisphere.cells();
+        for (std::size_t c = Hemisphere::cells_up_to(hemisphere.depth() - 1); c < cells.size();
+             ++c) {
+            const double share = cells[c].projected_solid_angle / std::numbers::pi;
+            shares_.push_back({static_cast<std::uint16_t>(c), share, share});
+        }
+    }
+    void deal(std::uint32_t, std::vector<CellShare>& shares) const override { shares = shares_; }
+
+  private:
+    std::vector<CellShare> shares_;
+};
+
+std::unique_ptr<Strategy> make_stratified(const SolverInput&, const Hemisphere& hemisphere,
+                                          const Workers&) {
+    return std::make_unique<Stratified>(hemisphere);
+}
+
+} // namespace
+
+extern const Method stratified_method;
+const Method stratified_method{
+    .name = "stratified",
+    .summary = "the same spherical triangles without densities (the control)",
+    .has_literal = false,
+    .unbiased = true,
+    .default_stop = {.steps = 16, .seconds = {}, .error = {}},
+    .make = shoot_with<make_stratified>,
+};
+
+} // namespace hemilux
