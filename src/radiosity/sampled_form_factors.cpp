@@ -1,0 +1,215 @@
+#include "radiosity/sampled_form_factors.h"
+
+#include "geometry/projected_polygon.h"
+#include "radiosity/mesh.h"
+#include "radiosity/rng.h"
+#include "radiosity/sobol.h"
+#include "radiosity/solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hemilux {
+namespace {
+
+constexpr std::size_t rows_per_chunk = 16;
+
+/// A direction with density cos(theta) / pi by the concentric map of square and disc (Shirley and
+/// Chiu 1997), which keeps the distances between points better than polar coordinates.
+Vec3 cosine_direction(double u, double v) {
+    const double a = 2 * u - 1, b = 2 * v - 1;
+    if (a == 0 && b == 0)
+        return {0, 0, 1};
+    const bool wide = std::abs(a) > std::abs(b);
+    const double r = wide ? a : b;
+    const double phi = wide ? std::numbers::pi / 4 * (b / a)
+                            : std::numbers::pi / 2 - std::numbers::pi / 4 * (a / b);
+    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0, 1 - r * r))};
+}
+
+} // namespace
+
+void SparseMatrix::multiply(std::span<const double> x, std::span<double> y,
+                            const Workers& workers) const {
+    workers.for_chunks(rows(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            double sum = 0;
+            for (std::size_t k = row_begin[i]; k < row_begin[i + 1]; ++k)
+                sum += value[k] * x[column[k]];
+            y[i] = sum;
+        }
+    });
+}
+
+SampledFormFactors::SampledFormFactors(const Mesh& mesh, const Tracer& tracer,
+                                       std::vector<std::uint32_t> emitters, std::uint64_t seed)
+    : mesh_(mesh), tracer_(tracer), emitters_(std::move(emitters)),
+      is_emitter_(mesh.patches().size()), seed_(seed), rows_(mesh.patches().size()),
+      emitter_sum_(mesh.patches().size() * emitters_.size()) {
+    for (const std::uint32_t e : emitters_)
+        is_emitter_[e] = true;
+}
+
+/// Together the emitters get as many rays as the hemisphere, each at least one.
+std::uint32_t SampledFormFactors::emitter_samples(std::uint32_t rays) const {
+    if (emitters_.empty() || rays == 0)
+        return 0;
+    return std::max(1u, rays / static_cast<std::uint32_t>(emitters_.size()));
+}
+
+std::uint64_t SampledFormFactors::trace_up_to(std::uint32_t rays, const Workers& workers,
+                                              Monitor& monitor) {
+    std::atomic<std::uint64_t> traced{0};
+    workers.for_chunks(rows_.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+        std::uint64_t count = 0;
+        for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
+            const auto patch = static_cast<std::uint32_t>(i);
+            trace_row(patch, rays_, rays);
+            count += rays - rays_;
+            count += trace_emitters(patch, emitter_samples(rays_), emitter_samples(rays));
+        }
+        traced += count;
+        monitor.rays += count;
+    });
+    rays_ = rays;
+    return traced;
+}
+
+void SampledFormFactors::trace_row(std::uint32_t patch, std::uint32_t begin, std::uint32_t end) {
+    const Patch& from = mesh_.patches()[patch];
+    const Frame frame = mesh_.hemisphere_frame(patch);
+    const std::uint64_t seed = hash_words({seed_, patch});
+    Row& row = rows_[patch];
+    std::vector<std::uint32_t> struck;
+    for (std::uint32_t k = begin; k < end; ++k) {
+        const auto u = sobol4(k, seed);
+        Ray ray{from.shape.sample({u[0], u[1]}), frame.to_world(cosine_direction(u[2], u[3]))};
+        ray.from = from.facet;
+        const auto hit = tracer_.closest(ray);
+        const std::uint32_t receiver = hit ? mesh_.patch_at(*hit) : none;
+        if (receiver != none)
+            struck.push_back(receiver);
+        else
+            ++(hit ? row.absorbed : row.escaped);
+    }
+    std::ranges::sort(struck);
+    std::vector<Count> merged;
+    merged.reserve(row.counts.size() + struck.size());
+    std::size_t old = 0;
+    for (std::size_t k = 0; k < struck.size();) {
+        const std::uint32_t j = struck[k];
+        std::uint32_t hits = 0;
+        for (; k < struck.size() && struck[k] == j; ++k)
+            ++hits;
+        for (; old < row.counts.size() && row.counts[old].patch < j; ++old)
+            merged.push_back(row.counts[old]);
+        if (old < row.counts.size() && row.counts[old].patch == j)
+            hits += row.counts[old++].hits;
+        merged.push_back({j, hits});
+    }
+    merged.insert(merged.end(), row.counts.begin() + static_cast<std::ptrdiff_t>(old),
+                  row.counts.end());
+    merged.shrink_to_fit();
+    row.counts = std::move(merged);
+}
+
+std::uint64_t SampledFormFactors::trace_emitters(std::uint32_t patch, std::uint32_t begin,
+                                                 std::uint32_t end) {
+    std::uint64_t rays = 0;
+    for (std::size_t e = 0; e < emitters_.size(); ++e) {
+        const std::uint64_t seed = hash_words({seed_, patch, emitters_[e], 1});
+        double& sum = emitter_sum_[patch * emitters_.size() + e];
+        for (std::uint32_t k = begin; k < end; ++k)
+            sum += point_to_emitter(patch, emitters_[e], sobol4(k, seed), rays);
+    }
+    return rays;
+}
+
+/// The form factor from a random point of the patch to the whole emitter, if a random ray to it
+/// arrives.
+double SampledFormFactors::point_to_emitter(std::uint32_t patch, std::uint32_t emitter,
+                                            const std::array<double, 4>& u,
+                                            std::uint64_t& rays) const {
+    const Patch& to = mesh_.patches()[emitter];
+    const Patch& from = mesh_.patches()[patch];
+    if (to.facet == from.facet)
+        return 0;
+    const Vec3 point = from.shape.sample({u[0], u[1]});
+    const double height = glm::dot(to.normal, point - to.centre);
+    if (!(height > 0)) // behind the emitter
+        return 0;
+    const ProjectedPolygon seen(point, Frame::from_normal(from.normal), to.shape);
+    if (!(seen.factor() > 0))
+        return 0;
+    ++rays;
+    Ray ray{point, seen.sample({u[2], u[3]})};
+    ray.from = from.facet;
+    // Short of the emitter by what rounding may do: a coplanar facet is not in front of it.
+    ray.t_max = -height / glm::dot(to.normal, ray.direction) * (1 - 1e-10);
+    return ray.t_max > 0 && !tracer_.occluded(ray, to.facet) ? seen.factor() : 0;
+}
+
+LostShare SampledFormFactors::lost(std::uint32_t patch) const {
+    const double n = rays_;
+    return {rows_[patch].escaped / n, rows_[patch].absorbed / n};
+}
+
+/// c_ij + c_ji, by row and patch.
+std::vector<std::vector<SampledFormFactors::Count>> SampledFormFactors::merged_counts() const {
+    std::vector<std::vector<Count>> merged(rows_.size());
+    for (std::uint32_t i = 0; i < rows_.size(); ++i)
+        for (const Count& c : rows_[i].counts) {
+            merged[i].push_back(c);
+            merged[c.patch].push_back({i, c.hits});
+        }
+    for (auto& row : merged) {
+        std::ranges::sort(row, {}, &Count::patch);
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            if (kept > 0 && row[kept - 1].patch == row[k].patch)
+                row[kept - 1].hits += row[k].hits;
+            else
+                row[kept++] = row[k];
+        }
+        row.resize(kept);
+    }
+    return merged;
+}
+
+SparseMatrix SampledFormFactors::matrix() const {
+    SparseMatrix f;
+    f.row_begin.push_back(0);
+    const double n = rays_, samples = emitter_samples(rays_);
+    const auto merged = merged_counts();
+    for (std::uint32_t i = 0; i < rows_.size(); ++i) {
+        const LostShare lost_share = lost(i);
+        double rest =
+            1 - lost_share.escaped - lost_share.absorbed; // of the row, for all but emitters
+        for (std::size_t e = 0; e < emitters_.size(); ++e) {
+            const double factor = emitter_sum_[i * emitters_.size() + e] / samples;
+            if (factor > 0) {
+                f.column.push_back(emitters_[e]);
+                f.value.push_back(factor);
+                rest -= factor;
+            }
+        }
+        const std::size_t first = f.value.size();
+        double sum = 0;
+        const double a_i = mesh_.patches()[i].area;
+        for (const Count& c : merged[i])
+            if (!is_emitter_[c.patch]) {
+                const double a_j = mesh_.patches()[c.patch].area;
+                f.column.push_back(c.patch);
+                f.value.push_back(a_j / (n * (a_i + a_j)) * c.hits);
+                sum += f.value.back();
+            }
+        const double closing = sum > 0 ? std::max(rest, 0.0) / sum : 0;
+        for (std::size_t k = first; k < f.value.size(); ++k)
+            f.value[k] *= closing;
+        f.row_begin.push_back(f.value.size());
+    }
+    return f;
+}
+
+} // namespace hemilux

@@ -1,0 +1,87 @@
+#pragma once
+// Form factors of all patches by well-distributed rays, with what each pair of patches saw of the
+// other put together.
+//
+// From every patch N rays follow the cosine law, origin and direction together a scrambled Sobol
+// point. By reciprocity, A_i F_ij = A_j F_ji, the rays from i to j and from j to i estimate the
+// same number; weighted by what each is worth, F_ij = A_j (c_ij + c_ji) / (N (A_i + A_j)), c being
+// the counts. Few rays find a small lamp: the columns of emitters come from the closed form of
+// point and polygon (Lambert) times the visibility along a ray drawn inside it. Rows are then
+// closed: they sum to 1 minus the share of the row's own rays that met no patch.
+
+#include "bvh/tracer.h"
+#include "radiosity/workers.h"
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+struct Monitor;
+
+/// Sparse matrix by rows.
+struct SparseMatrix {
+    std::vector<std::size_t> row_begin; ///< one more than rows
+    std::vector<std::uint32_t> column;
+    std::vector<double> value;
+
+    [[nodiscard]] std::size_t rows() const { return row_begin.size() - 1; }
+    /// y = M x
+    void multiply(std::span<const double> x, std::span<double> y, const Workers& workers) const;
+};
+
+/// Shares of a patch's rays that met no patch.
+struct LostShare {
+    double escaped = 0;  ///< left the scene
+    double absorbed = 0; ///< fell on the back of a one-sided face
+};
+
+class SampledFormFactors {
+  public:
+    /// `emitters`: the patches whose columns are computed in closed form; may be empty. All
+    /// referred things must outlive this.
+    SampledFormFactors(const Mesh& mesh, const Tracer& tracer, std::vector<std::uint32_t> emitters,
+                       std::uint64_t seed);
+
+    /// Goes on until `rays` rays per patch are traced (and about as many to the emitters). Returns
+    /// the number of rays traced now; the factors are void if the monitor was interrupted
+    /// meanwhile.
+    std::uint64_t trace_up_to(std::uint32_t rays, const Workers& workers, Monitor& monitor);
+
+    /// F, merged and closed.
+    [[nodiscard]] SparseMatrix matrix() const;
+    [[nodiscard]] LostShare lost(std::uint32_t patch) const;
+
+  private:
+    /// A patch that was struck, and how often.
+    struct Count {
+        std::uint32_t patch, hits;
+    };
+    struct Row {
+        std::vector<Count> counts; ///< by patch
+        std::uint32_t escaped = 0, absorbed = 0;
+    };
+
+    void trace_row(std::uint32_t patch, std::uint32_t begin, std::uint32_t end);
+    std::uint64_t trace_emitters(std::uint32_t patch, std::uint32_t begin, std::uint32_t end);
+    [[nodiscard]] double point_to_emitter(std::uint32_t patch, std::uint32_t emitter,
+                                          const std::array<double, 4>& u,
+                                          std::uint64_t& rays) const;
+    [[nodiscard]] std::vector<std::vector<Count>> merged_counts() const;
+    [[nodiscard]] std::uint32_t emitter_samples(std::uint32_t rays) const;
+
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    std::vector<std::uint32_t> emitters_;
+    std::vector<bool> is_emitter_;
+    std::uint64_t seed_;
+    std::uint32_t rays_ = 0; ///< per patch, so far
+    std::vector<Row> rows_;
+    std::vector<double> emitter_sum_; ///< per patch and emitter: sum of the samples
+};
+
+} // namespace hemilux

@@ -1,0 +1,168 @@
+// The full matrix (paper section 2; Goral et al. 1984): the reference for all other methods.
+//
+// Form factors between all pairs of patches, by well-distributed rays (sampled_form_factors.h), and
+// the system B = E + rho F B solved to a residual of 1e-12. Several independent replicates of the
+// factors give several solutions; their mean is the result, their spread its standard error. Each
+// step doubles the rays; the run ends when the estimated error is small enough (.002 unless asked
+// otherwise).
+//
+// Consistent: a solution depends on its factors in a non-linear way, so its bias falls as one over
+// the rays, well below its error. Good up to some ten thousand patches: memory is 8 bytes per pair
+// of patches that see each other and replicate.
+
+#include "radiosity/gmres.h"
+#include "radiosity/mesh.h"
+#include "radiosity/rng.h"
+#include "radiosity/sampled_form_factors.h"
+#include "radiosity/solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+constexpr std::size_t replicates = 8;
+/// Rays per patch and replicate at which the run ends whatever the error.
+constexpr std::uint32_t most_rays = 1u << 20;
+
+/// The patches whose columns get the closed form: all that emit, unless they are so many that rays
+/// find them anyway.
+std::vector<std::uint32_t> few_emitters(const Mesh& mesh) {
+    std::vector<std::uint32_t> emitters;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        const Vec3& emission = mesh.material(i).emission;
+        if (emission.x + emission.y + emission.z > 0)
+            emitters.push_back(i);
+    }
+    if (emitters.size() > std::max<std::size_t>(16, mesh.patches().size() / 16))
+        emitters.clear();
+    return emitters;
+}
+
+class MatrixSolver final : public Solver {
+  public:
+    explicit MatrixSolver(const SolverInput& input)
+        : input_(input), workers_(input.options.threads) {
+        const auto patches = input.mesh.patches();
+        const auto emitters = few_emitters(input.mesh);
+        for (std::uint64_t r = 0; r < replicates; ++r)
+            factors_.emplace_back(input.mesh, input.tracer, emitters,
+                                  hash_words({input.options.seed, r}));
+        solution_.standard_error.resize(patches.size());
+        solution_.hits.resize(patches.size());
+        for (std::uint32_t i = 0; i < patches.size(); ++i) {
+            solution_.radiosity.push_back(input.mesh.material(i).emission);
+            solution_.energy.emitted +=
+                input.mesh.frame().area_to_world(patches[i].area) * solution_.radiosity[i];
+        }
+        guesses_.assign(replicates, solution_.radiosity);
+    }
+
+    bool step() override {
+        const std::uint32_t rays = solution_.steps == 0 ? first_rays() : 2 * rays_;
+        for (std::size_t r = 0; r < replicates; ++r) {
+            input_.monitor.phase = "rays";
+            traced_ += factors_[r].trace_up_to(rays, workers_, input_.monitor);
+            input_.monitor.step_share = static_cast<double>(r + 1) / replicates;
+            if (input_.monitor.interrupted)
+                return false;
+        }
+        input_.monitor.phase = "solving";
+        EnergyBalance energy{solution_.energy.emitted, Vec3(0.0), Vec3(0.0)};
+        for (std::size_t r = 0; r < replicates; ++r) {
+            solve(factors_[r], guesses_[r], energy);
+            if (input_.monitor.interrupted)
+                return false;
+        }
+        rays_ = rays;
+        combine(energy);
+        return true;
+    }
+
+    [[nodiscard]] bool finished() const override { return rays_ >= most_rays; }
+    [[nodiscard]] const Solution& solution() const override { return solution_; }
+
+  private:
+    /// A power of two, for which the points are best distributed.
+    [[nodiscard]] std::uint32_t first_rays() const {
+        const double asked = std::clamp(input_.options.rays, 1.0, double(most_rays));
+        return std::bit_ceil(static_cast<std::uint32_t>(std::ceil(asked)));
+    }
+
+    /// B = E + rho F B for one replicate, channel by channel, from the last solution on.
+    void solve(const SampledFormFactors& factors, std::vector<Vec3>& radiosity,
+               EnergyBalance& energy) {
+        const SparseMatrix f = factors.matrix();
+        const std::size_t n = radiosity.size();
+        std::vector<double> emission(n), rho(n), x(n), incident(n);
+        for (int c = 0; c < 3; ++c) {
+            for (std::uint32_t i = 0; i < n; ++i) {
+                emission[i] = input_.mesh.material(i).emission[c];
+                rho[i] = input_.mesh.material(i).reflectance[c];
+                x[i] = radiosity[i][c];
+            }
+            gmres(
+                [&](const std::vector<double>& b, std::vector<double>& y) {
+                    f.multiply(b, y, workers_);
+                    for (std::size_t i = 0; i < n; ++i)
+                        y[i] = b[i] - rho[i] * y[i];
+                },
+                emission, x);
+            f.multiply(x, incident, workers_);
+            for (std::uint32_t i = 0; i < n; ++i) {
+                const double area =
+                    input_.mesh.frame().area_to_world(input_.mesh.patches()[i].area);
+                const LostShare lost = factors.lost(i);
+                energy.absorbed[c] +=
+                    area * ((1 - rho[i]) * incident[i] + lost.absorbed * x[i]) / replicates;
+                energy.escaped[c] += area * lost.escaped * x[i] / replicates;
+                radiosity[i][c] = x[i];
+            }
+        }
+    }
+
+    void combine(const EnergyBalance& energy) {
+        for (std::size_t i = 0; i < solution_.radiosity.size(); ++i) {
+            Vec3 sum(0.0), squares(0.0);
+            for (const auto& replicate : guesses_)
+                sum += replicate[i];
+            const Vec3 mean = sum / double(replicates);
+            for (const auto& replicate : guesses_)
+                squares += (replicate[i] - mean) * (replicate[i] - mean);
+            solution_.radiosity[i] = mean;
+            solution_.standard_error[i] =
+                glm::sqrt(squares / double(replicates * (replicates - 1)));
+            solution_.hits[i] = std::uint64_t{rays_} * replicates;
+        }
+        solution_.energy = energy;
+        solution_.rays_energy = traced_;
+        ++solution_.steps;
+    }
+
+    SolverInput input_;
+    Workers workers_;
+    std::vector<SampledFormFactors> factors_;
+    std::vector<std::vector<Vec3>> guesses_; ///< solution of each replicate
+    std::uint32_t rays_ = 0;                 ///< per patch and replicate
+    std::uint64_t traced_ = 0;
+    Solution solution_;
+};
+
+std::unique_ptr<Solver> make_matrix(const SolverInput& input) {
+    return std::make_unique<MatrixSolver>(input);
+}
+
+} // namespace
+
+extern const Method matrix_method;
+const Method matrix_method{
+    .name = "matrix",
+    .summary = "all form factors and a linear solver (Goral et al. 1984); the reference",
+    .has_literal = false,
+    .unbiased = false,
+    .default_stop = {.steps = {}, .seconds = {}, .error = .002},
+    .make = make_matrix,
+};
+
+} // namespace hemilux
