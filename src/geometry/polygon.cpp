@@ -37,7 +37,7 @@ Vec3 Polygon::sample(Vec2 u) const {
         return corner[0] + u.x * (corner[1] - corner[0]) + u.y * (corner[3] - corner[0]);
     const double a = triangle_area(corner[0], corner[1], corner[2]);
     const double b = triangle_area(corner[0], corner[2], corner[3]);
-    const double split = a / (a + b);
+    const double split = a + b > 0 ? a / (a + b) : 1.0;
     if (u.x < split)
         return sample_triangle(corner[0], corner[1], corner[2], {u.x / split, u.y});
     return sample_triangle(corner[0], corner[2], corner[3], {(u.x - split) / (1.0 - split), u.y});

@@ -1,0 +1,69 @@
+#include "geometry/horizon_clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hemilux {
+namespace {
+
+/// Six times the volume between the point and the polygon: positive where its corners run
+/// counter-clockwise seen from outside the sphere, 0 where it is seen edge-on.
+double signed_volume(const std::array<Vec3, 4>& c) {
+    const Vec3 across = glm::cross(c[2] - c[0], c[3] - c[1]);
+    double reach = 0;
+    for (const Vec3& corner : c)
+        reach = std::max(reach, glm::length(corner));
+    const double volume = glm::dot(c[0], across);
+    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+    return std::abs(volume) > rounding * reach * glm::length(across) ? volume : 0.0;
+}
+
+Vec3 horizon_crossing(const Vec3& above, const Vec3& below) {
+    const Vec3 point = above + (below - above) * (above.z / (above.z - below.z));
+    return {point.x, point.y, 0.0};
+}
+
+} // namespace
+
+ClippedPolygon clip_to_horizon(const std::array<Vec3, 4>& corners) {
+    ClippedPolygon result;
+    const double volume = signed_volume(corners);
+    if (!(std::abs(volume) > 0))
+        return result;
+    const auto add = [&](const Vec3& v) {
+        if (result.size < 5)
+            result.vertex[static_cast<std::size_t>(result.size++)] = v;
+    };
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3& a = corners[volume > 0 ? i : 3 - i];
+        const Vec3& b = corners[volume > 0 ? (i + 1) % 4 : (6 - i) % 4];
+        if (a == b)
+            continue; // a triangle's last corner stands there twice
+        if (a.z >= 0)
+            add(a);
+        if (a.z > 0 && b.z < 0)
+            add(horizon_crossing(a, b));
+        if (a.z < 0 && b.z > 0)
+            add(horizon_crossing(b, a));
+    }
+    if (result.size < 3)
+        result.size = 0;
+    return result;
+}
+
+double edge_term(const Vec3& a, const Vec3& b) {
+    const Vec3 m = glm::cross(a, b - a); // a x b, accurate for short edges
+    const double length = glm::length(m);
+    return length > 0 ? std::atan2(length, glm::dot(a, b)) * (m.z / length) : 0.0;
+}
+
+double projected_solid_angle(const ClippedPolygon& polygon) {
+    const auto n = static_cast<std::size_t>(polygon.size);
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i)
+        sum += edge_term(polygon.vertex[i], polygon.vertex[(i + 1) % n]);
+    return std::max(0.0, 0.5 * sum);
+}
+
+} // namespace hemilux

@@ -1,0 +1,41 @@
+#pragma once
+// A mesh with its BVH, and a run of a method over it.
+
+#include "bvh/bvh.h"
+#include "radiosity/mesh.h"
+#include "radiosity/solver.h"
+
+#include <utility>
+
+namespace hemilux::test {
+
+struct Model {
+    Mesh mesh;
+    Bvh bvh;
+    explicit Model(Scene scene, const MeshOptions& options = {})
+        : mesh(std::move(scene), options), bvh(mesh.soup()) {}
+};
+
+/// The solution after some steps, or at an error.
+[[nodiscard]] inline Solution solve(const Model& model, const Method& method,
+                                    const SolveOptions& options, const StopRule& stop) {
+    Monitor monitor;
+    const SolverInput input{model.mesh, model.bvh, options, monitor};
+    const auto solver = method.make(input);
+    run(*solver, input, stop);
+    return solver->solution();
+}
+
+[[nodiscard]] inline StopRule steps(std::uint32_t n) {
+    return {.steps = n, .seconds = {}, .error = {}};
+}
+
+/// By `matrix`, to a relative error.
+[[nodiscard]] inline Solution reference(const Model& model, double error) {
+    SolveOptions options;
+    options.seed = 12345;
+    return solve(model, *find_method("matrix"), options,
+                 {.steps = {}, .seconds = {}, .error = error});
+}
+
+} // namespace hemilux::test
