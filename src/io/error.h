@@ -1,0 +1,26 @@
+#pragma once
+// The two ways in which files fail; the program turns them into exit codes 2 and 3.
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace hemilux {
+
+/// A file that cannot be used as input: what() is "file:line: what was expected", or "file: ...".
+class InputError : public std::runtime_error {
+  public:
+    InputError(const std::string& file, std::size_t line, const std::string& message)
+        : std::runtime_error(file + ":" + std::to_string(line) + ": " + message) {}
+    InputError(const std::string& file, const std::string& message)
+        : std::runtime_error(file + ": " + message) {}
+};
+
+/// A file that could not be written.
+class OutputError : public std::runtime_error {
+  public:
+    OutputError(const std::string& file, const std::string& message)
+        : std::runtime_error(file + ": " + message) {}
+};
+
+} // namespace hemilux

@@ -1,0 +1,147 @@
+#include "io/material_table.h"
+
+#include "io/text_words.h"
+
+#include <algorithm>
+
+namespace hemilux {
+namespace {
+
+std::string in_quotes(std::string_view name) { return '"' + std::string(name) + '"'; }
+
+std::string counted_materials(std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " material" : " materials");
+}
+
+std::string without_quotes(std::string_view name) {
+    if (name.size() > 1 && name.front() == '"' && name.back() == '"')
+        name = name.substr(1, name.size() - 2);
+    return std::string(name);
+}
+
+} // namespace
+
+std::uint32_t MaterialTable::index_of(const std::string& name) {
+    const auto next = static_cast<std::uint32_t>(materials.size());
+    const auto [found, is_new] = index_.try_emplace(name, next);
+    if (is_new) {
+        materials.emplace_back().name = name;
+        sources.emplace_back();
+        entries_.emplace_back();
+    }
+    return found->second;
+}
+
+std::uint32_t MaterialTable::use(const std::string& name, std::size_t line) {
+    const std::uint32_t index = index_of(name);
+    Entry& entry = entries_[index];
+    if (!entry.used)
+        entry.first_use = line;
+    entry.used = true;
+    return index;
+}
+
+/// The file as named, relative to the OBJ file's folder; else, as paths of other machines are
+/// common, its last part in that folder. Empty where there is neither.
+std::string MaterialTable::find_library(std::string_view name) const {
+    std::string plain = without_quotes(name);
+    std::replace(plain.begin(), plain.end(), '\\', '/');
+    const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
+    const std::filesystem::path given(plain);
+    for (const std::filesystem::path& candidate : {folder / given, folder / given.filename()}) {
+        std::error_code ignored;
+        if (std::filesystem::exists(candidate, ignored) &&
+            !std::filesystem::is_directory(candidate, ignored))
+            return candidate.string();
+    }
+    return {};
+}
+
+void MaterialTable::read_libraries(std::string_view names, std::size_t line) {
+    const std::string where = path_ + ":" + std::to_string(line) + ": ";
+    const std::string_view whole = name_in(names);
+    if (whole.empty()) {
+        warnings.push_back(where + "no file name after mtllib");
+        return;
+    }
+    if (const std::string file = find_library(whole); !file.empty()) {
+        read_library(file);
+        return;
+    }
+    std::vector<std::string> found;
+    std::string missing;
+    for (std::string_view rest = names, word = take_word(rest); !word.empty();
+         word = take_word(rest))
+        if (std::string file = find_library(word); !file.empty())
+            found.push_back(std::move(file));
+        else
+            missing += (missing.empty() ? "" : ", ") + in_quotes(word);
+    if (found.empty())
+        missing = in_quotes(whole);
+    for (const std::string& file : found)
+        read_library(file);
+    if (!missing.empty())
+        warnings.push_back(where + "material library " + missing + " not found");
+}
+
+void MaterialTable::read_library(const std::string& file) {
+    std::error_code error;
+    const std::filesystem::path identity = std::filesystem::weakly_canonical(file, error);
+    if (!libraries_read_.insert(error ? std::filesystem::path(file) : identity).second)
+        return;
+    for (const MtlMaterial& material : read_mtl(file))
+        define(file, material);
+}
+
+void MaterialTable::define(const std::string& file, const MtlMaterial& material) {
+    const std::string where = file + ":" + std::to_string(material.line);
+    const std::uint32_t index = index_of(material.name);
+    if (entries_[index].defined) {
+        warnings.push_back(where + ": material " + in_quotes(material.name) + " is defined in " +
+                           sources[index] + " already, which is taken");
+        return;
+    }
+    entries_[index].defined = true;
+    sources[index] = where;
+    materials[index].reflectance = material.reflectance.value_or(Material().reflectance);
+    materials[index].emission = material.emission.value_or(Material().emission);
+    textured_ += material.textured;
+    textured_without_colour_ += material.textured && !material.reflectance;
+}
+
+void MaterialTable::finish() {
+    warn_of_undefined();
+    warn_of_textures();
+}
+
+void MaterialTable::warn_of_undefined() {
+    constexpr std::size_t longest_list = 8;
+    std::size_t count = 0;
+    std::string names, where;
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        if (entries_[i].defined || entries_[i].first_use == 0)
+            continue;
+        if (count == 0)
+            where = path_ + ":" + std::to_string(entries_[i].first_use) + ": ";
+        if (count++ < longest_list)
+            names += (names.empty() ? "" : ", ") + in_quotes(materials[i].name);
+    }
+    if (count > longest_list)
+        names += " and " + std::to_string(count - longest_list) + " more";
+    if (count > 0)
+        warnings.push_back(where + counted_materials(count) + " used but not defined (" + names +
+                           "): reflectance 0.5, no emission");
+}
+
+void MaterialTable::warn_of_textures() {
+    if (textured_ == 0)
+        return;
+    std::string text =
+        path_ + ": textures are not read: " + counted_materials(textured_) + " with map_Kd";
+    if (textured_without_colour_ > 0)
+        text += ", of which " + std::to_string(textured_without_colour_) +
+                " without Kd: reflectance 0.5";
+    warnings.push_back(std::move(text));
+}
+
+} // namespace hemilux

@@ -1,0 +1,54 @@
+#pragma once
+// The materials of an OBJ file by name: used ones and those that its MTL files define, whichever
+// comes first. Of several definitions of a name the first is taken.
+
+#include "io/mtl.h"
+#include "radiosity/scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace hemilux {
+
+class MaterialTable {
+  public:
+    /// `path` of the OBJ file; libraries are looked for in its folder.
+    explicit MaterialTable(const std::string& path) : path_(path) {}
+
+    /// The material's index. `line` of the OBJ file is for messages.
+    [[nodiscard]] std::uint32_t use(const std::string& name, std::size_t line);
+    /// Reads what follows mtllib: a file name that may have blanks in it, or else several names.
+    /// A library that is missing is a warning. Throws InputError for one with errors.
+    void read_libraries(std::string_view names, std::size_t line);
+    /// Adds to the warnings what is only known at the end.
+    void finish();
+
+    std::vector<Material> materials;
+    std::vector<std::string> sources; ///< "file:line" of each definition; "" where there is none
+    std::vector<std::string> warnings;
+
+  private:
+    struct Entry {
+        std::size_t first_use = 0; ///< line of the OBJ file
+        bool used = false, defined = false;
+    };
+    [[nodiscard]] std::uint32_t index_of(const std::string& name);
+    [[nodiscard]] std::string find_library(std::string_view name) const;
+    void read_library(const std::string& file);
+    void define(const std::string& file, const MtlMaterial& material);
+    void warn_of_undefined();
+    void warn_of_textures();
+
+    std::string path_;
+    std::set<std::filesystem::path> libraries_read_;
+    std::unordered_map<std::string, std::uint32_t> index_;
+    std::vector<Entry> entries_;
+    std::size_t textured_ = 0, textured_without_colour_ = 0;
+};
+
+} // namespace hemilux

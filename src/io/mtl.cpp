@@ -1,0 +1,58 @@
+#include "io/mtl.h"
+
+#include "io/error.h"
+#include "io/text_reader.h"
+#include "io/text_words.h"
+
+namespace hemilux {
+namespace {
+
+/// Three numbers, or one for all channels.
+Vec3 read_colour(const std::string& path, const Statement& statement) {
+    const std::string expected =
+        "expected 1 or 3 numbers of at least 0 after " + std::string(statement.keyword) + ", ";
+    std::string_view rest = statement.rest;
+    Vec3 colour(0.0);
+    for (int i = 0; i < 3; ++i) {
+        const std::string_view word = take_word(rest);
+        if (i == 1 && word.empty())
+            return Vec3(colour.x);
+        const std::optional<double> number = parse_decimal(word);
+        if (!number || *number < 0)
+            throw InputError(path, statement.line, expected + found_instead_of_number(word));
+        colour[i] = *number;
+    }
+    return colour;
+}
+
+MtlMaterial new_material(const std::string& path, const Statement& statement) {
+    MtlMaterial material;
+    material.name = name_in(statement.rest);
+    material.line = statement.line;
+    if (material.name.empty())
+        throw InputError(path, statement.line, "expected a name after newmtl");
+    return material;
+}
+
+} // namespace
+
+std::vector<MtlMaterial> read_mtl(const std::string& path) {
+    TextReader reader(read_text_file(path));
+    std::vector<MtlMaterial> materials;
+    Statement statement;
+    while (reader.next(statement)) {
+        if (statement.keyword == "newmtl")
+            materials.push_back(new_material(path, statement));
+        else if (materials.empty())
+            continue;
+        else if (statement.keyword == "Kd")
+            materials.back().reflectance = read_colour(path, statement);
+        else if (statement.keyword == "Ke")
+            materials.back().emission = read_colour(path, statement);
+        else if (statement.keyword == "map_Kd")
+            materials.back().textured = true;
+    }
+    return materials;
+}
+
+} // namespace hemilux

@@ -1,0 +1,25 @@
+#pragma once
+// Wavefront material libraries (MTL): what of them is light. Kd is the reflectance and Ke the
+// emission; all other statements are passed over, wherever they stand.
+
+#include "geometry/vector.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+struct MtlMaterial {
+    std::string name;
+    std::size_t line = 0;            ///< of its newmtl
+    std::optional<Vec3> reflectance; ///< Kd, each channel >= 0 and possibly 1 or more
+    std::optional<Vec3> emission;    ///< Ke, each channel >= 0 [W/m2]
+    bool textured = false;           ///< has a map_Kd
+};
+
+/// The materials in the order of the file, also those with equal names. Throws InputError.
+[[nodiscard]] std::vector<MtlMaterial> read_mtl(const std::string& path);
+
+} // namespace hemilux

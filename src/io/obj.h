@@ -1,0 +1,33 @@
+#pragma once
+// Reads Wavefront OBJ files with their MTL material libraries.
+//
+// Read: v, f, g, o, usemtl, mtllib. Faces of any shape become triangles and planar convex quads
+// (polygon_division.h). A face belongs to the group of the latest `g` since the last `o`, else to
+// that `o`, else to "default"; several names after one `g` are one name with blanks. A face before
+// any usemtl has the material "default"; it and those that no library defines have reflectance 0.5.
+// Texture coordinates, normals, smoothing, lines, points and free-form surfaces are left out.
+
+#include "radiosity/scene.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+/// Facet::face counts the `f` lines of the file from 0, also those that give no facet. Materials
+/// and groups are in the order in which they are defined or first used by a face.
+struct ReadResult {
+    Scene scene;
+    std::vector<std::string> warnings;        ///< "file: ..." or "file:line: ..."
+    std::vector<std::string> material_source; ///< "file:line" of each material; "" if from no file
+    std::size_t degenerate_faces = 0; ///< without area or with fewer than 3 corners; left out
+    std::size_t nonplanar_faces = 0;
+    std::size_t concave_faces = 0;
+};
+
+/// Throws InputError for a file that cannot be read, with file and line for what is wrong in it,
+/// and where no face has an area.
+[[nodiscard]] ReadResult read_obj(const std::string& path);
+
+} // namespace hemilux

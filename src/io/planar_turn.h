@@ -1,0 +1,20 @@
+#pragma once
+// Which way a path of the plane turns.
+
+#include "geometry/vector.h"
+
+#include <cmath>
+
+namespace hemilux {
+
+/// +1 where the path a, b, c turns left, -1 to the right, 0 where it is straight, or turns back, as
+/// far as can be told when coordinates may be wrong by `rounding`.
+[[nodiscard]] inline int turn_at(const Vec2& a, const Vec2& b, const Vec2& c, double rounding) {
+    const Vec2 d = b - a, e = c - b;
+    const double cross = d.x * e.y - d.y * e.x;
+    const double tolerance =
+        4 * rounding * (std::abs(d.x) + std::abs(d.y) + std::abs(e.x) + std::abs(e.y));
+    return cross > tolerance ? 1 : cross < -tolerance ? -1 : 0;
+}
+
+} // namespace hemilux

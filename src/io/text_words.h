@@ -1,0 +1,29 @@
+#pragma once
+// Words, names and numbers of a line of text. Nothing here depends on the locale.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hemilux {
+
+/// Numbers of a scene beyond this are refused: their products must stay finite.
+inline constexpr double largest_number = 1e100;
+
+/// The text without blanks at both ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+/// Takes the next word from the front of the text; empty at the end of the line or at a comment.
+std::string_view take_word(std::string_view& text);
+/// All of the text up to a comment. Names may have a # in them: a comment begins with a # after a
+/// blank, and a digit does not follow ("Material #25" is a name).
+[[nodiscard]] std::string_view name_in(std::string_view text);
+
+/// A decimal number with a point; what is too small for a double is 0. Empty for anything else,
+/// such as nan, inf, hexadecimal or a number beyond `largest_number`.
+[[nodiscard]] std::optional<double> parse_decimal(std::string_view word);
+/// For error messages: `found "x"`, shortened and printable, or `found the end of the line`.
+[[nodiscard]] std::string found_instead(std::string_view word);
+/// The same with a hint about usual mistakes in numbers.
+[[nodiscard]] std::string found_instead_of_number(std::string_view word);
+
+} // namespace hemilux

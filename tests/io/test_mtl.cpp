@@ -1,0 +1,92 @@
+#include "io/mtl.h"
+
+#include "io/error.h"
+#include "io/material_table.h"
+#include "io/temporary_scene.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+
+using namespace hemilux;
+using hemilux::test::TemporaryScene;
+
+namespace {
+
+std::vector<MtlMaterial> read(const std::string& content) {
+    const TemporaryScene folder;
+    return read_mtl(folder.write("m.mtl", content));
+}
+
+} // namespace
+
+TEST_CASE("reflectance and emission are read, all else is passed over", "[mtl]") {
+    const std::vector<MtlMaterial> materials = read("\xef\xbb\xbf# library\r\n"
+                                                    "Kd of no material\r\n"
+                                                    "newmtl short box # with a comment\r\n"
+                                                    "  Ns 10.0000\r\n"
+                                                    "\tillum 2\r\n"
+                                                    "\tKa nonsense\r\n"
+                                                    "  Kd 0.725 0.71 .68 # White\r\n"
+                                                    "  v .1 0 0\r\n"
+                                                    "\r\n"
+                                                    "newmtl Material #25\r\n"
+                                                    "Kd 1.5\r\n"
+                                                    "Ke 17 12 4\r\n"
+                                                    "map_Kd textures\\a b.png\r\n"
+                                                    "newmtl bare");
+    REQUIRE(materials.size() == 3);
+    CHECK(materials[0].name == "short box");
+    CHECK(materials[0].line == 3);
+    CHECK(materials[0].reflectance == Vec3(0.725, 0.71, 0.68));
+    CHECK_FALSE(materials[0].emission.has_value());
+    CHECK_FALSE(materials[0].textured);
+    CHECK(materials[1].name == "Material #25");
+    CHECK(materials[1].reflectance == Vec3(1.5));
+    CHECK(materials[1].emission == Vec3(17, 12, 4));
+    CHECK(materials[1].textured);
+    CHECK(materials[2].name == "bare");
+    CHECK_FALSE(materials[2].reflectance.has_value());
+}
+
+TEST_CASE("colours that are none are refused with file and line", "[mtl]") {
+    for (const std::string colour :
+         {"Kd", "Kd .1 .2", "Kd -.1", "Kd .1 .2 -1", "Kd nan", "Ke inf", "Ke 1e200", "Kd 0,5",
+          "Kd spectral file.rfl 1", "Kd xyz .1 .2 .3"}) {
+        const TemporaryScene folder;
+        const std::string path = folder.write("m.mtl", "newmtl a\n\n" + colour + "\n");
+        INFO(colour);
+        CHECK_THROWS_WITH(read_mtl(path), Catch::StartsWith(path + ":3: expected 1 or 3 numbers"));
+    }
+    CHECK_THROWS_AS(read("newmtl # no name\n"), InputError);
+    CHECK(read("").empty());
+}
+
+TEST_CASE("the first of several definitions is taken", "[mtl]") {
+    const TemporaryScene folder;
+    const std::string a = folder.write("a.mtl", "newmtl m\nKd .25\nnewmtl m\nKd .75\n");
+    const std::string b = folder.write("b.mtl", "newmtl m\nKe 1\n");
+    MaterialTable table(folder.path("scene.obj"));
+    const std::uint32_t m = table.use("m", 7);
+    table.read_libraries("a.mtl b.mtl", 1);
+    table.finish();
+    CHECK(table.materials[m].reflectance == Vec3(.25));
+    CHECK(table.materials[m].emission == Vec3(0.0));
+    CHECK(table.sources[m] == a + ":1");
+    REQUIRE(table.warnings.size() == 2);
+    CHECK(table.warnings[0].find(a + ":3: material \"m\"") == 0);
+    CHECK(table.warnings[1].find(b + ":1: material \"m\"") == 0);
+}
+
+TEST_CASE("textures are told in one warning", "[mtl]") {
+    const TemporaryScene folder;
+    folder.write("a.mtl", "newmtl a\nmap_Kd x.png\nnewmtl b\nKd .1\nmap_Kd y.png\nnewmtl c\n");
+    MaterialTable table(folder.path("scene.obj"));
+    table.read_libraries("a.mtl", 1);
+    table.finish();
+    REQUIRE(table.warnings.size() == 1);
+    CHECK(table.warnings[0].find("textures are not read: 2 materials") != std::string::npos);
+    CHECK(table.warnings[0].find("1 without Kd") != std::string::npos);
+    CHECK(table.materials[0].reflectance == Vec3(0.5));
+    CHECK(table.materials[1].reflectance == Vec3(0.1));
+}
