@@ -37,6 +37,39 @@ std::uint32_t piece_at(double x, std::uint32_t n) {
     return i > 0 ? static_cast<std::uint32_t>(std::min(i, n - 1.0)) : 0;
 }
 
+/// Rows from the apex a on; ab and ac lead to the next row.
+void divide_similar(const Vec3& a, const Vec3& ab, const Vec3& ac, std::uint32_t n,
+                    std::vector<Polygon>& made) {
+    const auto point = [&](std::uint32_t i, std::uint32_t j) {
+        return a + double(i) * ab + double(j) * ac;
+    };
+    for (std::uint32_t k = 0; k < n; ++k)
+        for (std::uint32_t j = 0; j <= k; ++j) {
+            const std::uint32_t i = k - j;
+            made.push_back({{point(i, j), point(i + 1, j), point(i, j + 1), point(i, j + 1)}});
+            if (i > 0)
+                made.push_back(
+                    {{point(i, j), point(i, j + 1), point(i - 1, j + 1), point(i - 1, j + 1)}});
+        }
+}
+
+/// n strips from the apex a to the opposite edge, m columns each; the first strip is of triangles.
+void divide_fan(const Vec3& a, const Vec3& ab, const Vec3& ac, std::uint32_t n, std::uint32_t m,
+                std::vector<Polygon>& made) {
+    const auto point = [&](std::uint32_t k, std::uint32_t j) {
+        const double r = double(k) / n, w = double(j) / m;
+        return a + r * ((1 - w) * ab + w * ac);
+    };
+    for (std::uint32_t k = 0; k < n; ++k)
+        for (std::uint32_t j = 0; j < m; ++j) {
+            const Vec3 left = point(k + 1, j), right = point(k + 1, j + 1);
+            if (k == 0)
+                made.push_back({{a, left, right, right}});
+            else
+                made.push_back({{point(k, j), left, right, point(k, j + 1)}});
+        }
+}
+
 } // namespace
 
 Mesh::Mesh(Scene scene, const MeshOptions& options)
@@ -128,7 +161,7 @@ void Mesh::divide_quad(Division& division, const Polygon& shape, double max_edge
 }
 
 void Mesh::divide_triangle(Division& division, const Polygon& shape, double max_edge,
-                           std::size_t room, std::vector<Polygon>& made) {
+                           std::size_t room, std::vector<Polygon>& made) const {
     const auto opposite = [&](std::size_t i) {
         return glm::length(shape.corner[(i + 2) % 3] - shape.corner[(i + 1) % 3]);
     };
@@ -139,30 +172,18 @@ void Mesh::divide_triangle(Division& division, const Polygon& shape, double max_
     const Vec3 a = shape.corner[apex];
     const Vec3 ab = shape.corner[(apex + 1) % 3] - a, ac = shape.corner[(apex + 2) % 3] - a;
     const std::uint32_t n = pieces(std::max(glm::length(ab), glm::length(ac)), max_edge);
-    if (n == 1) {
-        made.push_back(shape);
-        return;
-    }
-    check_room(n, room);
+    const std::uint32_t m = pieces(opposite(apex), max_edge);
     division.rows = n;
+    division.columns = m;
     division.apex = static_cast<std::uint8_t>(apex);
-    division.strips = static_cast<std::uint32_t>(strip_first_.size());
-    const auto point = [&](double r, double w) { return a + r * ((1 - w) * ab + w * ac); };
-    for (std::uint32_t k = 0; k < n; ++k) {
-        strip_first_.push_back(static_cast<std::uint32_t>(made.size()));
-        const double inner = double(k) / n, outer = double(k + 1) / n;
-        const std::uint32_t m = k == 0 ? 1 : pieces(opposite(apex) * outer, max_edge);
-        check_room(double(made.size()) + m, room);
-        for (std::uint32_t j = 0; j < m; ++j) {
-            const double w0 = double(j) / m, w1 = double(j + 1) / m;
-            const Vec3 q1 = point(outer, w0), q2 = point(outer, w1);
-            if (k == 0)
-                made.push_back({{a, q1, q2, q2}});
-            else
-                made.push_back({{point(inner, w0), q1, q2, point(inner, w1)}});
-        }
-    }
-    strip_first_.push_back(static_cast<std::uint32_t>(made.size()));
+    division.similar = 2 * m >= n;
+    check_room(double(n) * (division.similar ? n : m), room);
+    if (n == 1)
+        made.push_back(shape);
+    else if (division.similar)
+        divide_similar(a, ab / double(n), ac / double(n), n, made);
+    else
+        divide_fan(a, ab, ac, n, m, made);
 }
 
 std::uint32_t Mesh::piece_of_quad(const Division& division, const Hit& hit) const {
@@ -181,9 +202,12 @@ std::uint32_t Mesh::piece_of_triangle(const Division& division, const Hit& hit) 
     const std::array<double, 3> weight{1 - hit.u - hit.v, hit.u, hit.v};
     const double b = weight[(division.apex + 1u) % 3], c = weight[(division.apex + 2u) % 3];
     const std::uint32_t k = piece_at(b + c, division.rows);
-    const std::uint32_t first = strip_first_[division.strips + k];
-    const std::uint32_t m = strip_first_[division.strips + k + 1] - first;
-    return first + piece_at(c / (b + c), m);
+    if (!division.similar)
+        return k * division.columns + piece_at(c / (b + c), division.columns);
+    // Row k holds k + 1 upright triangles and between them k that are upside down.
+    const std::uint32_t across = std::min(k, piece_at(c, division.rows));
+    const bool upside_down = across < k && std::floor(b * division.rows) + across < k;
+    return k * k + 2 * across + (upside_down ? 1 : 0);
 }
 
 std::uint32_t Mesh::patch_at(const Hit& hit) const {
@@ -191,10 +215,9 @@ std::uint32_t Mesh::patch_at(const Hit& hit) const {
         return none;
     const Division& division = divisions_[hit.facet];
     std::uint32_t piece = 0;
-    if (division.strips != none)
-        piece = piece_of_triangle(division, hit);
-    else if (division.rows * division.columns > 1)
-        piece = piece_of_quad(division, hit);
+    if (division.rows > 1 || division.columns > 1)
+        piece = scene_.facets[hit.facet].is_triangle() ? piece_of_triangle(division, hit)
+                                                       : piece_of_quad(division, hit);
     return two_sided_ ? division.first_patch + 2 * piece + (hit.front ? 0 : 1)
                       : division.first_patch + piece;
 }

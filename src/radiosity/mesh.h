@@ -70,23 +70,23 @@ class Mesh {
     [[nodiscard]] std::uint32_t patch_at(const Hit& hit) const;
 
   private:
-    /// How a facet is divided. A quad: rows along its first and third edge, columns along the
-    /// others, by the bilinear map. A triangle: strips parallel to its shortest edge, strip k cut
-    /// into columns_of(k) by lines through the opposite vertex (the apex).
+    /// How a facet is divided. A quad: rows x columns by the bilinear map. A triangle that is about
+    /// as wide as long: rows^2 triangles of its own shape. A narrow one: rows strips parallel to
+    /// its shortest edge, cut into columns by lines through the opposite vertex, the apex.
     struct Division {
         std::uint32_t first_patch;
         std::uint32_t rows = 1, columns = 1;
-        std::uint32_t strips = none; ///< triangle: where its strips begin in strip_first_
-        std::uint8_t apex = 0;       ///< triangle: which corner
-        double g_x = 0,
-               g_y = 0; ///< quad: corner0 - 1 + 2 - 3 in the basis of its edges at corner 0
+        bool similar = false;  ///< triangle: pieces of its own shape
+        std::uint8_t apex = 0; ///< triangle: which corner
+        /// Quad: corner0 - 1 + 2 - 3 in the basis of its edges at corner 0.
+        double g_x = 0, g_y = 0;
     };
 
     void divide(std::uint32_t facet, const MeshOptions& options);
     void divide_quad(Division& division, const Polygon& shape, double max_edge, std::size_t room,
                      std::vector<Polygon>& made) const;
     void divide_triangle(Division& division, const Polygon& shape, double max_edge,
-                         std::size_t room, std::vector<Polygon>& made);
+                         std::size_t room, std::vector<Polygon>& made) const;
     static void check_room(double count, std::size_t room);
     [[nodiscard]] std::uint32_t piece_of_quad(const Division& division, const Hit& hit) const;
     [[nodiscard]] std::uint32_t piece_of_triangle(const Division& division, const Hit& hit) const;
@@ -97,8 +97,6 @@ class Mesh {
     std::vector<FacetCorners> corners_;
     std::vector<Patch> patches_;
     std::vector<Division> divisions_;
-    std::vector<std::uint32_t>
-        strip_first_; ///< pieces of a triangle before strip k; one more at the end
     bool two_sided_ = false;
 };
 

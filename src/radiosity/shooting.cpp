@@ -22,6 +22,16 @@ Vec3 sample_cosine(Rng& rng) {
     return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r2)};
 }
 
+/// Weighted by area; at most .999, so that 1 / (1 - rho) remains a number of use.
+double mean_reflectance(const Mesh& mesh) {
+    double area = 0, sum = 0;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        area += mesh.patches()[i].area;
+        sum += mesh.patches()[i].area * scalar(mesh.material(i).reflectance);
+    }
+    return area > 0 ? std::min(sum / area, .999) : 0;
+}
+
 /// Patches that one thread takes at a time, and patches whose rays are kept until they are summed.
 constexpr std::size_t patches_per_volley = 32;
 constexpr double rays_per_batch = 2e6;
@@ -75,13 +85,13 @@ bool ShootingSolver::find_ray_power() {
     input_.monitor.phase = "pilot";
     const auto patches = static_cast<double>(input_.mesh.patches().size());
     const double rays = input_.options.rays * patches;
-    const double pilot_rays = std::clamp(rays / 32, 1000.0, 200'000.0);
+    const double pilot_rays = std::clamp(rays / 16, 1000.0, 400'000.0);
     const Vec3 emitted = solution_.energy.emitted / input_.mesh.frame().area_to_world(1.0);
     if (input_.options.literal || !(scalar(emitted) > 0)) {
         ray_power_ = std::numeric_limits<double>::infinity();
         return true;
     }
-    ray_power_ = 2 * scalar(emitted) / pilot_rays;
+    ray_power_ = scalar(emitted) / (1 - mean_reflectance(input_.mesh)) / pilot_rays;
     std::vector<Vec3> radiosity;
     StepTally tally;
     if (!solve_once(pilot_stream, radiosity, tally)) {

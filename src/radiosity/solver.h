@@ -66,6 +66,13 @@ struct SolverInput {
     Monitor& monitor;
 };
 
+class Strategy;
+class Hemisphere;
+class Workers;
+/// How a stepwise shooting method makes its strategy (strategy.h).
+using MakeStrategy = std::unique_ptr<Strategy> (*)(const SolverInput&, const Hemisphere&,
+                                                   const Workers&);
+
 /// A method as the user picks it.
 struct Method {
     std::string_view name;    ///< of --method
@@ -74,6 +81,7 @@ struct Method {
     bool unbiased;            ///< each step, in its corrected form; else consistent
     StopRule default_stop;    ///< where the user gives none
     std::unique_ptr<Solver> (*make)(const SolverInput&);
+    MakeStrategy strategy = nullptr; ///< what it shoots with; nullptr if it is no shooting method
 };
 
 /// All methods, one per file of strategies/ and solvers/, in alphabetical order.

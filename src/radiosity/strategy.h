@@ -11,9 +11,6 @@
 
 namespace hemilux {
 
-class Hemisphere;
-class Workers;
-
 /// What one cell gets, as shares of the patch's whole: power [-] and expected rays [-], each
 /// summing to 1 over the cells of a patch. With power = projected solid angle / pi every strategy
 /// is unbiased, however the rays are dealt, as long as each cell with power has a positive share of
@@ -35,8 +32,5 @@ class Strategy {
     [[nodiscard]] virtual std::uint64_t density_rays() const { return 0; }
     [[nodiscard]] virtual std::uint64_t density_bytes() const { return 0; }
 };
-
-using MakeStrategy = std::unique_ptr<Strategy> (*)(const SolverInput&, const Hemisphere&,
-                                                   const Workers&);
 
 } // namespace hemilux

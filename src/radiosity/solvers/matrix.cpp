@@ -163,6 +163,7 @@ const Method matrix_method{
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .002},
     .make = make_matrix,
+    .strategy = nullptr,
 };
 
 } // namespace hemilux

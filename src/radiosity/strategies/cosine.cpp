@@ -31,6 +31,7 @@ const Method cosine_method{
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_cosine>,
+    .strategy = make_cosine,
 };
 
 } // namespace hemilux

@@ -91,6 +91,7 @@ const Method hemisphere_method{
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_hemisphere>,
+    .strategy = make_hemisphere,
 };
 
 } // namespace hemilux

@@ -41,6 +41,7 @@ const Method stratified_method{
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_stratified>,
+    .strategy = make_stratified,
 };
 
 } // namespace hemilux

@@ -1,0 +1,116 @@
+// What every strategy owes, whatever it guides its rays by: shares that sum to 1, Lambert's law,
+// and rays for every cell that carries power.
+#include "radiosity/hemisphere.h"
+#include "radiosity/strategy.h"
+#include "radiosity/workers.h"
+#include "support/scenes.h"
+#include "support/solve.h"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+using namespace hemilux;
+using test::Model;
+
+namespace {
+
+struct Dealer {
+    SolveOptions options;
+    Monitor monitor;
+    Hemisphere hemisphere;
+    std::unique_ptr<Strategy> strategy;
+
+    Dealer(const Model& model, const Method& method, const SolveOptions& wanted)
+        : options(wanted), hemisphere(wanted.depth) {
+        const SolverInput input{model.mesh, model.bvh, options, monitor};
+        strategy = method.strategy(input, hemisphere, Workers(1));
+    }
+};
+
+/// Calls test(hemisphere, shares) for all patches of several scenes, depths and thresholds.
+template <class Test>
+void for_all_deals(const Method& method, bool literal, const Test& test_shares) {
+    for (const Scene& scene :
+         {test::room_with_block(), test::open_scene(), test::furnace_l_shape(.5)}) {
+        const Model model(scene);
+        for (const int depth : {0, 2, 3})
+            for (const double threshold : {0.0, 1.3, 3.0}) {
+                SolveOptions options;
+                options.depth = depth;
+                options.threshold = threshold;
+                options.literal = literal;
+                const Dealer dealer(model, method, options);
+                std::vector<CellShare> shares;
+                for (std::uint32_t i = 0; i < model.mesh.patches().size(); i += 5) {
+                    dealer.strategy->deal(i, shares);
+                    test_shares(dealer.hemisphere, shares);
+                }
+            }
+    }
+}
+
+} // namespace
+
+TEST_CASE("Shares of power and rays sum to 1, and follow Lambert's law") {
+    for (const Method* method : methods()) {
+        if (!method->strategy)
+            continue;
+        INFO(method->name);
+        for_all_deals(*method, false, [](const Hemisphere& hemisphere, const auto& shares) {
+            double power = 0, rays = 0, worst = 0, least = 1;
+            for (const CellShare& share : shares) {
+                power += share.power;
+                rays += share.rays;
+                const double due =
+                    share.cell == whole_hemisphere
+                        ? 1
+                        : hemisphere.cells()[share.cell].projected_solid_angle / std::numbers::pi;
+                worst = std::max(worst, std::abs(share.power - due));
+                least = std::min(least, share.rays / share.power);
+            }
+            CHECK(power == Approx(1).epsilon(1e-12));
+            CHECK(rays == Approx(1).epsilon(1e-12));
+            CHECK(worst < 1e-14);
+            CHECK(least > .1); // every cell with power gets rays
+        });
+    }
+}
+
+TEST_CASE("The printed rule breaks Lambert's law by what was measured elsewhere") {
+    // A triangle of level 2 gets .51 to 3.80 times its due.
+    double lowest = 10, highest = 0, sum = 0;
+    const Hemisphere hemisphere(2);
+    for (std::size_t c = Hemisphere::cells_up_to(1); c < hemisphere.cells().size(); ++c) {
+        const auto& cell = hemisphere.cells()[c];
+        const double ratio = cell.solid_angle / 2 / cell.projected_solid_angle;
+        lowest = std::min(lowest, ratio);
+        highest = std::max(highest, ratio);
+    }
+    CHECK(lowest == Approx(.51).margin(.005));
+    CHECK(highest == Approx(3.80).margin(.005));
+    for_all_deals(*find_method("hemisphere"), true, [&](const Hemisphere&, const auto& shares) {
+        sum = 0;
+        for (const CellShare& share : shares)
+            sum += share.power;
+        CHECK(sum == Approx(1).epsilon(1e-12)); // so a balance of energy does not see it
+    });
+}
+
+TEST_CASE("Guidance sends rays where surfaces were counted") {
+    const Model model(test::room_with_block());
+    const Dealer guided(model, *find_method("hemisphere"), {});
+    const Dealer plain(model, *find_method("stratified"), {});
+    double difference = 0;
+    std::vector<CellShare> a, b;
+    for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i) {
+        guided.strategy->deal(i, a);
+        plain.strategy->deal(i, b);
+        REQUIRE(a.size() == 64);
+        for (const CellShare& share : a)
+            difference = std::max(difference, share.rays / share.power);
+    }
+    CHECK(difference > 1.5);
+    CHECK(guided.strategy->density_rays() == 41 * model.mesh.patches().size());
+    CHECK(plain.strategy->density_rays() == 0);
+    CHECK(plain.strategy->density_bytes() == 0);
+}
