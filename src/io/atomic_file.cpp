@@ -1,0 +1,102 @@
+#include "io/atomic_file.h"
+
+#include "io/error.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace hemilux {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t buffer_size = 1 << 20;
+
+/// A name in the target's folder that no other process or thread uses.
+std::string temporary_beside(const fs::path& target) {
+    static std::atomic<unsigned> counter{0};
+    const std::string name = ".hemilux-" + std::to_string(::getpid()) + "-" +
+                             std::to_string(counter.fetch_add(1)) + ".tmp";
+    return (target.parent_path() / name).string();
+}
+
+} // namespace
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status))
+        throw OutputError(path, "is a folder");
+    if (fs::is_regular_file(status))
+        target_ = fs::canonical(path, error).string();
+    if (error && status.type() != fs::file_type::not_found)
+        throw OutputError(path, "cannot open: " + error.message());
+    const bool replace = !fs::exists(status) || fs::is_regular_file(status);
+    if (replace)
+        temporary_ = temporary_beside(target_);
+    constexpr mode_t mode = 0666; // less the user's umask
+    descriptor_ = replace
+                      ? ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode)
+                      : ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0)
+        fail("open");
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ < 0)
+        return;
+    ::close(descriptor_);
+    if (!temporary_.empty())
+        ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes) {
+    buffer_ += bytes;
+    if (buffer_.size() >= buffer_size)
+        flush();
+}
+
+void AtomicFile::commit() {
+    flush();
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    const bool renamed =
+        closed == 0 && (temporary_.empty() || ::rename(temporary_.c_str(), target_.c_str()) == 0);
+    if (renamed)
+        return;
+    const int error = errno;
+    if (!temporary_.empty())
+        ::unlink(temporary_.c_str());
+    errno = error;
+    fail(closed == 0 ? "rename" : "write");
+}
+
+void AtomicFile::flush() {
+    std::string_view left = buffer_;
+    while (!left.empty()) {
+        const ssize_t written = ::write(descriptor_, left.data(), left.size());
+        if (written >= 0)
+            left.remove_prefix(static_cast<std::size_t>(written));
+        else if (errno != EINTR)
+            fail("write");
+    }
+    buffer_.clear();
+}
+
+void AtomicFile::fail(const char* action) const {
+    throw OutputError(path_, std::string("cannot ") + action + ": " + std::strerror(errno));
+}
+
+void write_atomically(const std::string& path, std::string_view content) {
+    AtomicFile file(path);
+    file.write(content);
+    file.commit();
+}
+
+} // namespace hemilux

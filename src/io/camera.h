@@ -1,0 +1,47 @@
+#pragma once
+// A pinhole camera, given by the user or chosen for a scene.
+
+#include "bvh/tracer.h"
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace hemilux {
+
+class Mesh;
+
+/// World units.
+struct Camera {
+    Vec3 eye, target;
+    Vec3 up{0, 1, 0};
+    double vertical_fov_degrees = 45;
+};
+
+/// "ex,ey,ez,tx,ty,tz" or "ex,ey,ez,tx,ty,tz,fov". Throws std::invalid_argument that says what was
+/// expected.
+[[nodiscard]] Camera parse_camera(std::string_view text);
+
+/// The rays of a camera, in the local frame of a mesh.
+class CameraRays {
+  public:
+    /// `aspect`: width over height. Throws std::invalid_argument where eye and target are one
+    /// point.
+    CameraRays(const Camera& camera, const Mesh& mesh, double aspect);
+    /// x from 0 (left) to 1, y from 0 (top) to 1. The direction has unit length.
+    [[nodiscard]] Ray ray(double x, double y) const;
+
+  private:
+    Vec3 eye_, forward_, right_, up_; ///< the last two reach from the centre to the picture's edges
+};
+
+/// The first surface that a picture shows. The backs of one-sided facets are looked through: so an
+/// interior can be seen from outside.
+struct Seen {
+    Hit hit; ///< with t along the ray
+    std::uint32_t patch;
+    std::uint32_t backs; ///< facets looked through
+};
+[[nodiscard]] std::optional<Seen> look(const Mesh& mesh, const Tracer& tracer, Ray ray);
+
+} // namespace hemilux

@@ -1,0 +1,39 @@
+#pragma once
+// Fields and records of CSV (RFC 4180).
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hemilux::csv {
+
+/// The shortest text that gives back the same double; `nan`, `inf`, `-inf`.
+void append_number(std::string& line, double value);
+void append_number(std::string& line, std::uint64_t value);
+/// Quoted where the text needs it.
+void append_text(std::string& line, std::string_view text);
+
+/// Reads records one after the other. Accepts a byte order mark, CRLF and a missing final newline.
+class Reader {
+  public:
+    /// `file` is for messages. Both must outlive the reader.
+    Reader(const std::string& file, std::string_view content);
+
+    /// The next record that is not an empty line; false at the end. Throws InputError.
+    bool next(std::vector<std::string>& fields);
+    /// Where the last record began, from 1.
+    [[nodiscard]] std::size_t line() const { return line_; }
+
+  private:
+    void read_quoted(std::string& field);
+    [[nodiscard]] bool at_line_end() const;
+    void skip_line_end();
+
+    const std::string& file_;
+    std::string_view left_;
+    std::size_t line_ = 0, next_line_ = 1;
+};
+
+} // namespace hemilux::csv

@@ -1,0 +1,47 @@
+#pragma once
+// Pictures: linear light in memory; PNG for the eye (sRGB, 8 bits), Radiance HDR for numbers.
+
+#include <glm/glm.hpp>
+
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+struct Image {
+    int width = 0, height = 0;
+    std::vector<glm::vec3> pixels; ///< linear, row by row from the top left
+
+    Image() = default;
+    /// A black picture.
+    Image(int width_, int height_)
+        : width(width_), height(height_),
+          pixels(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {}
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
+    [[nodiscard]] glm::vec3& at(int x, int y) { return pixels[index(x, y)]; }
+    [[nodiscard]] const glm::vec3& at(int x, int y) const { return pixels[index(x, y)]; }
+};
+
+/// Luminance of linear light in the primaries of sRGB (IEC 61966-2-1).
+[[nodiscard]] inline float luminance(const glm::vec3& colour) {
+    return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+/// The transfer curve of sRGB (IEC 61966-2-1), from linear [0,1] to encoded [0,1]; clamps.
+[[nodiscard]] float srgb_from_linear(float linear);
+
+/// The factor that brings the bright part of a picture to .8: of the lit pixels the 90th percentile
+/// of luminance, but at most 6 times the median, so that lamps in view may clip. 1 for a black
+/// picture.
+[[nodiscard]] double auto_exposure(const Image& image);
+
+/// 8 bits per channel through the sRGB curve, after multiplication by `exposure`. Throws
+/// OutputError.
+void write_png(const std::string& path, const Image& image, double exposure);
+/// Radiance RGBE, linear. Throws OutputError.
+void write_hdr(const std::string& path, const Image& image);
+
+} // namespace hemilux

@@ -1,0 +1,24 @@
+#pragma once
+// Pictures of a solution.
+
+#include "io/automatic_camera.h"
+#include "io/camera.h"
+#include "io/image.h"
+
+#include <span>
+
+namespace hemilux {
+
+struct RenderOptions {
+    int width = 800, height = 600; ///< pixels
+    int samples = 4;               ///< rays per pixel; more: smoother edges, proportionally slower
+    bool smooth = true;            ///< interpolate over patches; else each shows its own radiosity
+    unsigned threads = 0;          ///< 0: one per core. The picture does not depend on it
+};
+
+/// Linear radiosity seen through the camera; black where nothing is. Throws std::invalid_argument
+/// for a size or a number of samples below 1.
+[[nodiscard]] Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
+                           const Camera& camera, const RenderOptions& options = {});
+
+} // namespace hemilux

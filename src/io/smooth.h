@@ -1,0 +1,42 @@
+#pragma once
+// Radiosity at the corners of patches, for smooth pictures (Gouraud 1971, as used for radiosity by
+// Goral et al. 1984).
+//
+// Corners of patches that meet in one point form classes: two belong together when their patches
+// have the same material and normals that differ by less than the crease angle, or through others
+// for which that is so. Light does not bleed over a crease, to another material or to the other
+// side of a sheet. A class has one material, so its mean radiosity is the mean of the reflected
+// part plus that material's emission, and a lamp keeps a sharp edge.
+
+#include "geometry/polygon.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+struct CornerClasses {
+    std::vector<std::array<std::uint32_t, 4>>
+        of_patch;               ///< class of each corner; triangle: [3] == [2]
+    std::vector<Vec3> position; ///< of each class, local frame
+};
+
+/// Surfaces that meet at a larger angle [degrees] are shaded apart. A column of twelve sides is
+/// still smooth.
+inline constexpr double crease_angle = 31;
+
+[[nodiscard]] CornerClasses find_corner_classes(const Mesh& mesh);
+
+/// Mean over each class, weighted by the angles at the corners.
+[[nodiscard]] std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
+                                       std::span<const Vec3> radiosity);
+
+/// Weights of the corners for a point of the polygon: barycentric in a triangle, the inverse of the
+/// bilinear map in a quad. Linear along edges, so that neighbours agree there.
+[[nodiscard]] std::array<double, 4> corner_weights(const Polygon& shape, const Vec3& point);
+
+} // namespace hemilux

@@ -1,0 +1,30 @@
+#pragma once
+// Finds equal points: each is given the number of the first one that lies within a distance of it.
+
+#include "geometry/vector.h"
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace hemilux {
+
+class Welder {
+  public:
+    explicit Welder(double distance) : distance_(distance) {}
+    /// The point's number, counted from 0.
+    std::uint32_t add(const Vec3& point);
+    /// The point of each number.
+    [[nodiscard]] std::vector<Vec3> take_points() { return std::move(points_); }
+
+  private:
+    /// Numbers of points in the same cell of a hash grid form a chain.
+    [[nodiscard]] std::uint32_t find(const Vec3& point, std::uint64_t cell) const;
+
+    double distance_;
+    std::vector<Vec3> points_;
+    std::vector<std::uint32_t> next_;
+    std::unordered_map<std::uint64_t, std::uint32_t> first_;
+};
+
+} // namespace hemilux

@@ -1,0 +1,152 @@
+#include "io/png_reader.h"
+
+#include "io/temporary_folder.h"
+
+#include <array>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace hemilux::test {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+void expect(bool condition, const char* what) {
+    if (!condition)
+        throw std::runtime_error(std::string("PNG: ") + what);
+}
+
+/// Deflate (RFC 1951): stored blocks and blocks of the fixed code.
+class Inflate {
+  public:
+    explicit Inflate(const Bytes& in) : in_(in) {}
+
+    Bytes run() {
+        bool last = false;
+        while (!last) {
+            last = bits(1);
+            const std::uint32_t type = bits(2);
+            expect(type < 2, "a block with a code of its own");
+            type == 0 ? stored() : fixed();
+        }
+        return std::move(out_);
+    }
+
+  private:
+    std::uint32_t bits(int count) {
+        std::uint32_t value = 0;
+        for (int i = 0; i < count; ++i, ++at_) {
+            expect(at_ / 8 < in_.size(), "data end too early");
+            value |= (in_[at_ / 8] >> (at_ % 8) & 1u) << i;
+        }
+        return value;
+    }
+    std::uint32_t code(int count, std::uint32_t value = 0) {
+        for (int i = 0; i < count; ++i)
+            value = value << 1 | bits(1);
+        return value;
+    }
+    std::uint32_t symbol() {
+        const std::uint32_t seven = code(7);
+        if (seven < 24)
+            return 256 + seven;
+        const std::uint32_t eight = code(1, seven);
+        if (eight < 192)
+            return eight - 48;
+        return eight < 200 ? eight + 88 : code(1, eight) - 256;
+    }
+    void stored() {
+        at_ = (at_ + 7) / 8 * 8;
+        const std::uint32_t length = bits(16);
+        expect((bits(16) ^ length) == 0xffff, "a stored block's length");
+        for (std::uint32_t i = 0; i < length; ++i)
+            out_.push_back(static_cast<std::uint8_t>(bits(8)));
+    }
+    void fixed() {
+        for (std::uint32_t s = symbol(); s != 256; s = symbol()) {
+            if (s < 256) {
+                out_.push_back(static_cast<std::uint8_t>(s));
+                continue;
+            }
+            const std::uint32_t length = length_of(s - 257);
+            const std::uint32_t distance = distance_of(code(5));
+            expect(distance <= out_.size(), "a distance");
+            for (std::uint32_t i = 0; i < length; ++i)
+                out_.push_back(out_[out_.size() - distance]);
+        }
+    }
+    std::uint32_t length_of(std::uint32_t c) {
+        if (c < 8)
+            return 3 + c;
+        if (c == 28)
+            return 258;
+        const std::uint32_t extra = (c - 4) / 4;
+        return 3 + ((4 + c % 4) << extra) + bits(static_cast<int>(extra));
+    }
+    std::uint32_t distance_of(std::uint32_t c) {
+        if (c < 4)
+            return 1 + c;
+        const std::uint32_t extra = c / 2 - 1;
+        return 1 + ((2 + c % 2) << extra) + bits(static_cast<int>(extra));
+    }
+
+    const Bytes& in_;
+    std::size_t at_ = 0; ///< in bits
+    Bytes out_;
+};
+
+std::uint8_t paeth(int a, int b, int c) {
+    const int p = a + b - c, da = std::abs(p - a), db = std::abs(p - b), dc = std::abs(p - c);
+    return static_cast<std::uint8_t>(da <= db && da <= dc ? a : db <= dc ? b : c);
+}
+
+/// Undoes the filter of each row (PNG specification, section 9).
+Bytes unfilter(const Bytes& rows, std::size_t width, std::size_t height) {
+    const std::size_t stride = 3 * width;
+    expect(rows.size() == height * (stride + 1), "the amount of data");
+    Bytes out(height * stride);
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < stride; ++x) {
+            const int a = x >= 3 ? out[y * stride + x - 3] : 0;
+            const int b = y > 0 ? out[(y - 1) * stride + x] : 0;
+            const int c = x >= 3 && y > 0 ? out[(y - 1) * stride + x - 3] : 0;
+            const std::array<int, 5> guess{0, a, b, (a + b) / 2, paeth(a, b, c)};
+            const std::uint8_t filter = rows[y * (stride + 1)];
+            expect(filter < 5, "a filter");
+            out[y * stride + x] =
+                static_cast<std::uint8_t>(rows[y * (stride + 1) + 1 + x] + guess[filter]);
+        }
+    return out;
+}
+
+} // namespace
+
+Png read_png(const std::string& path) {
+    const std::string file = content_of(path);
+    const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(file.at(i)); };
+    const auto word = [&](std::size_t i) {
+        return std::uint32_t{byte(i)} << 24 | std::uint32_t{byte(i + 1)} << 16 |
+               std::uint32_t{byte(i + 2)} << 8 | byte(i + 3);
+    };
+    expect(file.substr(0, 8) == "\x89PNG\r\n\x1a\n", "the signature");
+    Png png;
+    Bytes compressed;
+    for (std::size_t at = 8; at < file.size(); at += 12 + word(at)) {
+        const std::string type = file.substr(at + 4, 4);
+        if (type == "IHDR") {
+            png.width = static_cast<int>(word(at + 8));
+            png.height = static_cast<int>(word(at + 12));
+            expect(byte(at + 16) == 8 && byte(at + 17) == 2 && byte(at + 20) == 0, "the format");
+        } else if (type == "IDAT") {
+            for (std::size_t i = 0; i < word(at); ++i)
+                compressed.push_back(byte(at + 8 + i));
+        }
+    }
+    expect(compressed.size() > 2, "no data");
+    compressed.erase(compressed.begin(), compressed.begin() + 2); // zlib's header
+    png.bytes = unfilter(Inflate(compressed).run(), static_cast<std::size_t>(png.width),
+                         static_cast<std::size_t>(png.height));
+    return png;
+}
+
+} // namespace hemilux::test

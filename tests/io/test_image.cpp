@@ -1,0 +1,141 @@
+#include "io/atomic_file.h"
+#include "io/error.h"
+#include "io/image.h"
+#include "io/png_reader.h"
+#include "io/temporary_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace hemilux;
+using namespace hemilux::test;
+
+namespace {
+
+/// Every row and column differs.
+Image gradient(int width, int height) {
+    Image image(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            image.at(x, y) = {static_cast<float>(x) / static_cast<float>(width),
+                              static_cast<float>(y) / static_cast<float>(height),
+                              static_cast<float>(x * y % 7) / 6};
+    return image;
+}
+
+/// The pixels of an HDR file whose rows are too short for run lengths.
+std::vector<glm::vec3> short_rows_of_hdr(const std::string& path, std::size_t pixels) {
+    const std::string file = content_of(path);
+    const std::string data = file.substr(file.size() - 4 * pixels);
+    std::vector<glm::vec3> result;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(data[4 * i + k]); };
+        const float unit = byte(3) == 0 ? 0 : std::ldexp(1.0f, byte(3) - 136);
+        result.push_back(unit * glm::vec3(byte(0), byte(1), byte(2)));
+    }
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("the sRGB curve has its published values") {
+    CHECK(srgb_from_linear(0) == 0);
+    CHECK(srgb_from_linear(1) == 1);
+    CHECK(srgb_from_linear(2) == 1);
+    CHECK(srgb_from_linear(-1) == 0);
+    CHECK(srgb_from_linear(std::numeric_limits<float>::quiet_NaN()) == 0);
+    CHECK(srgb_from_linear(0.002f) == Approx(0.02584));
+    CHECK(srgb_from_linear(0.5f) == Approx(0.735357).epsilon(1e-5));
+    CHECK(srgb_from_linear(0.0031308f) == Approx(srgb_from_linear(0.0031309f)).epsilon(1e-3));
+}
+
+TEST_CASE("a PNG gives back every pixel through the curve") {
+    const TemporaryFolder folder;
+    const Image image = gradient(37, 23);
+    const double exposure = 0.5;
+    write_png(folder.path("a.png"), image, exposure);
+    const Png png = read_png(folder.path("a.png"));
+    REQUIRE(png.width == 37);
+    REQUIRE(png.height == 23);
+    int wrong = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            wrong += png.bytes[3 * i + static_cast<std::size_t>(c)] !=
+                     std::lround(255 * srgb_from_linear(0.5f * image.pixels[i][c]));
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("an HDR file keeps linear light over many decades") {
+    const TemporaryFolder folder;
+    Image image(4, 1); // rows below 8 pixels are not packed
+    image.pixels = {{1, 0.5f, 0.25f}, {1e-6f, 2e-6f, 3e-6f}, {1e6f, 5e5f, 0}, {0, 0, 0}};
+    write_hdr(folder.path("a.hdr"), image);
+    const auto read = short_rows_of_hdr(folder.path("a.hdr"), 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const float largest = std::max({image.pixels[i].x, image.pixels[i].y, image.pixels[i].z});
+        for (int c = 0; c < 3; ++c)
+            CHECK(std::abs(read[i][c] - image.pixels[i][c]) <= largest / 128);
+    }
+}
+
+TEST_CASE("a picture with numbers that are none can be written") {
+    const TemporaryFolder folder;
+    Image image(2, 1);
+    image.pixels = {glm::vec3(std::numeric_limits<float>::quiet_NaN()),
+                    glm::vec3(std::numeric_limits<float>::infinity())};
+    CHECK_NOTHROW(write_hdr(folder.path("a.hdr"), image));
+    write_png(folder.path("a.png"), image, 1);
+    CHECK(read_png(folder.path("a.png")).bytes ==
+          std::vector<std::uint8_t>{0, 0, 0, 255, 255, 255});
+    CHECK(auto_exposure(image) == 1);
+}
+
+TEST_CASE("exposure brings walls to .8, whatever the lamp and the background") {
+    CHECK(auto_exposure(Image(10, 10)) == 1);
+    Image image(20, 10);
+    for (glm::vec3& pixel : image.pixels)
+        pixel = glm::vec3(0.4f);
+    CHECK(auto_exposure(image) == Approx(2));
+    for (int i = 0; i < 10; ++i)
+        image.at(i, 0) = glm::vec3(1000); // a lamp over a twentieth of the picture
+    for (int i = 0; i < 20; ++i)
+        image.at(i, 5) = glm::vec3(0);
+    CHECK(auto_exposure(image) == Approx(2));
+    for (int i = 0; i < 20; ++i)
+        image.at(i, 1) = image.at(i, 2) = glm::vec3(1000); // lamps over a quarter
+    CHECK(auto_exposure(image) == Approx(0.8 / 2.4));
+}
+
+TEST_CASE("a file appears complete or not at all") {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("out.txt");
+    write_atomically(path, "old");
+    {
+        AtomicFile file(path);
+        file.write(std::string(3'000'000, 'x')); // more than the buffer
+        CHECK(content_of(path) == "old");
+    } // abandoned
+    CHECK(content_of(path) == "old");
+    write_atomically(path, "new");
+    CHECK(content_of(path) == "new");
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("a link to a file stays a link") {
+    const TemporaryFolder folder;
+    write_atomically(folder.path("file"), "old");
+    std::filesystem::create_symlink(folder.path("file"), folder.path("link"));
+    write_atomically(folder.path("link"), "new");
+    CHECK(std::filesystem::is_symlink(folder.path("link")));
+    CHECK(content_of(folder.path("file")) == "new");
+}
+
+TEST_CASE("what cannot be written is an OutputError that names the file") {
+    const TemporaryFolder folder;
+    CHECK_THROWS_AS(write_png(folder.path("missing/a.png"), Image(1, 1), 1), OutputError);
+    CHECK_THROWS_WITH(write_atomically(folder.path(""), "x"), Catch::Contains("is a folder"));
+    if (std::filesystem::exists("/dev/full"))
+        CHECK_THROWS_WITH(write_atomically("/dev/full", "x"), Catch::StartsWith("/dev/full: "));
+}
