@@ -1,0 +1,11 @@
+#pragma once
+// The subcommands. Each returns the exit code or throws UsageError, InputError or OutputError.
+
+#include "app/settings.h"
+
+namespace hemilux {
+
+int solve(const SolveSettings& settings);
+int info(const InfoSettings& settings);
+
+} // namespace hemilux

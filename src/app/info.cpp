@@ -1,0 +1,30 @@
+// hemilux info: what was read and what is doubtful in it.
+
+#include "app/commands.h"
+#include "app/exit_code.h"
+#include "app/load.h"
+#include "io/error.h"
+#include "io/inspect.h"
+
+#include <cstdio>
+#include <iostream>
+
+namespace hemilux {
+
+int info(const InfoSettings& settings) {
+    const ReadResult read = load_scene(settings.scene);
+    if (settings.talk != Talk::quiet)
+        for (const std::string& warning : read.warnings)
+            std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    std::cout << describe(inspect(read));
+    if (settings.scene.mesh.max_edge > 0 || settings.scene.mesh.two_sided) {
+        const Mesh mesh = divide_scene(read.scene, settings.scene);
+        std::cout << "patches             " << mesh.patches().size() << " (as divided)\n";
+    }
+    std::cout.flush();
+    if (!std::cout)
+        throw OutputError("standard output", "cannot be written");
+    return exit_done;
+}
+
+} // namespace hemilux

@@ -1,0 +1,87 @@
+#include "app/load.h"
+
+#include "app/exit_code.h"
+#include "app/names.h"
+#include "app/text.h"
+#include "io/error.h"
+#include "io/inspect.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace hemilux {
+
+namespace {
+
+std::vector<bool> materials_in_use(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size());
+    for (const Facet& facet : scene.facets)
+        used[facet.material] = true;
+    return used;
+}
+
+void check_reflectances(const ReadResult& read, const std::string& path) {
+    const std::vector<std::string> bad = find_bad_reflectances(read);
+    if (bad.empty())
+        return;
+    const std::string more =
+        bad.size() > 1 ? " (and " + std::to_string(bad.size() - 1) + " more)" : "";
+    throw InputError(path, bad.front() + more +
+                               "; --reflectance 'MATERIAL=R,G,B' replaces what the file says");
+}
+
+void check_emission(const Material& material, const std::string& path) {
+    const Vec3& e = material.emission;
+    const auto bad = [](double channel) { return !emission_range.contains(channel); };
+    if (bad(e.r) || bad(e.g) || bad(e.b))
+        throw InputError(path, "material '" + material.name + "' has emission " +
+                                   formatted("%g,%g,%g", e.r, e.g, e.b) +
+                                   "; --emission 'MATERIAL=R,G,B' replaces what the file says");
+}
+
+} // namespace
+
+ReadResult load_scene(const SceneSettings& settings) {
+    std::string extension = std::filesystem::path(settings.path).extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension != ".obj")
+        throw InputError(settings.path, "not a kind of scene that can be read; .obj can");
+    ReadResult read = read_obj(settings.path);
+    apply_overrides(read.scene, &Material::emission, settings.emission);
+    apply_overrides(read.scene, &Material::reflectance, settings.reflectance);
+    return read;
+}
+
+void check_solvable(const ReadResult& read, const std::string& path) {
+    if (read.scene.facets.empty())
+        throw InputError(path, "there is no face with an area");
+    check_reflectances(read, path);
+    const std::vector<bool> used = materials_in_use(read.scene);
+    bool emits = false;
+    std::vector<std::string> names;
+    for (std::size_t m = 0; m < used.size(); ++m) {
+        if (!used[m])
+            continue;
+        check_emission(read.scene.materials[m], path);
+        emits = emits || read.scene.materials[m].emission != Vec3(0.0);
+        names.push_back(read.scene.materials[m].name);
+    }
+    if (!emits)
+        throw InputError(path, "nothing emits light; make a material do so with --emission "
+                               "'MATERIAL=R,G,B'. Its materials: " +
+                                   list_names(names));
+}
+
+Mesh divide_scene(Scene scene, const SceneSettings& settings) {
+    try {
+        return Mesh(std::move(scene), settings.mesh);
+    } catch (const std::invalid_argument& error) {
+        if (settings.mesh.max_edge > 0)
+            throw UsageError(std::string("--max-edge: ") + error.what());
+        throw InputError(settings.path, error.what());
+    }
+}
+
+} // namespace hemilux

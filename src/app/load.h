@@ -1,0 +1,20 @@
+#pragma once
+// From a path on the command line to a scene that can be solved.
+
+#include "app/settings.h"
+#include "io/obj.h"
+
+namespace hemilux {
+
+/// Reads a scene by its extension and applies what the command line changes in it. Throws
+/// InputError for the file, UsageError for the changes.
+[[nodiscard]] ReadResult load_scene(const SceneSettings& settings);
+
+/// Throws InputError for what no method can solve: no faces, a material in use that reflects all
+/// light or more, negative emission, or a scene in which nothing emits.
+void check_solvable(const ReadResult& read, const std::string& path);
+
+/// Divides the faces; throws UsageError where --max-edge would give too many patches.
+[[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings);
+
+} // namespace hemilux

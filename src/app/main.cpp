@@ -1,0 +1,58 @@
+// The command-line program: hemilux SUBCOMMAND ...
+
+#include "app/commands.h"
+#include "app/exit_code.h"
+#include "app/options.h"
+#include "io/error.h"
+
+#include <cstdio>
+#include <new>
+
+namespace hemilux {
+namespace {
+
+int fail(int code, const char* message, const char* advice = "") {
+    std::fprintf(stderr, "hemilux: %s%s\n", message, advice);
+    return code;
+}
+
+int run_program(int argc, const char* const* argv) {
+    CLI::App program("hemilux " HEMILUX_VERSION
+                     ": radiosity by hemisphere subdivision, and the methods around it",
+                     "hemilux");
+    SolveSettings solve_settings;
+    InfoSettings info_settings;
+    program.set_version_flag("--version", "hemilux " HEMILUX_VERSION);
+    program.require_subcommand(1);
+    const CLI::App* const solve_command = add_solve_command(program, solve_settings);
+    add_info_command(program, info_settings);
+    program.footer("hemilux SUBCOMMAND --help tells more.");
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) // --help and --version
+            return program.exit(error);
+        throw UsageError(error.what());
+    }
+    return solve_command->parsed() ? solve(solve_settings) : info(info_settings);
+}
+
+/// Every error ends here, as one message and an exit code.
+int guarded_main(int argc, const char* const* argv) {
+    try {
+        return run_program(argc, argv);
+    } catch (const UsageError& error) {
+        return fail(exit_usage, error.what(), "\nhemilux --help tells what can be asked for.");
+    } catch (const InputError& error) {
+        return fail(exit_input, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(exit_output, "there is not enough memory");
+    } catch (const std::exception& error) {
+        return fail(exit_output, error.what());
+    }
+}
+
+} // namespace
+} // namespace hemilux
+
+int main(int argc, char** argv) { return hemilux::guarded_main(argc, argv); }

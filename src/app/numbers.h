@@ -1,0 +1,43 @@
+#pragma once
+// Numbers on the command line: all of the text must be one number within its range. NaN and
+// infinities are never accepted.
+
+#include "geometry/vector.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hemilux {
+
+/// A range of doubles and how a message names it.
+struct NumberRange {
+    double low, high;
+    bool low_included = true, high_included = true;
+
+    [[nodiscard]] bool contains(double x) const {
+        return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high);
+    }
+    /// "above 0", "from 0 to 5", "at least 0 and below 1".
+    [[nodiscard]] std::string text() const;
+};
+
+inline constexpr double no_limit = 1.7976931348623157e308; ///< the largest double
+inline constexpr NumberRange positive{.low = 0, .high = no_limit, .low_included = false};
+inline constexpr NumberRange non_negative{.low = 0, .high = no_limit};
+
+[[nodiscard]] std::optional<double> parse_number(std::string_view text);
+/// Decimal digits only.
+[[nodiscard]] std::optional<std::uint64_t> parse_whole(std::string_view text);
+/// "r,g,b", or one number for all three; empty where a channel is missing or out of the range.
+[[nodiscard]] std::optional<Vec3> parse_colour(std::string_view text, const NumberRange& range);
+
+/// A picture's width and height in pixels.
+struct PixelSize {
+    int width, height;
+};
+/// "800x600", each from 1 to 16384.
+[[nodiscard]] std::optional<PixelSize> parse_size(std::string_view text);
+
+} // namespace hemilux

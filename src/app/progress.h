@@ -1,0 +1,66 @@
+#pragma once
+// The progress bar: a line on the terminal that a thread of its own redraws a few times a second
+// from the solver's monitor.
+
+#include "radiosity/solver.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace hemilux {
+
+/// What the bar shows.
+struct ProgressState {
+    const char* phase = "";
+    std::uint32_t steps = 0; ///< finished
+    double step_share = 0;   ///< of the present step, 0 to 1
+    double seconds = 0;      ///< since the start
+    std::uint64_t rays = 0;
+    double estimated_error = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not known yet
+};
+
+/// How much of the run is done, 0 to 1, by the part of the stop rule that will be met first. The
+/// error is taken to fall as rays^-1/2.
+[[nodiscard]] double share_done(const StopRule& stop, const ProgressState& state);
+
+/// The bar as text of at most `width` columns.
+[[nodiscard]] std::string progress_line(const StopRule& stop, const ProgressState& state,
+                                        std::size_t width);
+
+class Progress {
+  public:
+    /// Without a bar it only passes on what is said.
+    Progress(const Monitor& monitor, const StopRule& stop, bool bar);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    void step_done(const StepRecord& record);
+    /// A line on stderr that stays, above the bar.
+    void say(const std::string& line);
+    /// Takes the bar away for good.
+    void close();
+
+  private:
+    void redraw_until_closed();
+    void draw();
+    void erase();
+
+    const Monitor& monitor_;
+    StopRule stop_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    ProgressState state_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool closed_ = false, drawn_ = false;
+    std::thread thread_;
+};
+
+/// Whether stderr is a terminal that can redraw a line.
+[[nodiscard]] bool stderr_is_terminal();
+
+} // namespace hemilux

@@ -1,0 +1,112 @@
+#include "app/results.h"
+
+#include "app/exit_code.h"
+#include "io/error.h"
+#include "io/image.h"
+#include "io/ply.h"
+#include "io/render.h"
+
+#include <functional>
+#include <optional>
+
+namespace hemilux {
+
+namespace {
+
+/// Renders when the first picture is asked for, and once only.
+class Picture {
+  public:
+    Picture(const ViewSettings& view, const Results& results) : view_(view), results_(results) {}
+
+    void write(const Output& output) {
+        if (!image_)
+            image_ = render_view();
+        if (output.kind == OutputKind::hdr)
+            write_hdr(output.path, *image_);
+        else
+            write_png(output.path, *image_,
+                      view_.exposure ? *view_.exposure : auto_exposure(*image_));
+    }
+
+  private:
+    [[nodiscard]] Image render_view() const {
+        const auto& [mesh, tracer, solution, statistics, steps] = results_;
+        const auto [width, height] = view_.size;
+        const double aspect = static_cast<double>(width) / height;
+        const Camera camera = view_.camera
+                                  ? *view_.camera
+                                  : automatic_camera(mesh, tracer, solution.radiosity, aspect);
+        return render(mesh, tracer, solution.radiosity, camera,
+                      {.width = width, .height = height, .threads = statistics.threads});
+    }
+
+    const ViewSettings& view_;
+    const Results& results_;
+    std::optional<Image> image_;
+};
+
+void write_output(const Output& output, const Results& results, Picture& picture) {
+    const Solution& solution = results.solution;
+    switch (output.kind) {
+    case OutputKind::png:
+    case OutputKind::hdr:
+        return picture.write(output);
+    case OutputKind::ply:
+        return write_ply(output.path, results.mesh, solution.radiosity);
+    case OutputKind::csv:
+        return write_patch_table(output.path, results.mesh, solution.radiosity,
+                                 solution.standard_error);
+    case OutputKind::json:
+        return write_statistics(output.path, results.statistics);
+    }
+}
+
+void attempt(const std::string& path, WriteReport& report, const std::function<void()>& write) {
+    try {
+        write();
+        report.written.push_back(path);
+    } catch (const OutputError& error) {
+        report.failed.emplace_back(error.what());
+    } catch (const std::exception& error) {
+        report.failed.push_back(path + ": " + error.what());
+    }
+}
+
+} // namespace
+
+std::vector<std::string> output_paths(const SolveSettings& settings) {
+    std::vector<std::string> paths;
+    for (const Output& output : settings.outputs)
+        paths.push_back(output.path);
+    for (const std::string& path : {settings.statistics, settings.steps_log})
+        if (!path.empty())
+            paths.push_back(path);
+    return paths;
+}
+
+void check_outputs(const SolveSettings& settings) {
+    std::vector<std::string> paths = output_paths(settings);
+    if (paths.empty())
+        throw UsageError("nothing would be written; add an output such as -o picture.png");
+    if (!settings.reference.empty())
+        paths.push_back(settings.reference); // must not be overwritten
+    check_distinct(paths);
+    for (const std::string& path : output_paths(settings))
+        check_writable(path);
+}
+
+WriteReport write_results(const SolveSettings& settings, const Results& results) {
+    WriteReport report;
+    Picture picture(settings.view, results);
+    for (const Output& output : settings.outputs)
+        attempt(output.path, report, [&] { write_output(output, results, picture); });
+    if (!settings.statistics.empty())
+        attempt(settings.statistics, report,
+                [&] { write_statistics(settings.statistics, results.statistics); });
+    if (!settings.steps_log.empty())
+        attempt(settings.steps_log, report,
+                [&] { write_steps_log(settings.steps_log, results.steps); });
+    return report;
+}
+
+} // namespace hemilux

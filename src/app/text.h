@@ -1,0 +1,27 @@
+#pragma once
+// Figures as people read them.
+
+#include "geometry/vector.h"
+
+#include <cstdint>
+#include <string>
+
+namespace hemilux {
+
+/// printf for std::string.
+[[nodiscard, gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+/// 999, 12.3 k, 4.56 M, 7.89 G.
+[[nodiscard]] std::string short_count(double count);
+/// 1 234 567
+[[nodiscard]] std::string grouped(std::uint64_t count);
+/// 1.2 ms, 0.42 s, 12.3 s, 3:05, 1:02:03
+[[nodiscard]] std::string duration(double seconds);
+/// 800 bytes, 12.3 kB, 4.56 MB
+[[nodiscard]] std::string byte_size(std::uint64_t bytes);
+/// 2.31 %; "unknown" for NaN.
+[[nodiscard]] std::string percent(double share);
+/// "1 patch", "2 patches".
+[[nodiscard]] std::string counted(std::uint64_t count, const std::string& one,
+                                  const std::string& many);
+
+} // namespace hemilux

@@ -1,0 +1,155 @@
+// Ctrl-C, and the progress bar that only a terminal gets to see.
+#include "app/program.h"
+#include "app/signals.h"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+
+using Catch::Contains;
+using test::Workplace;
+
+namespace {
+
+constexpr auto patience = std::chrono::seconds(60);
+
+/// The program in the background, its stderr in a file or on a terminal.
+class Running {
+  public:
+    Running(const Workplace& place, const std::string& arguments, const char* stderr_path)
+        : child_(fork()) {
+        if (child_ != 0)
+            return;
+        const std::string command = "exec '" HEMILUX_PROGRAM "' " + arguments;
+        const int talk = open(stderr_path, O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0600);
+        const bool ready = chdir(place.path("").c_str()) == 0 && dup2(talk, STDERR_FILENO) >= 0;
+        if (ready)
+            execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+        _exit(127);
+    }
+    ~Running() {
+        if (child_ > 0) {
+            kill(child_, SIGKILL);
+            waitpid(child_, nullptr, 0);
+        }
+    }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+    void interrupt() const { kill(child_, SIGINT); }
+    /// The exit code, or -1 for a death by signal.
+    int wait() {
+        int status = 0;
+        waitpid(std::exchange(child_, -1), &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+  private:
+    pid_t child_;
+};
+
+/// Until the file contains the text; false when that takes too long.
+bool wait_for(const Workplace& place, const std::string& file, const std::string& text) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (place.read(file).find(text) == std::string::npos) {
+        if (std::chrono::steady_clock::now() > end)
+            return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return true;
+}
+
+} // namespace
+
+TEST_CASE("the first interrupt sets the flag, the second ends the program with 130") {
+    const pid_t child = fork();
+    if (child == 0) {
+        std::atomic<bool> flag{false};
+        const hemilux::InterruptGuard guard(flag);
+        raise(SIGINT);
+        if (!flag)
+            _exit(1);
+        raise(SIGINT);
+        _exit(2); // not reached
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 130);
+}
+
+TEST_CASE("Ctrl-C writes what was computed and ends with 130") {
+    const Workplace place;
+    place.write_room();
+    const std::string method = GENERATE("hemisphere", "stratified", "progressive-monte-carlo");
+    Running run(place,
+                "solve room.obj --steps 4000000000 -v -o a.csv -o a.png --size 16x12 "
+                "--steps-log steps.csv --method " +
+                    method,
+                place.path("talk.txt").c_str());
+    REQUIRE(wait_for(place, "talk.txt", "step 2:"));
+    run.interrupt();
+    CHECK(run.wait() == 130);
+    CHECK_THAT(place.read("talk.txt"), Contains("interrupted; the outputs hold"));
+    CHECK(place.has("a.csv"));
+    CHECK(place.has("a.png"));
+    CHECK_THAT(place.read("steps.csv"), Contains(method + ",0,2,"));
+}
+
+TEST_CASE("Ctrl-C before the first step is done leaves emission alone, and says so") {
+    const Workplace place;
+    place.write_room();
+    const std::string method =
+        GENERATE("hemisphere", "stratified", "progressive-monte-carlo", "matrix");
+    CAPTURE(method);
+    Running run(place, "solve room.obj --max-edge .1 --rays 3e5 -v -o a.csv --method " + method,
+                place.path("talk.txt").c_str());
+    REQUIRE(wait_for(place, "talk.txt", "BVH:"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    run.interrupt();
+    CHECK(run.wait() == 130);
+    CHECK_THAT(place.read("talk.txt"), Contains("emission alone"));
+    CHECK_THAT(place.read("a.csv"), Contains(",10,8,6,10,8,6,") && Contains(",0,0,0,0,0,0,"));
+}
+
+TEST_CASE("a terminal gets a progress bar, which is gone at the end") {
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    REQUIRE(terminal >= 0);
+    REQUIRE(grantpt(terminal) == 0);
+    REQUIRE(unlockpt(terminal) == 0);
+    const std::string name = ptsname(terminal);
+    const int keep_open = open(name.c_str(), O_WRONLY | O_NOCTTY); // reading ends without an error
+
+    const Workplace place;
+    place.write_room();
+    Running run(place, "solve room.obj --time 1.5 -o a.csv", name.c_str());
+    std::string seen;
+    std::thread reader([&] {
+        char buffer[256];
+        while (seen.find("wrote a.csv") == std::string::npos) {
+            const ssize_t count = read(terminal, buffer, sizeof buffer);
+            if (count <= 0)
+                return;
+            seen.append(buffer, static_cast<std::size_t>(count));
+        }
+    });
+    const int code = run.wait();
+    CHECK(write(keep_open, "wrote a.csv", 11) == 11); // ends the reader whatever happened
+    reader.join();
+    close(keep_open);
+    close(terminal);
+
+    CHECK(code == 0);
+    CHECK_THAT(seen, Contains("rays/s") && Contains(" %  ") && Contains("left"));
+    const std::size_t summary = seen.find("hemisphere: 24 patches");
+    REQUIRE(summary != std::string::npos);
+    CHECK(seen.substr(0, summary).ends_with("\r\033[K"));
+    CHECK(seen.find('[', summary) == std::string::npos);
+}

@@ -1,0 +1,52 @@
+// The commands that README.md prints do what it says: every line of a block that is fenced as
+// ```sh run is executed in the repository's folder, with hemilux in the PATH.
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <istream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+/// The commands of all blocks, lines that end with a backslash joined to the next.
+std::vector<std::string> runnable_commands(std::istream& markdown) {
+    std::vector<std::string> commands;
+    bool inside = false, continued = false;
+    for (std::string line; std::getline(markdown, line);) {
+        if (line.rfind("```", 0) == 0) {
+            inside = line == "```sh run";
+            continued = false;
+        } else if (inside && !line.empty()) {
+            if (continued)
+                commands.back() += "\n" + line;
+            else
+                commands.push_back(line);
+            continued = line.back() == '\\';
+        }
+    }
+    return commands;
+}
+
+} // namespace
+
+TEST_CASE("runnable commands are told from other blocks") {
+    std::istringstream text("text\n```sh\nnot this\n```\n```sh run\none\n\ntwo \\\n  more\n```\n"
+                            "```\nnor this\n```\n```sh run\nthree\n```\n");
+    CHECK(runnable_commands(text) == std::vector<std::string>{"one", "two \\\n  more", "three"});
+}
+
+TEST_CASE("the commands of README.md work", "[slow]") {
+    const std::string root = HEMILUX_SOURCE_DIR;
+    const std::string programs = std::filesystem::path(HEMILUX_PROGRAM).parent_path().string();
+    std::ifstream readme(root + "/README.md");
+    REQUIRE(readme.good());
+    for (const std::string& command : runnable_commands(readme)) {
+        CAPTURE(command);
+        const std::string line = "cd '" + root + "' && PATH='" + programs + "':$PATH && " + command;
+        CHECK(std::system((line + " </dev/null >/dev/null").c_str()) == 0);
+    }
+}

@@ -1,0 +1,165 @@
+// What `hemilux solve` and `hemilux info` write and say.
+#include "app/program.h"
+#include "io/tables.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+using Catch::Contains;
+using test::Workplace;
+
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+} // namespace
+
+TEST_CASE("each output appears, whole and by its extension") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux(
+        "solve room.obj --steps 3 --size 40x30 --max-edge .3 -o p.png -o p.hdr -o p.ply -o p.csv "
+        "-o p.json --stats s.json --steps-log steps.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    CHECK(place.read("p.png").substr(1, 3) == "PNG");
+    CHECK(place.read("p.hdr").rfind("#?RADIANCE", 0) == 0);
+    CHECK(place.read("p.ply").rfind("ply\n", 0) == 0);
+    CHECK_THAT(place.read("p.json"), Contains("\"patches\": 96") && Contains("\"faces\": 24") &&
+                                         Contains("\"steps\": 3"));
+    CHECK(place.read("p.json") == place.read("s.json"));
+    CHECK(lines_of(place.read("p.csv")).size() == 97);
+
+    const auto steps = lines_of(place.read("steps.csv"));
+    REQUIRE(steps.size() == 4);
+    CHECK(steps[0] == "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,"
+                      "true_error_rest");
+    CHECK(steps[3].rfind("hemisphere,0,3,", 0) == 0);
+    CHECK(steps[3].ends_with(",,,")); // no reference, no true errors
+    for (const char* text : {"hemisphere: 96 patches, 3 steps", "rays/s", "estimated error",
+                             "balance", "wrote p.png", "wrote steps.csv"})
+        CHECK_THAT(outcome.err, Contains(text));
+    CHECK_THAT(outcome.err, !Contains("\r")); // no bar where there is no terminal
+}
+
+TEST_CASE("-q is silent and -v tells of every step") {
+    const Workplace place;
+    place.write_room();
+    CHECK(place.hemilux("solve room.obj --steps 2 -q -o a.csv").err.empty());
+    const std::string talk = place.hemilux("solve room.obj --steps 2 -v -o a.csv").err;
+    for (const char* text : {"24 patches", "BVH:", "step 1: ", "step 2: ", "memory:"})
+        CHECK_THAT(talk, Contains(text));
+}
+
+TEST_CASE("the same seed gives the same bytes whatever the number of threads") {
+    const Workplace place;
+    place.write_room();
+    const std::string common = "solve room.obj --max-edge .2 --steps 3 --size 64x48 -q --seed ";
+    for (const std::string method : {"hemisphere", "stratified", "progressive-monte-carlo"}) {
+        const std::string options = " --method " + method;
+        REQUIRE(
+            place.hemilux(common + "7 -t 1 -o 1.csv -o 1.ply -o 1.png -o 1.hdr" + options).code ==
+            0);
+        REQUIRE(
+            place.hemilux(common + "7 -t 2 -o 2.csv -o 2.ply -o 2.png -o 2.hdr" + options).code ==
+            0);
+        REQUIRE(place.hemilux(common + "8 -t 2 -o 3.csv" + options).code == 0);
+        for (const std::string kind : {".csv", ".ply", ".png", ".hdr"}) {
+            CAPTURE(method, kind);
+            CHECK(place.read("1" + kind) == place.read("2" + kind));
+        }
+        CHECK(place.read("1.csv") != place.read("3.csv"));
+    }
+}
+
+TEST_CASE("a reference gives true errors, apart for the detail groups") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place.hemilux("solve room.obj --method matrix --error .02 -q -o reference.csv").code ==
+            0);
+    const auto outcome = place.hemilux(
+        "solve room.obj --steps 8 --rays 500 --reference reference.csv --steps-log steps.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("true error") && Contains("detail") && Contains("z-scores"));
+    for (const std::string& row : lines_of(place.read("steps.csv")))
+        CHECK(std::count(row.begin(), row.end(), ',') == 8);
+    const std::string last = lines_of(place.read("steps.csv")).back();
+    std::vector<double> fields;
+    std::istringstream stream(last);
+    for (std::string field; std::getline(stream, field, ',');)
+        fields.push_back(fields.empty() ? 0 : std::stod(field));
+    REQUIRE(fields.size() == 9);
+    // 4000 rays per patch on 24 patches: well below 5 %.
+    for (std::size_t i = 5; i < 9; ++i) {
+        CHECK(fields[i] > 0);
+        CHECK(fields[i] < 0.05);
+    }
+    const auto named = place.hemilux("solve room.obj --steps 2 --reference reference.csv "
+                                     "--detail walls --detail lamp -o a.csv");
+    CHECK_THAT(named.err, Contains("(detail "));
+}
+
+TEST_CASE("the run stops at the first rule that is met") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place.hemilux("solve room.obj --error .2 --steps 1000 -q -o a.json").code == 0);
+    CHECK_THAT(place.read("a.json"), !Contains("\"steps\": 1000,"));
+    REQUIRE(place.hemilux("solve room.obj --time .2 --error 1e-9 -q -o a.json").code == 0);
+    REQUIRE(place.hemilux("solve room.obj --error 1e-9 --steps 2 -q -o a.json").code == 0);
+    CHECK_THAT(place.read("a.json"), Contains("\"steps\": 2,"));
+    // Nothing reflects, so that there is no error to wait for.
+    REQUIRE(place.hemilux("solve room.obj --error .01 --reflectance '*=0' -q -o a.json").code == 0);
+}
+
+TEST_CASE("the command line changes materials") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place
+                .hemilux("solve room.obj --steps 1 -q -o a.csv --reflectance '*=.25' "
+                         "--reflectance red=.1,.2,.3 --emission lamp=5")
+                .code == 0);
+    const std::string table = place.read("a.csv");
+    CHECK_THAT(table, Contains(",0.25,0.25,0.25,0,0,0,"));
+    CHECK_THAT(table, Contains(",red,") && Contains(",0.1,0.2,0.3,0,0,0,"));
+    CHECK_THAT(table, Contains(",0.25,0.25,0.25,5,5,5,"));
+}
+
+TEST_CASE("--two-sided gives each face two patches") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place.hemilux("solve room.obj --two-sided --steps 1 -q -o a.csv").code == 0);
+    CHECK(lines_of(place.read("a.csv")).size() == 49);
+}
+
+TEST_CASE("warnings of the reader are shown, but not without end") {
+    const Workplace place;
+    std::string scene = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    for (int i = 0; i < 30; ++i)
+        scene += "f 1 1 2\n";
+    place.write("flat.obj", scene);
+    const auto outcome = place.hemilux("solve flat.obj --emission default=1 --steps 1 -o a.csv");
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("warning: "));
+    CHECK(lines_of(outcome.err).size() < 20);
+}
+
+TEST_CASE("info describes a scene on stdout") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux("info room.obj");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    for (const char* text : {"faces", "24", "quads", "total area", "emitted power", "lamp"})
+        CHECK_THAT(outcome.out, Contains(text));
+    // What solve refuses is shown, not refused.
+    CHECK(place.hemilux("info room.obj --emission '*=0'").code == 0);
+    CHECK_THAT(place.hemilux("info room.obj --max-edge .3").out, Contains("96"));
+}
