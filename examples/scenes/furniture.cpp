@@ -207,9 +207,10 @@ void add_towers(SceneWriter& writer, const Placement& at, int columns, int rows,
             for (int k = 0; k < floor_count; ++k, edge *= 0.86) {
                 writer.use(book_colours[rng.bits() % book_colours.size()]);
                 const double height = edge * between(rng, 0.6, 1.0);
-                add_block(writer,
-                          at(Placement(foot + Vec3(0, y, 0)).facing(1, between(rng, -0.4, 0.4))),
-                          {edge, height, edge * between(rng, 0.8, 1.0)}, {1, 1, 1}, slit);
+                const double depth = edge * between(rng, 0.8, 1.0);
+                const double turn = between(rng, -0.4, 0.4);
+                add_block(writer, at(Placement(foot + Vec3(0, y, 0)).facing(1, turn)),
+                          {edge, height, depth}, {1, 1, 1}, slit);
                 y += height;
             }
         }
@@ -259,8 +260,8 @@ void add_pencils(SceneWriter& writer, const Placement& at, int count, std::uint6
     for (int i = 0; i < count; ++i) {
         writer.use(book_colours[static_cast<std::size_t>(i) % book_colours.size()]);
         const Placement foot(0.013 * (i % 4), 0.001, 0.013 * (i / 4) + 0.006 * (i % 2));
-        writer.add_prism(at(foot).facing(1, between(rng, -1, 1)),
-                         {0.0045, 0.004, between(rng, 0.03, 0.06), 6, 2});
+        const double length = between(rng, 0.03, 0.06), turn = between(rng, -1, 1);
+        writer.add_prism(at(foot).facing(1, turn), {0.0045, 0.004, length, 6, 2});
     }
 }
 

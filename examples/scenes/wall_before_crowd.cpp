@@ -25,8 +25,8 @@ void add_crowd(SceneWriter& writer, const Placement& at) {
                 const double x = (i + 0.5) * width / columns - width / 2;
                 const double z = (j + 0.5) * depth / rows - depth / 2;
                 writer.use(colours[rng.bits() % colours.size()]);
-                add_block(writer, board(Placement(x, 0, z).facing(1, rng.uniform() - 0.5)),
-                          {0.11, 0.1 + 0.2 * rng.uniform(), 0.1});
+                const double height = 0.1 + 0.2 * rng.uniform(), turn = rng.uniform() - 0.5;
+                add_block(writer, board(Placement(x, 0, z).facing(1, turn)), {0.11, height, 0.1});
             }
     }
 }

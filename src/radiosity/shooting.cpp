@@ -257,17 +257,29 @@ void ShootingSolver::receive(const Volley& volley, const std::vector<Vec3>& unsh
     tally.rays += ray;
 }
 
+/// What a single ray of all steps so far would add to the patch's radiosity.
+Vec3 ShootingSolver::one_ray(std::uint32_t patch) const {
+    const double area = input_.mesh.patches()[patch].area;
+    const double emitted = scalar(solution_.energy.emitted);
+    if (input_.options.literal || !(emitted > 0) || !(area > 0))
+        return Vec3(0.0);
+    const Vec3 power = ray_power_ / emitted * solution_.energy.emitted;
+    return input_.mesh.material(patch).reflectance * power / (area * solution_.steps);
+}
+
+/// Mean and spread of the steps. A patch that no ray has struck shows no spread, though one ray
+/// more might have struck it: a standard error is never below what one ray brings.
 void ShootingSolver::combine(const std::vector<Vec3>& radiosity, const StepTally& tally) {
     const double n = ++solution_.steps;
-    for (std::size_t i = 0; i < radiosity.size(); ++i) {
-        const Vec3 from_mean = radiosity[i] - (n > 1 ? solution_.radiosity[i] : Vec3(0.0));
-        const Vec3 mean = (n > 1 ? solution_.radiosity[i] : Vec3(0.0)) + from_mean / n;
-        if (n > 1) {
-            squares_[i] += from_mean * (radiosity[i] - mean);
-            solution_.standard_error[i] = glm::sqrt(squares_[i] / (n * (n - 1)));
-        }
-        solution_.radiosity[i] = mean;
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
+        const Vec3 before = n > 1 ? solution_.radiosity[i] : Vec3(0.0);
+        solution_.radiosity[i] = before + (radiosity[i] - before) / n;
         solution_.hits[i] += tally.hits[i];
+        if (n > 1) {
+            squares_[i] += (radiosity[i] - before) * (radiosity[i] - solution_.radiosity[i]);
+            solution_.standard_error[i] =
+                glm::max(glm::sqrt(squares_[i] / (n * (n - 1))), one_ray(i));
+        }
     }
     solution_.rays_energy += tally.rays;
     power_absorbed_ += tally.absorbed;

@@ -61,6 +61,7 @@ class ShootingSolver final : public Solver {
     void receive(const Volley& volley, const std::vector<Vec3>& unshot, std::vector<Vec3>& received,
                  StepTally& tally);
     bool find_ray_power();
+    [[nodiscard]] Vec3 one_ray(std::uint32_t patch) const;
     void combine(const std::vector<Vec3>& radiosity, const StepTally& tally);
 
     SolverInput input_;

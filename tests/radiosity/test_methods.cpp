@@ -94,7 +94,8 @@ TEST_CASE("A closed room keeps its energy, and colours do not mix") {
 }
 
 TEST_CASE("The lit cube's face means") {
-    // The exact discrete solution of references.md, n = 4.
+    // The exact solution of the 96 equations, from the closed form of rectangles that face each
+    // other.
     const Model model(test::cube_with_lit_floor(4, .5));
     for (const Method* method : methods()) {
         const Solution s = test::solve(model, *method, with_seed(5, 256), enough(*method, 100));

@@ -22,7 +22,7 @@ void add_quad(Scene& scene, const Vec3& a, const Vec3& b, const Vec3& c, const V
 /// A closed L-shaped room of one material: not convex, so its patches do not all see each other.
 [[nodiscard]] Scene furnace_l_shape(double reflectance, double emission = 1);
 
-/// The unit cube of references.md: n x n quads a face, floor emits 1, all reflect the same.
+/// The unit cube: n x n quads a face, floor emits 1, all reflect the same.
 [[nodiscard]] Scene cube_with_lit_floor(std::uint32_t n, double reflectance);
 
 /// A sphere of triangles around the origin, facing inward: an octahedron divided `level` times.

@@ -46,9 +46,10 @@ class HemisphereStrategy final : public Strategy {
     [[nodiscard]] std::uint64_t density_bytes() const override { return density_.bytes(); }
 
   private:
-    /// A triangle whose three vertices saw little may still hold something: it keeps this share of
-    /// the average density, so that no ray carries more than four times the mean (D5).
-    static constexpr double least_density = 0.25;
+    /// A triangle whose three vertices saw nothing may still hold something: it counts as one
+    /// surface, and as a share of the average, so that no ray carries more than four times the
+    /// mean. Where nothing is seen anywhere, rays then follow the power (D5).
+    static constexpr double least_density = 1, least_share = 0.25;
 
     /// A_tr / A_hemi
     [[nodiscard]] double area_share(std::uint16_t cell) const {
@@ -59,14 +60,15 @@ class HemisphereStrategy final : public Strategy {
 
     void deal_rays(const std::vector<DensityLeaf>& leaves, double average,
                    std::vector<CellShare>& shares) const {
-        const double least = literal_ ? 0 : least_density * average;
+        const double least = std::max(least_density, least_share * average);
         double sum = 0;
         for (std::size_t i = 0; i < shares.size(); ++i) {
-            // Where nothing was seen anywhere, rays follow the power.
-            const double density = average > 0 ? std::max<double>(leaves[i].density, least) : 1;
-            shares[i].rays = shares[i].power * density;
+            const double density = leaves[i].density; // D_tr
+            shares[i].rays = shares[i].power * (literal_ ? density : std::max(density, least));
             sum += shares[i].rays;
         }
+        if (!(sum > 0)) // literal, and nothing was seen: no ray is shot, as printed
+            return;
         for (CellShare& share : shares)
             share.rays /= sum;
     }
