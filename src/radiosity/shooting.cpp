@@ -35,6 +35,8 @@ double mean_reflectance(const Mesh& mesh) {
 /// Patches that one thread takes at a time, and patches whose rays are kept until they are summed.
 constexpr std::size_t patches_per_volley = 32;
 constexpr double rays_per_batch = 2e6;
+/// Fewer rays than this are traced sooner than other threads would be started.
+constexpr double rays_for_one_thread = 2000;
 
 /// The pilot's stream; steps count from 0.
 constexpr std::uint64_t pilot_stream = ~std::uint64_t{0};
@@ -144,25 +146,27 @@ std::uint64_t ShootingSolver::bounce(std::uint64_t stream, const std::vector<Vec
     plan(stream, unshot);
     const std::size_t patches = unshot.size();
     const std::uint64_t before = tally.rays;
+    const double planned = rays_before_[patches] - rays_before_[0];
+    const Workers workers = planned < rays_for_one_thread ? Workers(1) : workers_;
     std::vector<Volley> volleys;
     for (std::size_t begin = 0; begin < patches;) {
         std::size_t end = begin;
         while (end < patches && rays_before_[end] - rays_before_[begin] <= rays_per_batch)
             end = std::min(end + patches_per_volley, patches);
         volleys.resize((end - begin + patches_per_volley - 1) / patches_per_volley);
-        workers_.for_chunks(
-            end - begin, patches_per_volley, [&](std::size_t first, std::size_t last) {
-                Volley& volley = volleys[first / patches_per_volley];
-                volley.bursts.clear();
-                volley.receivers.clear();
-                if (input_.monitor.interrupted)
-                    return;
-                std::vector<CellShare> shares;
-                for (std::size_t i = begin + first; i < begin + last; ++i)
-                    if (scalar(unshot[i]) > 0)
-                        shoot(static_cast<std::uint32_t>(i), stream, shares, volley);
-                input_.monitor.rays += volley.receivers.size();
-            });
+        workers.for_chunks(end - begin, patches_per_volley,
+                           [&](std::size_t first, std::size_t last) {
+                               Volley& volley = volleys[first / patches_per_volley];
+                               volley.bursts.clear();
+                               volley.receivers.clear();
+                               if (input_.monitor.interrupted)
+                                   return;
+                               std::vector<CellShare> shares;
+                               for (std::size_t i = begin + first; i < begin + last; ++i)
+                                   if (scalar(unshot[i]) > 0)
+                                       shoot(static_cast<std::uint32_t>(i), stream, shares, volley);
+                               input_.monitor.rays += volley.receivers.size();
+                           });
         for (const Volley& volley : volleys)
             receive(volley, unshot, received, tally);
         input_.monitor.step_share =

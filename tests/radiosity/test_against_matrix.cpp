@@ -52,7 +52,7 @@ TEST_CASE("Deviations from matrix are those of the reported standard errors", "[
 
 TEST_CASE("The error falls as one over the root of the rays, over three decades", "[slow]") {
     const Model model(test::room_with_block());
-    const Solution exact = test::reference(model, .0003);
+    const Solution exact = test::reference(model, .0006);
     for (const Method* method : methods()) {
         if (!method->unbiased)
             continue;
@@ -94,7 +94,7 @@ TEST_CASE("Plain Monte Carlo has its known error on the lit cube", "[slow]") {
 
 TEST_CASE("The reference tells its own error", "[slow]") {
     const Model model(test::room_with_block());
-    const Solution fine = test::reference(model, .0003);
+    const Solution fine = test::reference(model, .0006);
     SolveOptions options;
     options.seed = 4;
     const Method& matrix = *find_method("matrix");

@@ -47,7 +47,7 @@ TEST_CASE("White furnace: every patch within 4 standard errors of E / (1 - rho)"
             for (const bool convex : {true, false}) {
                 const Model model(convex ? test::furnace_box(3, rho) : test::furnace_l_shape(rho));
                 const Solution s =
-                    test::solve(model, *method, with_seed(11, 32), enough(*method, 256));
+                    test::solve(model, *method, with_seed(11, 32), enough(*method, 128));
                 CAPTURE(method->name, rho, convex);
                 CHECK(worst_deviation(s, Vec3(1 / (1 - rho))) < 4);
             }
