@@ -1,6 +1,6 @@
 #include "io/png_reader.h"
 
-#include "io/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 #include <array>
 #include <cstdlib>

@@ -2,7 +2,7 @@
 #include "io/error.h"
 #include "io/image.h"
 #include "io/png_reader.h"
-#include "io/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 #include "io/inspect.h"
 
-#include "io/temporary_scene.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 using namespace hemilux;
-using hemilux::test::TemporaryScene;
+using hemilux::test::TemporaryFolder;
 
 namespace {
 
@@ -28,7 +28,7 @@ std::string box_text(bool with_lid) {
 }
 
 ReadResult read_box(bool with_lid, const std::string& more = "") {
-    const TemporaryScene folder;
+    const TemporaryFolder folder;
     folder.write("box.mtl", "newmtl lamp\nKd .5\nKe 3 2 1\nnewmtl wall\nKd .7\nnewmtl spare\nKd 1\n"
                             "Ke 1\nnewmtl mirror\nKd 0.5 1 0.5\n");
     return read_obj(folder.write("box.obj", box_text(with_lid) + more));

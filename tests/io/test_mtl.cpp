@@ -2,19 +2,19 @@
 
 #include "io/error.h"
 #include "io/material_table.h"
-#include "io/temporary_scene.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
 #include <string>
 
 using namespace hemilux;
-using hemilux::test::TemporaryScene;
+using hemilux::test::TemporaryFolder;
 
 namespace {
 
 std::vector<MtlMaterial> read(const std::string& content) {
-    const TemporaryScene folder;
+    const TemporaryFolder folder;
     return read_mtl(folder.write("m.mtl", content));
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("colours that are none are refused with file and line", "[mtl]") {
     for (const std::string colour :
          {"Kd", "Kd .1 .2", "Kd -.1", "Kd .1 .2 -1", "Kd nan", "Ke inf", "Ke 1e200", "Kd 0,5",
           "Kd spectral file.rfl 1", "Kd xyz .1 .2 .3"}) {
-        const TemporaryScene folder;
+        const TemporaryFolder folder;
         const std::string path = folder.write("m.mtl", "newmtl a\n\n" + colour + "\n");
         INFO(colour);
         CHECK_THROWS_WITH(read_mtl(path), Catch::StartsWith(path + ":3: expected 1 or 3 numbers"));
@@ -63,7 +63,7 @@ TEST_CASE("colours that are none are refused with file and line", "[mtl]") {
 }
 
 TEST_CASE("the first of several definitions is taken", "[mtl]") {
-    const TemporaryScene folder;
+    const TemporaryFolder folder;
     const std::string a = folder.write("a.mtl", "newmtl m\nKd .25\nnewmtl m\nKd .75\n");
     const std::string b = folder.write("b.mtl", "newmtl m\nKe 1\n");
     MaterialTable table(folder.path("scene.obj"));
@@ -79,7 +79,7 @@ TEST_CASE("the first of several definitions is taken", "[mtl]") {
 }
 
 TEST_CASE("textures are told in one warning", "[mtl]") {
-    const TemporaryScene folder;
+    const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl a\nmap_Kd x.png\nnewmtl b\nKd .1\nmap_Kd y.png\nnewmtl c\n");
     MaterialTable table(folder.path("scene.obj"));
     table.read_libraries("a.mtl", 1);

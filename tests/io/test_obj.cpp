@@ -1,6 +1,6 @@
 #include "io/obj.h"
 
-#include "io/temporary_scene.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,14 +8,14 @@
 #include <string>
 
 using namespace hemilux;
-using hemilux::test::TemporaryScene;
+using hemilux::test::TemporaryFolder;
 
 namespace {
 
 const std::string triangle_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 ReadResult read(const std::string& content) {
-    const TemporaryScene folder;
+    const TemporaryFolder folder;
     return read_obj(folder.write("scene.obj", content));
 }
 
@@ -173,7 +173,7 @@ TEST_CASE("groups are those of the latest g since the last o, else of that o", "
 }
 
 TEST_CASE("materials come from libraries, before or after their use", "[obj]") {
-    const TemporaryScene folder;
+    const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl unused\nKd .1 .1 .1\nnewmtl red wall\nKd .6 .1 .1\n");
     folder.write("b c.mtl", "newmtl lamp #1\nKd .8\nKe 17 12 4\n");
     const ReadResult result = read_obj(folder.write(
@@ -198,7 +198,7 @@ TEST_CASE("libraries are found in every usual way", "[obj]") {
     for (const std::string names :
          {"x.mtl", "sub\\x.mtl", "./sub/x.mtl", "\"x.mtl\"", "C:\\models\\x.mtl", "y.mtl x.mtl",
           "x.mtl x.mtl", "/nowhere/x.mtl"}) {
-        const TemporaryScene folder;
+        const TemporaryFolder folder;
         const std::string library = "newmtl m\nKd .25\n";
         if (names.find("sub") != std::string::npos)
             folder.write("sub/x.mtl", library);

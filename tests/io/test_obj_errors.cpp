@@ -2,15 +2,15 @@
 
 #include "io/error.h"
 #include "io/obj.h"
-#include "io/temporary_scene.h"
 #include "radiosity/rng.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
 #include <string>
 
 using namespace hemilux;
-using hemilux::test::TemporaryScene;
+using hemilux::test::TemporaryFolder;
 
 namespace {
 
@@ -18,7 +18,7 @@ const std::string triangle_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 /// The message without the folder; empty where nothing was thrown.
 std::string error_of(const std::string& content) {
-    const TemporaryScene folder;
+    const TemporaryFolder folder;
     const std::string path = folder.write("s.obj", content);
     try {
         (void)read_obj(path);
@@ -81,7 +81,7 @@ TEST_CASE("files that are no OBJ files are refused", "[obj]") {
     CHECK(error_of(std::string("\xfe\xff\0v", 4)).find("UTF-16") != std::string::npos);
     CHECK(starts_with_line(error_of("v 0 0 0\n" + std::string("v 0\0 0\n", 7)), 2));
 
-    const TemporaryScene folder;
+    const TemporaryFolder folder;
     CHECK_THROWS_AS(read_obj(folder.path("missing.obj")), InputError);
     CHECK_THROWS_AS(read_obj(folder.path(".")), InputError);
     CHECK_THROWS_AS(read_obj(""), InputError);
@@ -89,7 +89,7 @@ TEST_CASE("files that are no OBJ files are refused", "[obj]") {
 }
 
 TEST_CASE("an error in a library names the library", "[obj]") {
-    const TemporaryScene folder;
+    const TemporaryFolder folder;
     const std::string library = folder.write("m.mtl", "newmtl a\nKd 0.5 -1 0\n");
     const std::string scene =
         folder.write("s.obj", "mtllib m.mtl\n" + triangle_vertices + "f 1 2 3\n");

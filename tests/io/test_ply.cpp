@@ -1,8 +1,8 @@
 #include "io/error.h"
 #include "io/ply.h"
-#include "io/temporary_folder.h"
 #include "radiosity/mesh.h"
 #include "support/scenes.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 

@@ -2,10 +2,10 @@
 #include "io/csv.h"
 #include "io/error.h"
 #include "io/tables.h"
-#include "io/temporary_folder.h"
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
 #include "support/scenes.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 

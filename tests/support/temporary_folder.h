@@ -1,9 +1,9 @@
 #pragma once
 // A folder for the files of one test, removed at its end.
 
-#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -11,20 +11,20 @@
 
 namespace hemilux::test {
 
-class TemporaryScene {
+class TemporaryFolder {
   public:
-    TemporaryScene() {
-        static std::atomic<int> count{0};
+    TemporaryFolder() {
+        static int counter = 0;
         folder_ = std::filesystem::temp_directory_path() /
-                  ("hemilux-scene-" + std::to_string(getpid()) + "-" + std::to_string(count++));
+                  ("hemilux_" + std::to_string(::getpid()) + "_" + std::to_string(counter++));
         std::filesystem::create_directories(folder_);
     }
-    ~TemporaryScene() {
+    ~TemporaryFolder() {
         std::error_code ignored;
         std::filesystem::remove_all(folder_, ignored);
     }
-    TemporaryScene(const TemporaryScene&) = delete;
-    TemporaryScene& operator=(const TemporaryScene&) = delete;
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
     [[nodiscard]] std::string path(const std::string& name) const {
         return (folder_ / name).string();
@@ -35,9 +35,18 @@ class TemporaryScene {
         std::ofstream(folder_ / name, std::ios::binary) << content;
         return path(name);
     }
+    [[nodiscard]] std::size_t files() const {
+        using Iterator = std::filesystem::directory_iterator;
+        return static_cast<std::size_t>(std::distance(Iterator(folder_), Iterator()));
+    }
 
   private:
     std::filesystem::path folder_;
 };
+
+inline std::string content_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
 
 } // namespace hemilux::test
