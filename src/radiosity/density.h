@@ -46,8 +46,9 @@ class DensityMap {
     }
 
   private:
-    /// Patches are of different length; only the start of each block is kept.
-    static constexpr std::size_t block_size = 64;
+    /// Patches are of different length; only the start of each block is kept, and within a block
+    /// the trees are walked to find the next.
+    static constexpr std::size_t block_size = 8;
 
     /// The counts of the patches of one block and how many each patch has.
     struct Block {

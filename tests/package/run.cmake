@@ -1,5 +1,6 @@
 # Installs the library from build folder BUILD, then configures, builds and runs the consumer beside
-# this file against what was installed, as a user would. Nothing but BUILD/package_test is written.
+# this file against what was installed, as a user would; then the same with the program that
+# README.md prints. Nothing but BUILD/package_test is written.
 cmake_minimum_required(VERSION 3.25)
 set(work ${BUILD}/package_test)
 file(REMOVE_RECURSE ${work})
@@ -18,8 +19,24 @@ foreach(folder io app)
     message(FATAL_ERROR "headers of src/${folder} were installed; the library has none of them")
   endif()
 endforeach()
-step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${work}/build -G ${GENERATOR}
-     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS}
-     -DCMAKE_PREFIX_PATH=${work}/installed)
-step(${CMAKE_COMMAND} --build ${work}/build)
-step(${work}/build/consumer)
+
+function(build_and_run source build program)
+  step(${CMAKE_COMMAND} -S ${source} -B ${build} -G ${GENERATOR}
+       -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS}
+       -DCMAKE_PREFIX_PATH=${work}/installed)
+  step(${CMAKE_COMMAND} --build ${build})
+  step(${build}/${program})
+endfunction()
+
+build_and_run(${CMAKE_CURRENT_LIST_DIR} ${work}/build consumer)
+
+file(READ ${CMAKE_CURRENT_LIST_DIR}/../../README.md readme)
+foreach(block "cmake;CMakeLists.txt" "cpp;first.cpp")
+  list(GET block 0 language)
+  list(GET block 1 name)
+  if(NOT readme MATCHES "```${language}\n([^`]+)```")
+    message(FATAL_ERROR "README.md has no block of ${language}")
+  endif()
+  file(WRITE ${work}/readme/${name} "${CMAKE_MATCH_1}")
+endforeach()
+build_and_run(${work}/readme ${work}/readme/build first)

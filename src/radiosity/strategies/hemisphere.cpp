@@ -10,8 +10,8 @@
 // D_average is weighted by the same areas, so that the N_tr sum to N_hemi (D4). With --literal A is
 // the solid angle, as printed: the light is then distributed wrongly, however many rays are shot.
 //
-// Good where small objects crowd in few directions; bad where a wall hides a crowd, to which it
-// sends rays in vain. Costs at most 41 rays and bytes per patch at depth 2.
+// Good where small objects crowd in few directions; little use where a wall hides a crowd, to
+// which it sends rays in vain. Costs at most 41 rays and bytes per patch at depth 2.
 
 #include "radiosity/density.h"
 #include "radiosity/shooting.h"
@@ -47,7 +47,7 @@ class HemisphereStrategy final : public Strategy {
 
   private:
     /// A triangle whose three vertices saw nothing may still hold something: it counts as one
-    /// surface, and as a share of the average, so that no ray carries more than four times the
+    /// surface, and as a share of the average, so that no ray carries more than five times the
     /// mean. Where nothing is seen anywhere, rays then follow the power (D5).
     static constexpr double least_density = 1, least_share = 0.25;
 
