@@ -1,32 +1,19 @@
 #include "radiosity/sampled_form_factors.h"
 
-#include "geometry/projected_polygon.h"
 #include "radiosity/mesh.h"
+#include "radiosity/point_to_patch.h"
 #include "radiosity/rng.h"
+#include "radiosity/shot.h"
 #include "radiosity/sobol.h"
 #include "radiosity/solver.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace hemilux {
 namespace {
 
 constexpr std::size_t rows_per_chunk = 16;
-
-/// A direction with density cos(theta) / pi by the concentric map of square and disc (Shirley and
-/// Chiu 1997), which keeps the distances between points better than polar coordinates.
-Vec3 cosine_direction(double u, double v) {
-    const double a = 2 * u - 1, b = 2 * v - 1;
-    if (a == 0 && b == 0)
-        return {0, 0, 1};
-    const bool wide = std::abs(a) > std::abs(b);
-    const double r = wide ? a : b;
-    const double phi = wide ? std::numbers::pi / 4 * (b / a)
-                            : std::numbers::pi / 2 - std::numbers::pi / 4 * (a / b);
-    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0, 1 - r * r))};
-}
 
 } // namespace
 
@@ -84,7 +71,7 @@ void SampledFormFactors::trace_row(std::uint32_t patch, std::uint32_t begin, std
     std::vector<std::uint32_t> struck;
     for (std::uint32_t k = begin; k < end; ++k) {
         const auto u = sobol4(k, seed);
-        Ray ray{from.shape.sample({u[0], u[1]}), frame.to_world(cosine_direction(u[2], u[3]))};
+        Ray ray{from.shape.sample({u[0], u[1]}), frame.to_world(cosine_direction({u[2], u[3]}))};
         ray.from = from.facet;
         const auto hit = tracer_.closest(ray);
         const std::uint32_t receiver = hit ? mesh_.patch_at(*hit) : none;
@@ -121,33 +108,9 @@ std::uint64_t SampledFormFactors::trace_emitters(std::uint32_t patch, std::uint3
         const std::uint64_t seed = hash_words({seed_, patch, emitters_[e], 1});
         double& sum = emitter_sum_[patch * emitters_.size() + e];
         for (std::uint32_t k = begin; k < end; ++k)
-            sum += point_to_emitter(patch, emitters_[e], sobol4(k, seed), rays);
+            sum += point_to_patch(mesh_, tracer_, patch, emitters_[e], sobol4(k, seed), rays);
     }
     return rays;
-}
-
-/// The form factor from a random point of the patch to the whole emitter, if a random ray to it
-/// arrives.
-double SampledFormFactors::point_to_emitter(std::uint32_t patch, std::uint32_t emitter,
-                                            const std::array<double, 4>& u,
-                                            std::uint64_t& rays) const {
-    const Patch& to = mesh_.patches()[emitter];
-    const Patch& from = mesh_.patches()[patch];
-    if (to.facet == from.facet)
-        return 0;
-    const Vec3 point = from.shape.sample({u[0], u[1]});
-    const double height = glm::dot(to.normal, point - to.centre);
-    if (!(height > 0)) // behind the emitter
-        return 0;
-    const ProjectedPolygon seen(point, Frame::from_normal(from.normal), to.shape);
-    if (!(seen.factor() > 0))
-        return 0;
-    ++rays;
-    Ray ray{point, seen.sample({u[2], u[3]})};
-    ray.from = from.facet;
-    // Short of the emitter by what rounding may do: a coplanar facet is not in front of it.
-    ray.t_max = -height / glm::dot(to.normal, ray.direction) * (1 - 1e-10);
-    return ray.t_max > 0 && !tracer_.occluded(ray, to.facet) ? seen.factor() : 0;
 }
 
 LostShare SampledFormFactors::lost(std::uint32_t patch) const {

@@ -68,9 +68,6 @@ class SampledFormFactors {
 
     void trace_row(std::uint32_t patch, std::uint32_t begin, std::uint32_t end);
     std::uint64_t trace_emitters(std::uint32_t patch, std::uint32_t begin, std::uint32_t end);
-    [[nodiscard]] double point_to_emitter(std::uint32_t patch, std::uint32_t emitter,
-                                          const std::array<double, 4>& u,
-                                          std::uint64_t& rays) const;
     [[nodiscard]] std::vector<std::vector<Count>> merged_counts() const;
     [[nodiscard]] std::uint32_t emitter_samples(std::uint32_t rays) const;
 

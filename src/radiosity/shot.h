@@ -1,0 +1,69 @@
+#pragma once
+// What all methods that shoot rays at random share: points and directions to shoot from, where a
+// ray arrives, and what power in three channels is worth.
+
+#include "bvh/tracer.h"
+#include "radiosity/mesh.h"
+#include "radiosity/rng.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hemilux {
+
+/// Where a ray arrived if not at a patch: in the open, or on the back of a one-sided face.
+inline constexpr std::uint32_t escaped = 0xffffffff, absorbed = 0xfffffffe;
+
+/// What decides how many rays a power in three channels is worth.
+[[nodiscard]] inline double mean_of_channels(const Vec3& power) {
+    return (power.x + power.y + power.z) / 3;
+}
+
+/// Weighted by area; at most .999, so that 1 / (1 - rho) remains a number of use.
+[[nodiscard]] inline double mean_reflectance(const Mesh& mesh) {
+    double area = 0, sum = 0;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        area += mesh.patches()[i].area;
+        sum += mesh.patches()[i].area * mean_of_channels(mesh.material(i).reflectance);
+    }
+    return area > 0 ? std::min(sum / area, .999) : 0;
+}
+
+/// A direction with density cos(theta) / pi: uniform on the disc, lifted to the hemisphere.
+[[nodiscard]] inline Vec3 sample_cosine(Rng& rng) {
+    const double r2 = rng.uniform(), phi = 2 * std::numbers::pi * rng.uniform();
+    const double r = std::sqrt(r2);
+    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r2)};
+}
+
+/// A direction with density cos(theta) / pi by the concentric map of square and disc (Shirley and
+/// Chiu 1997), which keeps the distances between points better than polar coordinates.
+[[nodiscard]] inline Vec3 cosine_direction(Vec2 u) {
+    const double a = 2 * u.x - 1, b = 2 * u.y - 1;
+    if (a == 0 && b == 0)
+        return {0, 0, 1};
+    const bool wide = std::abs(a) > std::abs(b);
+    const double r = wide ? a : b;
+    const double phi = wide ? std::numbers::pi / 4 * (b / a)
+                            : std::numbers::pi / 2 - std::numbers::pi / 4 * (a / b);
+    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0, 1 - r * r))};
+}
+
+/// A point uniform over a polygon.
+[[nodiscard]] inline Vec3 sample_uniform(const Polygon& polygon, Rng& rng) {
+    const double u = rng.uniform(), v = rng.uniform();
+    return polygon.sample({u, v});
+}
+
+/// The patch that the ray strikes, or `escaped` or `absorbed`.
+[[nodiscard]] inline std::uint32_t receiver_of(const Ray& ray, const Mesh& mesh,
+                                               const Tracer& tracer) {
+    const auto hit = tracer.closest(ray);
+    if (!hit)
+        return escaped;
+    const std::uint32_t receiver = mesh.patch_at(*hit);
+    return receiver == none ? absorbed : receiver;
+}
+
+} // namespace hemilux

@@ -1,0 +1,135 @@
+// Monte Carlo radiosity (paper section 3.2; Shirley 1991, "Radiosity via ray tracing", Graphics
+// Gems II).
+//
+// The patch with the largest unshot energy A_i B_i shoots first, all of it at once, by rays from
+// random points in cosine-distributed directions. Each ray carries about the same power, the same
+// throughout the run, so a patch shoots rays in proportion to what it has gathered. No form factor
+// is computed: a patch receives what the rays that strike it bring. Fractions of a ray are settled
+// by chance, which keeps the estimate unbiased and ends the step by itself: a patch with a third of
+// a ray shoots a whole one in a third of all cases.
+//
+// Each step is such a solution from emission on; the result is their mean (stepwise.h).
+//
+// Parameter: --rays, the mean number of rays per patch and step.
+// Good as a yardstick: nothing but rays. Bad where small patches matter, whose error is that of
+// counting few hits, and with many threads: a shot depends on the one before, so only the rays of
+// one patch are traced at once. Costs one ray after the other and no memory to speak of.
+
+#include "geometry/frame.h"
+#include "radiosity/largest_first.h"
+#include "radiosity/shot.h"
+#include "radiosity/stepwise.h"
+#include "radiosity/workers.h"
+
+#include <cmath>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+/// Rays with a random stream of their own, which one thread traces.
+constexpr std::size_t rays_per_stream = 512;
+/// Fewer than this are traced sooner than other threads would be started.
+constexpr std::size_t rays_for_one_thread = 2048;
+
+class MonteCarloSolver final : public StepwiseSolver {
+  public:
+    explicit MonteCarloSolver(const SolverInput& input)
+        : StepwiseSolver(input, true), workers_(input.options.threads) {}
+
+  private:
+    bool solve_once(std::uint64_t stream, StepResult& result) override {
+        const auto patches = static_cast<std::uint32_t>(input_.mesh.patches().size());
+        std::vector<Vec3> unshot(patches);
+        LargestFirst order(patches);
+        for (std::uint32_t i = 0; i < patches; ++i) {
+            unshot[i] = result.radiosity[i] * input_.mesh.patches()[i].area;
+            order.set(i, mean_of_channels(unshot[i]));
+        }
+        for (std::uint64_t shots = 0; order.largest() > 0; ++shots) {
+            if (input_.monitor.interrupted)
+                return false;
+            const auto shooter = static_cast<std::uint32_t>(order.index_of_largest());
+            const Vec3 power = std::exchange(unshot[shooter], Vec3(0.0));
+            order.set(shooter, 0);
+            result.shot += mean_of_channels(power);
+            const Vec3 each =
+                shoot(shooter, power, hash_words({input_.options.seed, stream, shots}));
+            for (const std::uint32_t i : receivers_)
+                if (i < patches) {
+                    unshot[i] += arrive(i, each, result);
+                    order.set(i, mean_of_channels(unshot[i]));
+                } else {
+                    (i == escaped ? result.escaped : result.absorbed) += each;
+                }
+            count(result);
+        }
+        return true;
+    }
+
+    /// Fills receivers_, one for each ray, and returns the power of a ray.
+    Vec3 shoot(std::uint32_t shooter, const Vec3& power, std::uint64_t stream) {
+        const double expected = mean_of_channels(power) / ray_power();
+        const double n = std::floor(expected + Rng(stream).uniform());
+        receivers_.resize(static_cast<std::size_t>(n));
+        const Workers workers = receivers_.size() < rays_for_one_thread ? Workers(1) : workers_;
+        workers.for_chunks(
+            receivers_.size(), rays_per_stream, [&](std::size_t begin, std::size_t end) {
+                Rng rng(hash_words({stream, begin / rays_per_stream}));
+                for (std::size_t k = begin; k < end && !input_.monitor.interrupted; ++k)
+                    receivers_[k] = trace(shooter, rng);
+            });
+        // Below one ray, the ray that is shot carries the power of those that are not.
+        return power / (expected >= 1 ? n : expected);
+    }
+
+    [[nodiscard]] std::uint32_t trace(std::uint32_t shooter, Rng& rng) const {
+        const Patch& from = input_.mesh.patches()[shooter];
+        Ray ray{sample_uniform(from.shape, rng),
+                Frame::from_normal(from.normal).to_world(sample_cosine(rng))};
+        ray.from = from.facet;
+        return receiver_of(ray, input_.mesh, input_.tracer);
+    }
+
+    /// The part of a ray's power that the patch reflects, which it now holds unshot.
+    Vec3 arrive(std::uint32_t patch, const Vec3& power, StepResult& result) const {
+        const Vec3& reflectance = input_.mesh.material(patch).reflectance;
+        const Vec3 reflected = reflectance * power;
+        const double area = input_.mesh.patches()[patch].area;
+        result.absorbed += power - reflected;
+        if (area > 0)
+            result.radiosity[patch] += reflected / area;
+        ++result.hits[patch];
+        return reflected;
+    }
+
+    void count(StepResult& result) {
+        result.rays += receivers_.size();
+        input_.monitor.rays += receivers_.size();
+        input_.monitor.step_share = std::min(
+            1.0, static_cast<double>(result.rays) /
+                     (input_.options.rays * static_cast<double>(input_.mesh.patches().size())));
+    }
+
+    Workers workers_;
+    std::vector<std::uint32_t> receivers_; ///< of the present shot, ray by ray
+};
+
+std::unique_ptr<Solver> make_monte_carlo(const SolverInput& input) {
+    return std::make_unique<MonteCarloSolver>(input);
+}
+
+} // namespace
+
+extern const Method monte_carlo_method;
+const Method monte_carlo_method{
+    .name = "monte-carlo",
+    .summary = "the brightest patch shoots all it holds by random rays (Shirley 1991; paper 3.2)",
+    .has_literal = false,
+    .unbiased = true,
+    .default_stop = {.steps = 16, .seconds = {}, .error = {}},
+    .make = make_monte_carlo,
+    .strategy = nullptr,
+};
+
+} // namespace hemilux

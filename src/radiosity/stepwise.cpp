@@ -1,0 +1,105 @@
+#include "radiosity/stepwise.h"
+
+#include "radiosity/mesh.h"
+#include "radiosity/shot.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace hemilux {
+
+StepwiseSolver::StepwiseSolver(const SolverInput& input, bool equal_rays)
+    : input_(input), equal_rays_(equal_rays) {
+    const auto patches = input_.mesh.patches();
+    solution_.standard_error.assign(patches.size(), Vec3(std::numeric_limits<double>::quiet_NaN()));
+    solution_.hits.assign(patches.size(), 0);
+    squares_.assign(patches.size(), Vec3(0.0));
+    for (std::uint32_t i = 0; i < patches.size(); ++i) {
+        solution_.radiosity.push_back(input_.mesh.material(i).emission);
+        solution_.energy.emitted += solution_.radiosity[i] * patches[i].area;
+    }
+    solution_.energy.emitted = input_.mesh.frame().area_to_world(1.0) * solution_.energy.emitted;
+}
+
+bool StepwiseSolver::step() {
+    if (ray_power_ == 0 && !find_ray_power())
+        return false;
+    input_.monitor.phase = "step";
+    StepResult result = fresh_result();
+    if (!solve_once(solution_.steps, result))
+        return false;
+    combine(result);
+    return true;
+}
+
+StepResult StepwiseSolver::fresh_result() const {
+    const auto patches = static_cast<std::uint32_t>(input_.mesh.patches().size());
+    StepResult result;
+    result.hits.assign(patches, 0);
+    result.radiosity.reserve(patches);
+    for (std::uint32_t i = 0; i < patches; ++i)
+        result.radiosity.push_back(input_.mesh.material(i).emission);
+    return result;
+}
+
+double StepwiseSolver::emitted() const {
+    return mean_of_channels(solution_.energy.emitted / input_.mesh.frame().area_to_world(1.0));
+}
+
+/// All bounces together carry several times the emitted power; how many depends on the scene. A
+/// pilot of few rays finds it, so that a step shoots as many rays as were asked for. The power per
+/// ray is then the same in all steps, which keeps them independent and equally weighted.
+bool StepwiseSolver::find_ray_power() {
+    input_.monitor.phase = "pilot";
+    const auto patches = static_cast<double>(input_.mesh.patches().size());
+    const double rays = input_.options.rays * patches;
+    const double pilot_rays = std::clamp(rays / 16, 1000.0, 400'000.0);
+    if (!equal_rays_ || !(emitted() > 0)) {
+        ray_power_ = std::numeric_limits<double>::infinity();
+        return true;
+    }
+    ray_power_ = emitted() / (1 - mean_reflectance(input_.mesh)) / pilot_rays;
+    StepResult pilot = fresh_result();
+    if (!solve_once(pilot_stream, pilot)) {
+        ray_power_ = 0;
+        return false;
+    }
+    solution_.rays_energy += pilot.rays;
+    ray_power_ = pilot.shot / rays;
+    return true;
+}
+
+/// What a single ray of all steps so far would add to the patch's radiosity.
+Vec3 StepwiseSolver::one_ray(std::uint32_t patch) const {
+    const double area = input_.mesh.patches()[patch].area;
+    const double emitted_power = mean_of_channels(solution_.energy.emitted);
+    if (!equal_rays_ || !(emitted_power > 0) || !(area > 0))
+        return Vec3(0.0);
+    const Vec3 power = ray_power_ / emitted_power * solution_.energy.emitted;
+    return input_.mesh.material(patch).reflectance * power / (area * solution_.steps);
+}
+
+/// Mean and spread of the steps. A patch that no ray has struck shows no spread, though one ray
+/// more might have struck it: a standard error is never below what one ray brings.
+void StepwiseSolver::combine(const StepResult& result) {
+    const std::vector<Vec3>& radiosity = result.radiosity;
+    const double n = ++solution_.steps;
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
+        const Vec3 before = n > 1 ? solution_.radiosity[i] : Vec3(0.0);
+        solution_.radiosity[i] = before + (radiosity[i] - before) / n;
+        solution_.hits[i] += result.hits[i];
+        if (n > 1) {
+            squares_[i] += (radiosity[i] - before) * (radiosity[i] - solution_.radiosity[i]);
+            solution_.standard_error[i] =
+                glm::max(glm::sqrt(squares_[i] / (n * (n - 1))), one_ray(i));
+        }
+    }
+    solution_.rays_energy += result.rays;
+    power_absorbed_ += result.absorbed;
+    power_escaped_ += result.escaped;
+    const double to_world = input_.mesh.frame().area_to_world(1.0);
+    solution_.energy.absorbed = to_world / n * power_absorbed_;
+    solution_.energy.escaped = to_world / n * power_escaped_;
+}
+
+} // namespace hemilux

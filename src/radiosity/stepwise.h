@@ -1,0 +1,58 @@
+#pragma once
+// Methods each of whose steps is a complete solution of all bounces, independent of the other
+// steps (docs/decisions.md, D11): the result is the mean of the steps, its standard error their
+// spread.
+
+#include "radiosity/solver.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hemilux {
+
+/// What one step found. Powers are in local units.
+struct StepResult {
+    std::vector<Vec3> radiosity;
+    std::vector<std::uint32_t> hits;  ///< rays that struck each patch
+    Vec3 absorbed{0.0}, escaped{0.0}; ///< power
+    double shot = 0;                  ///< all power that was to be shot, mean of channels
+    std::uint64_t rays = 0;
+};
+
+class StepwiseSolver : public Solver {
+  public:
+    bool step() final;
+    [[nodiscard]] const Solution& solution() const final { return solution_; }
+
+  protected:
+    /// Without equal rays there is no power per ray: each patch shoots as many rays as any other.
+    StepwiseSolver(const SolverInput& input, bool equal_rays);
+
+    /// One solution of all bounces. `result` comes with emission as radiosity and nothing else.
+    /// False when interrupted.
+    virtual bool solve_once(std::uint64_t stream, StepResult& result) = 0;
+
+    /// Power that each ray is to carry, mean of channels; infinite without equal rays.
+    [[nodiscard]] double ray_power() const { return ray_power_; }
+    /// Mean of channels, local units.
+    [[nodiscard]] double emitted() const;
+
+    /// The stream of the pilot; steps count from 0.
+    static constexpr std::uint64_t pilot_stream = ~std::uint64_t{0};
+
+    SolverInput input_;
+    Solution solution_;
+
+  private:
+    [[nodiscard]] StepResult fresh_result() const;
+    bool find_ray_power();
+    [[nodiscard]] Vec3 one_ray(std::uint32_t patch) const;
+    void combine(const StepResult& result);
+
+    bool equal_rays_;
+    double ray_power_ = 0;      ///< 0 until the pilot has found it
+    std::vector<Vec3> squares_; ///< sum of squared deviations of the steps (Welford 1962)
+    Vec3 power_absorbed_{0.0}, power_escaped_{0.0};
+};
+
+} // namespace hemilux
