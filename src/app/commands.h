@@ -6,6 +6,7 @@
 namespace hemilux {
 
 int solve(const SolveSettings& settings);
+int compare(const CompareSettings& settings);
 int info(const InfoSettings& settings);
 
 } // namespace hemilux

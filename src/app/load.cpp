@@ -2,6 +2,9 @@
 
 #include "app/exit_code.h"
 #include "app/names.h"
+#include "app/stopwatch.h"
+#include "app/summary.h"
+#include "app/talk.h"
 #include "app/text.h"
 #include "io/error.h"
 #include "io/inspect.h"
@@ -82,6 +85,17 @@ Mesh divide_scene(Scene scene, const SceneSettings& settings) {
             throw UsageError(std::string("--max-edge: ") + error.what());
         throw InputError(settings.path, error.what());
     }
+}
+
+LoadedMesh load_mesh(const SceneSettings& settings, Talk talk) {
+    const Stopwatch reading;
+    ReadResult read = load_scene(settings);
+    say_warnings(talk, read.warnings);
+    check_solvable(read, settings.path);
+    const double seconds = reading.seconds();
+    LoadedMesh loaded{divide_scene(std::move(read.scene), settings), seconds};
+    say(talk, Talk::verbose, mesh_text(loaded.mesh));
+    return loaded;
 }
 
 } // namespace hemilux

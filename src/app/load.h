@@ -14,6 +14,13 @@ namespace hemilux {
 /// light or more, negative emission, or a scene in which nothing emits.
 void check_solvable(const ReadResult& read, const std::string& path);
 
+struct LoadedMesh {
+    Mesh mesh;
+    double seconds_read;
+};
+/// All of this together, with what there is to say about it.
+[[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, Talk talk);
+
 /// Divides the faces; throws UsageError where --max-edge would give too many patches.
 [[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings);
 

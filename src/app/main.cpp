@@ -1,7 +1,9 @@
 // The command-line program: hemilux SUBCOMMAND ...
 
 #include "app/commands.h"
+#include "app/density.h"
 #include "app/exit_code.h"
+#include "app/formfactors.h"
 #include "app/options.h"
 #include "io/error.h"
 
@@ -21,10 +23,17 @@ int run_program(int argc, const char* const* argv) {
                      ": radiosity by hemisphere subdivision, and the methods around it",
                      "hemilux");
     SolveSettings solve_settings;
+    CompareSettings compare_settings;
+    DensitySettings density_settings;
+    FormFactorSettings formfactor_settings;
     InfoSettings info_settings;
     program.set_version_flag("--version", "hemilux " HEMILUX_VERSION);
     program.require_subcommand(1);
     const CLI::App* const solve_command = add_solve_command(program, solve_settings);
+    const CLI::App* const compare_command = add_compare_command(program, compare_settings);
+    const CLI::App* const density_command = add_density_command(program, density_settings);
+    const CLI::App* const formfactors_command =
+        add_formfactors_command(program, formfactor_settings);
     add_info_command(program, info_settings);
     program.footer("hemilux SUBCOMMAND --help tells more.");
     try {
@@ -34,7 +43,15 @@ int run_program(int argc, const char* const* argv) {
             return program.exit(error);
         throw UsageError(error.what());
     }
-    return solve_command->parsed() ? solve(solve_settings) : info(info_settings);
+    if (solve_command->parsed())
+        return solve(solve_settings);
+    if (compare_command->parsed())
+        return compare(compare_settings);
+    if (density_command->parsed())
+        return density(density_settings);
+    if (formfactors_command->parsed())
+        return formfactors(formfactor_settings);
+    return info(info_settings);
 }
 
 /// Every error ends here, as one message and an exit code.

@@ -2,8 +2,10 @@
 
 #include "app/exit_code.h"
 #include "app/names.h"
+#include "app/option_groups.h"
 #include "app/option_kinds.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace hemilux {
@@ -11,77 +13,62 @@ namespace hemilux {
 namespace {
 
 constexpr std::string_view default_method = "hemisphere";
+constexpr const char* comparison_group = "Comparison";
 
-CLI::Option* add_override(CLI::App& app, const std::string& name, std::vector<Override>& list,
-                          const NumberRange& range, const std::string& help) {
-    const auto parse = [range](const std::string& text) { return parse_override(text, range); };
-    return repeatable(add_parsed(app, name, "MATERIAL=R,G,B", help,
-                                 "MATERIAL=R,G,B or MATERIAL=GREY with numbers " + range.text(),
-                                 parse, [&list](const Override& value) { list.push_back(value); }));
+/// The method named, or UsageError with the nearest name.
+const Method* method_by_name(const std::string& option, std::string_view name) {
+    if (const Method* const method = find_method(name))
+        return method;
+    std::vector<std::string> names;
+    for (const Method* const method : methods())
+        names.emplace_back(method->name);
+    throw UsageError(option + ": " + unknown_name("method", name, names));
 }
 
-CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string& type,
-                      std::string& target, const std::string& help) {
-    return app.add_option(name, target, help)->type_name(type);
-}
-
-void add_scene_options(CLI::App& app, SceneSettings& scene) {
-    add_text(app, "SCENE", "FILE", scene.path, "the scene: Wavefront .obj")->required();
-    add_number(app, "--max-edge", "LENGTH", scene.mesh.max_edge, positive,
-               "divide faces until no edge is longer [not divided]")
-        ->group("Scene");
-    app.add_flag("--two-sided", scene.mesh.two_sided, "faces emit and reflect on both sides")
-        ->group("Scene");
-    add_override(app, "--emission", scene.emission, emission_range,
-                 "what a material emits, W/m2; * for all; repeatable")
-        ->group("Scene");
-    add_override(app, "--reflectance", scene.reflectance, reflectance_range,
-                 "what a material reflects, 0 to below 1; * for all; repeatable")
-        ->group("Scene");
-}
-
-void add_talk_options(CLI::App& app, Talk& talk) {
-    const auto set = [&talk](Talk value) {
-        return [&talk, value] {
-            if (talk != Talk::normal)
-                throw UsageError("-q and -v contradict each other");
-            talk = value;
-        };
-    };
-    const std::string group = "Talk";
-    app.add_flag_callback("-q,--quiet", set(Talk::quiet), "say nothing but errors")->group(group);
-    app.add_flag_callback("-v,--verbose", set(Talk::verbose), "a line per step, and details")
-        ->group(group);
-    app.set_version_flag("--version", "hemilux " HEMILUX_VERSION, "print the version")
-        ->group(group);
-    app.set_help_flag(); // so that it stands last
-    app.set_help_flag("-h,--help", "print this")->group(group);
-}
-
-void add_method_options(CLI::App& app, SolveSettings& settings) {
-    SolveOptions& options = settings.options;
+void add_method_option(CLI::App& app, const Method*& method) {
+    method = find_method(default_method);
     app.add_option_function<std::string>(
            "--method",
-           [&settings](const std::string& name) { settings.method = method_by_name(name); },
+           [&method](const std::string& name) { method = method_by_name("--method", name); },
            "how to solve, see below [" + std::string(default_method) + "]")
         ->type_name("NAME")
         ->group("Method");
+}
+
+/// Names with commas between them.
+std::vector<const Method*> method_list(std::string_view text) {
+    std::vector<const Method*> list;
+    for (bool more = true; more;) {
+        const std::size_t comma = text.find(',');
+        list.push_back(method_by_name("--methods", text.substr(0, comma)));
+        if (std::ranges::count(list, list.back()) > 1)
+            throw UsageError("--methods: '" + std::string(list.back()->name) + "' is named twice");
+        more = comma != std::string_view::npos;
+        if (more)
+            text.remove_prefix(comma + 1);
+    }
+    return list;
+}
+
+void add_methods_option(CLI::App& app, std::vector<const Method*>& list) {
+    for (const Method* const method : methods())
+        if (method->unbiased)
+            list.push_back(method);
+    app.add_option_function<std::string>(
+           "--methods", [&list](const std::string& text) { list = method_list(text); },
+           "what to compare, see below [all that are unbiased]")
+        ->type_name("NAME,NAME,...")
+        ->group("Method");
+}
+
+void add_method_options(CLI::App& app, SolveOptions& options) {
     add_number(app, "--rays", "N", options.rays, {.low = 0, .high = 1e9, .low_included = false},
                "mean rays per patch and step [64]")
         ->group("Method");
-    add_whole<int>(app, "--depth", options.depth, 0, 5, "levels of subdivision of hemispheres [2]")
-        ->group("Method");
-    add_number(app, "--threshold", "X", options.threshold, non_negative,
-               "divide a triangle whose mean density is above X [0]")
-        ->group("Method");
+    add_division_options(app, options);
     app.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased")
         ->group("Method");
-    add_whole<std::uint64_t>(app, "--seed", options.seed, 0,
-                             std::numeric_limits<std::uint64_t>::max(), "of the random numbers [1]")
-        ->group("Method");
-    add_whole<unsigned>(app, "-t,--threads", options.threads, 0, 1024,
-                        "0: one per core; the result does not depend on it [0]")
-        ->group("Method");
+    add_random_options(app, options);
 }
 
 void add_stop_options(CLI::App& app, StopRule& stop) {
@@ -96,17 +83,7 @@ void add_stop_options(CLI::App& app, StopRule& stop) {
         ->group(group);
 }
 
-std::optional<Camera> camera_from(const std::string& text) {
-    try {
-        const Camera camera = parse_camera(text);
-        return camera.eye != camera.target ? std::optional(camera) : std::nullopt;
-    } catch (const std::invalid_argument&) {
-        return std::nullopt;
-    }
-}
-
 void add_output_options(CLI::App& app, SolveSettings& settings) {
-    const std::string group = "Outputs";
     repeatable(add_parsed(
                    app, "-o,--output", "FILE",
                    "picture .png .hdr, mesh .ply, patches .csv, statistics .json; "
@@ -114,37 +91,56 @@ void add_output_options(CLI::App& app, SolveSettings& settings) {
                    "a file name that ends with .png, .hdr, .ply, .csv or .json",
                    [](const std::string& path) { return parse_output(path); },
                    [&settings](const Output& value) { settings.outputs.push_back(value); }))
-        ->group(group);
+        ->group(output_group);
     add_text(app, "--stats", "FILE", settings.statistics, "statistics of the run as JSON")
-        ->group(group);
-    add_text(app, "--steps-log", "FILE", settings.steps_log, "a CSV row per step")->group(group);
-    add_parsed(app, "--camera", "EX,EY,EZ,TX,TY,TZ[,FOV]",
-               "eye, target and vertical angle of view in degrees [automatic]",
-               "ex,ey,ez,tx,ty,tz or ex,ey,ez,tx,ty,tz,fov with two different points and an angle "
-               "between 0 and 180 degrees",
-               camera_from, [&settings](const Camera& value) { settings.view.camera = value; })
-        ->group(group);
-    add_parsed(
-        app, "--size", "WxH", "of pictures, in pixels [800x600]",
-        "a width and a height from 1 to 16384, such as 800x600",
-        [](const std::string& text) { return parse_size(text); },
-        [&settings](const PixelSize& size) { settings.view.size = size; })
-        ->group(group);
-    add_number(app, "--exposure", "X", settings.view.exposure, positive,
-               "factor on the light of .png pictures [automatic]")
-        ->group(group);
+        ->group(output_group);
+    add_text(app, "--steps-log", "FILE", settings.steps_log, "a CSV row per step")
+        ->group(output_group);
+    add_view_options(app, settings.view);
 }
 
-void add_comparison_options(CLI::App& app, SolveSettings& settings) {
-    const std::string group = "Comparison";
-    add_text(app, "--reference", "FILE.csv", settings.reference,
-             "patch table of the same patches: report the true error")
-        ->group(group);
-    repeatable(app.add_option("--detail", settings.detail,
+void add_detail_option(CLI::App& app, std::vector<std::string>& detail) {
+    repeatable(app.add_option("--detail", detail,
                               "groups whose error is also reported apart [detail...]; "
                               "repeatable"))
         ->type_name("GROUP")
+        ->group(comparison_group);
+}
+
+void add_comparison_options(CLI::App& app, SolveSettings& settings) {
+    add_text(app, "--reference", "FILE.csv", settings.reference,
+             "patch table of the same patches: report the true error")
+        ->group(comparison_group);
+    add_detail_option(app, settings.detail);
+}
+
+void add_budget_options(CLI::App& app, CompareSettings& settings) {
+    const std::string group = "Budget of each run of each method, one of the two";
+    CLI::Option* const rays = add_number(app, "--budget-rays", "N", settings.budget.rays, positive,
+                                         "rays, density rays included [64 steps]");
+    CLI::Option* const seconds =
+        add_number(app, "--budget-time", "SECONDS", settings.budget.seconds, positive,
+                   "its own time, preprocessing included");
+    rays->group(group);
+    seconds->group(group)->excludes(rays);
+    add_whole<std::uint32_t>(app, "--runs", settings.runs, 1, 1000,
+                             "runs of each method, with seeds that follow each other [3]")
         ->group(group);
+}
+
+void add_reference_options(CLI::App& app, CompareSettings& settings) {
+    app.add_option_function<std::string>(
+           "--reference",
+           [&settings](const std::string& text) {
+               settings.reference = text == "matrix" ? std::string() : text;
+           },
+           "what is taken for the truth: a patch table, or the matrix method [matrix]")
+        ->type_name("FILE.csv|matrix")
+        ->group(comparison_group);
+    add_number(app, "--reference-error", "X", settings.reference_error, positive,
+               "estimated relative error of the matrix method [.002]")
+        ->group(comparison_group);
+    add_detail_option(app, settings.detail);
 }
 
 std::string methods_text() {
@@ -166,6 +162,13 @@ Examples:
   hemilux solve room.obj --reference reference.csv --steps-log steps.csv
 )";
 
+constexpr const char* compare_examples = R"(
+Examples:
+  hemilux compare room.obj -o compared
+  hemilux compare room.obj -o compared --methods hemisphere,stratified --budget-time 10
+  hemilux compare room.obj -o again --reference compared/reference.csv --literal
+)";
+
 constexpr const char* info_examples = R"(Examples:
   hemilux info room.obj
   hemilux info room.obj --max-edge .1
@@ -177,25 +180,35 @@ Exit codes: 0 done, 1 wrong usage, 2 bad input, 3 output or system failure,
 
 } // namespace
 
-const Method* method_by_name(std::string_view name) {
-    if (const Method* const method = find_method(name))
-        return method;
-    std::vector<std::string> names;
-    for (const Method* const method : methods())
-        names.emplace_back(method->name);
-    throw UsageError("--method: " + unknown_name("method", name, names));
-}
-
 CLI::App* add_solve_command(CLI::App& program, SolveSettings& settings) {
     CLI::App* const app = program.add_subcommand("solve", "solve a scene, write the results");
-    settings.method = find_method(default_method);
     add_scene_options(*app, settings.scene);
-    add_method_options(*app, settings);
+    add_method_option(*app, settings.method);
+    add_method_options(*app, settings.options);
     add_stop_options(*app, settings.stop);
     add_output_options(*app, settings);
     add_comparison_options(*app, settings);
     add_talk_options(*app, settings.talk);
     app->footer(methods_text() + solve_examples + exit_codes);
+    return app;
+}
+
+CLI::App* add_compare_command(CLI::App& program, CompareSettings& settings) {
+    CLI::App* const app = program.add_subcommand(
+        "compare", "error against run time of several methods, side by side");
+    add_scene_options(*app, settings.scene);
+    add_methods_option(*app, settings.methods);
+    add_method_options(*app, settings.options);
+    add_budget_options(*app, settings);
+    add_reference_options(*app, settings);
+    add_text(*app, "-o,--output", "DIR", settings.folder,
+             "folder, made where it is not there: error.csv, error.svg, error.png, reference.csv, "
+             "reference.png and two pictures per method")
+        ->required()
+        ->group(output_group);
+    add_view_options(*app, settings.view);
+    add_talk_options(*app, settings.talk);
+    app->footer(methods_text() + compare_examples + exit_codes);
     return app;
 }
 

@@ -9,9 +9,7 @@ namespace hemilux {
 
 /// Each adds a subcommand that fills the settings while CLI11 parses.
 CLI::App* add_solve_command(CLI::App& program, SolveSettings& settings);
+CLI::App* add_compare_command(CLI::App& program, CompareSettings& settings);
 CLI::App* add_info_command(CLI::App& program, InfoSettings& settings);
-
-/// The method named, or UsageError with the nearest name.
-[[nodiscard]] const Method* method_by_name(std::string_view name);
 
 } // namespace hemilux

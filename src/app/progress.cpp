@@ -9,6 +9,7 @@
 #include <string_view>
 #include <sys/ioctl.h>
 #include <unistd.h>
+#include <utility>
 
 namespace hemilux {
 
@@ -45,11 +46,15 @@ double share_done(const StopRule& stop, const ProgressState& state) {
     return std::min(share, 1.0);
 }
 
-std::string progress_line(const StopRule& stop, const ProgressState& state, std::size_t width) {
-    const double share = share_done(stop, state);
+ShareDone share_of(const StopRule& stop) {
+    return [stop](const ProgressState& state) { return share_done(stop, state); };
+}
+
+std::string progress_line(double share, const ProgressState& state, std::size_t width) {
     const auto full = static_cast<std::size_t>(share * bar_cells);
     std::string line = "[" + std::string(full, '#') + std::string(bar_cells - full, '.') + "]" +
-                       formatted(" %3.0f %%  %s", std::floor(100 * share), state.phase);
+                       formatted(" %3.0f %%  ", std::floor(100 * share)) + state.topic +
+                       (state.topic.empty() ? "" : ", ") + state.phase;
     if (state.seconds > 0)
         line += "  " + short_count(static_cast<double>(state.rays) / state.seconds) + " rays/s";
     line += "  " + duration(state.seconds);
@@ -61,8 +66,8 @@ std::string progress_line(const StopRule& stop, const ProgressState& state, std:
     return line.substr(0, width);
 }
 
-Progress::Progress(const Monitor& monitor, const StopRule& stop, bool bar)
-    : monitor_(monitor), stop_(stop) {
+Progress::Progress(const Monitor& monitor, ShareDone share, bool bar)
+    : monitor_(monitor), share_(std::move(share)) {
     if (bar)
         thread_ = std::thread([this] { redraw_until_closed(); });
 }
@@ -73,6 +78,11 @@ void Progress::step_done(const StepRecord& record) {
     const std::scoped_lock lock(mutex_);
     state_.steps = record.step;
     state_.estimated_error = record.estimated_error;
+}
+
+void Progress::set_topic(const std::string& topic) {
+    const std::scoped_lock lock(mutex_);
+    state_.topic = topic;
 }
 
 void Progress::say(const std::string& line) {
@@ -105,7 +115,7 @@ void Progress::draw() {
     state_.rays = monitor_.rays;
     state_.step_share = monitor_.step_share;
     state_.phase = monitor_.interrupted ? "stopping" : monitor_.phase.load();
-    const std::string line = progress_line(stop_, state_, terminal_width() - 1);
+    const std::string line = progress_line(share_(state_), state_, terminal_width() - 1);
     std::fprintf(stderr, "\r%s\033[K", line.c_str());
     std::fflush(stderr);
     drawn_ = true;

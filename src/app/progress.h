@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <string>
@@ -16,6 +17,7 @@ namespace hemilux {
 /// What the bar shows.
 struct ProgressState {
     const char* phase = "";
+    std::string topic{};     ///< what it works on; may be empty
     std::uint32_t steps = 0; ///< finished
     double step_share = 0;   ///< of the present step, 0 to 1
     double seconds = 0;      ///< since the start
@@ -27,19 +29,26 @@ struct ProgressState {
 /// error is taken to fall as rays^-1/2.
 [[nodiscard]] double share_done(const StopRule& stop, const ProgressState& state);
 
+/// How much of the work is done, 0 to 1.
+using ShareDone = std::function<double(const ProgressState&)>;
+/// That of one run.
+[[nodiscard]] ShareDone share_of(const StopRule& stop);
+
 /// The bar as text of at most `width` columns.
-[[nodiscard]] std::string progress_line(const StopRule& stop, const ProgressState& state,
+[[nodiscard]] std::string progress_line(double share, const ProgressState& state,
                                         std::size_t width);
 
 class Progress {
   public:
     /// Without a bar it only passes on what is said.
-    Progress(const Monitor& monitor, const StopRule& stop, bool bar);
+    Progress(const Monitor& monitor, ShareDone share, bool bar);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
     void step_done(const StepRecord& record);
+    /// What stands before the phase.
+    void set_topic(const std::string& topic);
     /// A line on stderr that stays, above the bar.
     void say(const std::string& line);
     /// Takes the bar away for good.
@@ -51,7 +60,7 @@ class Progress {
     void erase();
 
     const Monitor& monitor_;
-    StopRule stop_;
+    ShareDone share_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     ProgressState state_;
     std::mutex mutex_;

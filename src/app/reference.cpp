@@ -22,8 +22,7 @@ bool same_patch(const PatchTable& table, std::size_t i, const Mesh& mesh) {
            away <= tolerance * std::sqrt(patch.area) + 1e-9;
 }
 
-} // namespace
-
+/// Throws InputError unless the table's rows are the mesh's patches.
 void check_same_patches(const PatchTable& table, const std::string& path, const Mesh& mesh) {
     const std::size_t patches = mesh.patches().size();
     if (table.radiosity.size() != patches)
@@ -34,6 +33,14 @@ void check_same_patches(const PatchTable& table, const std::string& path, const 
         if (!same_patch(table, i, mesh))
             throw InputError(path, "patch " + std::to_string(i) +
                                        " has another place or area than in the scene");
+}
+
+} // namespace
+
+Reference read_reference(const std::string& path, const Mesh& mesh, std::vector<bool> detail) {
+    PatchTable table = read_patch_table(path);
+    check_same_patches(table, path, mesh);
+    return {std::move(table.radiosity), std::move(table.standard_error), std::move(detail)};
 }
 
 std::vector<bool> detail_mask(const Mesh& mesh, const std::vector<std::string>& groups) {

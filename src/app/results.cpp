@@ -1,12 +1,10 @@
 #include "app/results.h"
 
 #include "app/exit_code.h"
-#include "io/error.h"
+#include "app/view.h"
 #include "io/image.h"
 #include "io/ply.h"
-#include "io/render.h"
 
-#include <functional>
 #include <optional>
 
 namespace hemilux {
@@ -20,24 +18,18 @@ class Picture {
 
     void write(const Output& output) {
         if (!image_)
-            image_ = render_view();
+            image_ = render();
         if (output.kind == OutputKind::hdr)
             write_hdr(output.path, *image_);
         else
-            write_png(output.path, *image_,
-                      view_.exposure ? *view_.exposure : auto_exposure(*image_));
+            write_png(output.path, *image_, exposure_of(view_, *image_));
     }
 
   private:
-    [[nodiscard]] Image render_view() const {
+    [[nodiscard]] Image render() const {
         const auto& [mesh, tracer, solution, statistics, steps] = results_;
-        const auto [width, height] = view_.size;
-        const double aspect = static_cast<double>(width) / height;
-        const Camera camera = view_.camera
-                                  ? *view_.camera
-                                  : automatic_camera(mesh, tracer, solution.radiosity, aspect);
-        return render(mesh, tracer, solution.radiosity, camera,
-                      {.width = width, .height = height, .threads = statistics.threads});
+        const Camera camera = camera_of(view_, mesh, tracer, solution.radiosity);
+        return render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads);
     }
 
     const ViewSettings& view_;
@@ -58,17 +50,6 @@ void write_output(const Output& output, const Results& results, Picture& picture
                                  solution.standard_error);
     case OutputKind::json:
         return write_statistics(output.path, results.statistics);
-    }
-}
-
-void attempt(const std::string& path, WriteReport& report, const std::function<void()>& write) {
-    try {
-        write();
-        report.written.push_back(path);
-    } catch (const OutputError& error) {
-        report.failed.emplace_back(error.what());
-    } catch (const std::exception& error) {
-        report.failed.push_back(path + ": " + error.what());
     }
 }
 
@@ -99,13 +80,13 @@ WriteReport write_results(const SolveSettings& settings, const Results& results)
     WriteReport report;
     Picture picture(settings.view, results);
     for (const Output& output : settings.outputs)
-        attempt(output.path, report, [&] { write_output(output, results, picture); });
+        report.attempt(output.path, [&] { write_output(output, results, picture); });
     if (!settings.statistics.empty())
-        attempt(settings.statistics, report,
-                [&] { write_statistics(settings.statistics, results.statistics); });
+        report.attempt(settings.statistics,
+                       [&] { write_statistics(settings.statistics, results.statistics); });
     if (!settings.steps_log.empty())
-        attempt(settings.steps_log, report,
-                [&] { write_steps_log(settings.steps_log, results.steps); });
+        report.attempt(settings.steps_log,
+                       [&] { write_steps_log(settings.steps_log, results.steps); });
     return report;
 }
 

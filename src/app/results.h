@@ -2,6 +2,7 @@
 // What a run leaves behind: the files that were asked for.
 
 #include "app/settings.h"
+#include "app/write_report.h"
 #include "io/statistics.h"
 #include "io/tables.h"
 
@@ -27,11 +28,7 @@ struct Results {
 /// file cannot be made.
 void check_outputs(const SolveSettings& settings);
 
-struct WriteReport {
-    std::vector<std::string> written; ///< paths
-    std::vector<std::string> failed;  ///< messages
-};
-/// Writes all outputs; one that fails does not keep the others from being written.
+/// Writes all outputs.
 [[nodiscard]] WriteReport write_results(const SolveSettings& settings, const Results& results);
 
 } // namespace hemilux

@@ -8,6 +8,7 @@
 #include "radiosity/mesh.h"
 #include "radiosity/solver.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,27 @@ struct SolveSettings {
     std::string statistics, steps_log; ///< paths; empty: not asked for
     std::string reference;             ///< path of a patch table; empty: none
     std::vector<std::string> detail;   ///< groups; empty: those that begin with `detail`
+    Talk talk = Talk::normal;
+};
+
+/// What each run of each method may use: one of the two.
+struct Budget {
+    std::optional<double> rays;                 ///< density rays included
+    std::optional<double> seconds;              ///< of its own, preprocessing included
+    static constexpr double default_steps = 64; ///< of the mean rays per patch and step
+};
+
+struct CompareSettings {
+    SceneSettings scene;
+    std::vector<const Method*> methods;
+    SolveOptions options; ///< run r has the seed plus r; `literal` is for methods that have it
+    Budget budget;
+    std::uint32_t runs = 3;
+    std::string reference;         ///< path of a patch table; empty: computed by `matrix`
+    double reference_error = .002; ///< estimated error at which it is good enough
+    ViewSettings view;
+    std::string folder;
+    std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
     Talk talk = Talk::normal;
 };
 

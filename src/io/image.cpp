@@ -38,6 +38,14 @@ float srgb_from_linear(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
+float linear_from_srgb(float encoded) {
+    if (!(encoded > 0)) // NaN is black
+        return 0;
+    if (encoded >= 1)
+        return 1;
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
 double auto_exposure(const Image& image) {
     constexpr double percentile = 0.9;
     constexpr double contrast = 6;

@@ -32,6 +32,8 @@ struct Image {
 
 /// The transfer curve of sRGB (IEC 61966-2-1), from linear [0,1] to encoded [0,1]; clamps.
 [[nodiscard]] float srgb_from_linear(float linear);
+/// Its inverse.
+[[nodiscard]] float linear_from_srgb(float encoded);
 
 /// The factor that brings the bright part of a picture to .8: of the lit pixels the 90th percentile
 /// of luminance, but at most 6 times the median, so that lamps in view may clip. 1 for a black

@@ -151,4 +151,14 @@ void DensityMap::leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) c
         });
 }
 
+void DensityMap::counts(std::uint32_t patch, std::vector<DensityCount>& result) const {
+    result.clear();
+    const std::uint8_t* at = counts_of(patch);
+    const auto next = [&](std::uint16_t vertex) {
+        result.push_back({vertex, *at});
+        return std::int16_t{*at++};
+    };
+    walk_tree(hemisphere_, threshold_, next, [](std::uint16_t, double) {});
+}
+
 } // namespace hemilux

@@ -25,6 +25,12 @@ struct DensityLeaf {
     float density;
 };
 
+/// What a density ray counted.
+struct DensityCount {
+    std::uint16_t vertex;  ///< of Hemisphere::vertices()
+    std::uint8_t surfaces; ///< 255: or more
+};
+
 /// The direction of a density ray through a vertex of the table. Vertices on the horizon lie in the
 /// patch's plane, where a count would hang on rounding errors; their rays are lifted a little.
 [[nodiscard]] Vec3 density_direction(const Vec3& vertex);
@@ -38,6 +44,8 @@ class DensityMap {
 
     /// The leaves of a patch's tree, in the table's depth-first order.
     void leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) const;
+    /// What is stored of a patch: the counts at the vertices of all triangles that exist.
+    void counts(std::uint32_t patch, std::vector<DensityCount>& result) const;
 
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
     /// Everything that is kept: counts and the index to find them.

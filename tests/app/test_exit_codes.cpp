@@ -23,7 +23,7 @@ void check_fails(const Workplace& place, int code, const std::string& arguments,
 
 TEST_CASE("help and version go to stdout and end with 0") {
     const Workplace place;
-    for (const char* arguments : {"--help", "solve --help", "info --help"}) {
+    for (const char* arguments : {"--help", "solve --help", "compare --help", "info --help"}) {
         const auto help = place.hemilux(arguments);
         CHECK(help.code == 0);
         CHECK(help.err.empty());
@@ -33,7 +33,8 @@ TEST_CASE("help and version go to stdout and end with 0") {
     for (const char* text : {"--method", "--literal", "--steps-log", "Examples:", "Exit codes:",
                              "hemisphere ", "matrix ", "progressive-monte-carlo ", "stratified "})
         CHECK_THAT(help, Contains(text));
-    for (const char* arguments : {"--version", "solve --version", "info --version"})
+    for (const char* arguments :
+         {"--version", "solve --version", "compare --version", "info --version"})
         CHECK(place.hemilux(arguments).out.rfind("hemilux ", 0) == 0);
 }
 

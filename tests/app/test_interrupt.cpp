@@ -119,6 +119,34 @@ TEST_CASE("Ctrl-C before the first step is done leaves emission alone, and says 
     CHECK_THAT(place.read("a.csv"), Contains(",10,8,6,10,8,6,") && Contains(",0,0,0,0,0,0,"));
 }
 
+TEST_CASE("Ctrl-C ends a comparison with the files and the table of what was done") {
+    const Workplace place;
+    place.write_room();
+    Running run(place,
+                "compare room.obj -o a --methods hemisphere,stratified --runs 9 --budget-rays 1e9 "
+                "--reference-error .05 --size 16x12 -v >table.txt",
+                place.path("talk.txt").c_str());
+    REQUIRE(wait_for(place, "talk.txt", "stratified, run 1, step 2:"));
+    run.interrupt();
+    CHECK(run.wait() == 130);
+    CHECK_THAT(place.read("talk.txt"), Contains("interrupted; the results are those"));
+    CHECK_THAT(place.read("a/error.csv"), Contains("stratified,0,2,"));
+    CHECK_THAT(place.read("table.txt"), Contains("hemisphere  ") && Contains("stratified  "));
+    CHECK(place.has("a/stratified_difference.png"));
+}
+
+TEST_CASE("Ctrl-C before there is a reference ends a comparison without one") {
+    const Workplace place;
+    place.write_room();
+    Running run(place, "compare room.obj -o a --max-edge .05 --rays 3e5 -v",
+                place.path("talk.txt").c_str());
+    REQUIRE(wait_for(place, "talk.txt", "BVH:"));
+    run.interrupt();
+    CHECK(run.wait() == 130);
+    CHECK_THAT(place.read("talk.txt"), Contains("before there was a reference"));
+    CHECK_FALSE(place.has("a/reference.csv"));
+}
+
 TEST_CASE("a terminal gets a progress bar, which is gone at the end") {
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     REQUIRE(terminal >= 0);

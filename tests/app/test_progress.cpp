@@ -29,7 +29,7 @@ TEST_CASE("the part of the stop rule that is met first counts") {
 TEST_CASE("nothing is known before the first step") {
     const ProgressState state{.phase = "density"};
     CHECK(share_done(after(8, 1.0, 0.01), state) == 0);
-    const std::string line = progress_line(after(8, 1.0, 0.01), state, 200);
+    const std::string line = progress_line(share_done(after(8, 1.0, 0.01), state), state, 200);
     CHECK(line.find("  0 %  density") != std::string::npos);
     CHECK(line.find("left") == std::string::npos);
     CHECK(line.find("error") == std::string::npos);
@@ -42,8 +42,8 @@ TEST_CASE("the bar shows share, rate, times and error, and fits the terminal") {
                               .seconds = 10,
                               .rays = 12'300'000,
                               .estimated_error = 0.021};
-    const std::string line = progress_line(after(16, {}, {}), state, 200);
+    const std::string line = progress_line(share_done(after(16, {}, {}), state), state, 200);
     CHECK(line == "[######..................]  25 %  shooting  1.23 M rays/s  10.0 s, 30.0 s left"
                   "  error 2.1 %");
-    CHECK(progress_line(after(16, {}, {}), state, 20).size() == 20);
+    CHECK(progress_line(share_done(after(16, {}, {}), state), state, 20).size() == 20);
 }

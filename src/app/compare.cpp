@@ -1,0 +1,148 @@
+// hemilux compare: a reference, all runs, files and a table.
+
+#include "app/commands.h"
+#include "app/compare_outputs.h"
+#include "app/compare_run.h"
+#include "app/compare_summary.h"
+#include "app/exit_code.h"
+#include "app/load.h"
+#include "app/progress.h"
+#include "app/signals.h"
+#include "app/stopwatch.h"
+#include "app/summary.h"
+#include "app/talk.h"
+#include "app/text.h"
+#include "bvh/bvh.h"
+#include "io/error.h"
+#include "radiosity/rng.h"
+
+#include <atomic>
+#include <iostream>
+
+namespace hemilux {
+
+namespace {
+
+/// Below this share of a method's error the reference's own error does not matter.
+constexpr double reference_share = 1.0 / 3;
+
+bool wants_bar(const CompareSettings& settings) {
+    return settings.talk != Talk::quiet && stderr_is_terminal();
+}
+
+/// The matrix method until it is good enough or interrupted, with random numbers that no run has.
+/// Empty where not even its first step was done.
+std::optional<Reference> compute_reference(const CompareSettings& settings, const Mesh& mesh,
+                                           const Tracer& tracer, Monitor& monitor) {
+    const StopRule stop{.steps = {}, .seconds = {}, .error = settings.reference_error};
+    SolveOptions options = settings.options;
+    options.literal = false;
+    options.seed = hash_words({options.seed, 0x7265666572656e63u});
+    const SolverInput input{mesh, tracer, options, monitor};
+    Progress progress(monitor, share_of(stop), wants_bar(settings));
+    progress.set_topic("reference");
+    const std::unique_ptr<Solver> solver = find_method("matrix")->make(input);
+    run(*solver, input, stop, [&](const StepRecord& record, const Solution&) {
+        progress.step_done(record);
+        if (settings.talk == Talk::verbose)
+            progress.say("reference, " + step_text({"matrix", 0, record, std::nullopt}));
+    });
+    const Solution& solution = solver->solution();
+    if (solution.steps == 0)
+        return std::nullopt;
+    return Reference{solution.radiosity, solution.standard_error, {}};
+}
+
+double own_error(const Mesh& mesh, const Reference& reference) {
+    Solution solution;
+    solution.radiosity = reference.radiosity;
+    solution.standard_error = reference.standard_error;
+    return estimated_error(mesh, solution);
+}
+
+std::vector<MethodRuns> run_with_progress(const Contest& contest) {
+    std::atomic<double> share_done{0};
+    Progress progress(
+        contest.monitor, [&](const ProgressState&) { return share_done.load(); },
+        wants_bar(contest.settings));
+    return run_methods(contest, [&](const StepRow& row, double share) {
+        share_done = share;
+        const std::string topic = row.method + formatted(", run %u", row.run + 1);
+        progress.set_topic(topic);
+        if (contest.settings.talk == Talk::verbose)
+            progress.say(topic + ", " + step_text(row));
+    });
+}
+
+/// Methods that were interrupted before their first step have nothing to show.
+void drop_empty(std::vector<MethodRuns>& results) {
+    for (MethodRuns& result : results)
+        std::erase_if(result.runs, [](const MethodRun& run) { return run.rows.empty(); });
+    std::erase_if(results, [](const MethodRuns& result) { return result.runs.empty(); });
+}
+
+void judge_reference(const Contest& contest, std::span<const MethodSummary> summaries) {
+    const double own = own_error(contest.mesh, contest.reference);
+    say(contest.settings.talk, Talk::normal, "the reference's own error: " + percent(own));
+    for (const MethodSummary& summary : summaries)
+        if (own > reference_share * summary.error.all)
+            say(contest.settings.talk, Talk::normal,
+                "warning: that is much of the " + percent(summary.error.all) + " of " +
+                    summary.label + "; --reference-error asks for a better one");
+}
+
+int finish(const Contest& contest, std::vector<MethodRuns> results) {
+    const Talk talk = contest.settings.talk;
+    drop_empty(results);
+    WriteReport report;
+    if (!results.empty()) {
+        const auto summaries = summarise(results, contest.settings.options.literal);
+        report = write_comparison(contest, results, summaries);
+        judge_reference(contest, summaries);
+        std::cout << summary_table(summaries) << std::flush;
+        if (!std::cout)
+            throw OutputError("standard output", "cannot be written");
+    }
+    report.say(talk);
+    if (contest.monitor.interrupted)
+        say(talk, Talk::quiet,
+            results.empty() ? "interrupted before the first step of a method was done"
+                            : "interrupted; the results are those of the steps that were done");
+    if (!report.failed.empty())
+        return exit_output;
+    return contest.monitor.interrupted ? exit_interrupted : exit_done;
+}
+
+} // namespace
+
+int compare(const CompareSettings& settings) {
+    make_folder(settings.folder);
+    Monitor monitor;
+    const InterruptGuard guard(monitor.interrupted);
+    const LoadedMesh loaded = load_mesh(settings.scene, settings.talk);
+    const Mesh& mesh = loaded.mesh;
+    std::vector<bool> detail = detail_mask(mesh, settings.detail);
+    std::optional<Reference> reference;
+    if (!settings.reference.empty())
+        reference = read_reference(settings.reference, mesh, {});
+    const Stopwatch building;
+    const Bvh bvh(mesh.soup());
+    say(settings.talk, Talk::verbose, bvh_text(bvh.quality(), building.seconds()));
+    if (!reference)
+        reference = compute_reference(settings, mesh, bvh, monitor);
+    if (!reference) {
+        say(settings.talk, Talk::quiet, "interrupted before there was a reference");
+        return exit_interrupted;
+    }
+    reference->detail = std::move(detail);
+    const Contest contest{mesh, bvh, settings, *reference, monitor};
+    if (settings.reference.empty()) {
+        const WriteReport report = write_reference(contest);
+        report.say(settings.talk);
+        if (!report.failed.empty())
+            return exit_output;
+    }
+    return finish(contest, run_with_progress(contest));
+}
+
+} // namespace hemilux

@@ -1,0 +1,128 @@
+#include "app/compare_outputs.h"
+
+#include "app/text.h"
+#include "app/view.h"
+#include "io/atomic_file.h"
+#include "io/error.h"
+#include "io/false_colour.h"
+#include "io/plot.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <unistd.h>
+
+namespace hemilux {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string path_in(const Contest& contest, const std::string& name) {
+    return (fs::path(contest.settings.folder) / name).string();
+}
+
+std::vector<StepRow> all_rows(std::span<const MethodRuns> results) {
+    std::vector<StepRow> rows;
+    for (const MethodRuns& result : results)
+        for (const MethodRun& run : result.runs)
+            rows.insert(rows.end(), run.rows.begin(), run.rows.end());
+    return rows;
+}
+
+MeanCurve in_per_cent(MeanCurve curve) {
+    for (std::vector<double>* const errors : {&curve.mean, &curve.low, &curve.high})
+        for (double& error : *errors)
+            error *= 100;
+    return curve;
+}
+
+Chart chart_of(const Contest& contest, std::span<const MethodSummary> summaries) {
+    const CompareSettings& settings = contest.settings;
+    Chart chart;
+    chart.title = fs::path(settings.scene.path).filename().string() + ": " +
+                  counted(contest.mesh.patches().size(), "patch", "patches") + ", mean of " +
+                  counted(settings.runs, "run", "runs");
+    chart.y_label = "relative error, %";
+    Panel by_seconds{"seconds, preprocessing included", {}};
+    Panel by_rays{"rays, density rays included", {}};
+    for (const MethodSummary& summary : summaries) {
+        chart.names.push_back(summary.label);
+        by_seconds.curves.push_back(in_per_cent(summary.by_seconds));
+        by_rays.curves.push_back(in_per_cent(summary.by_rays));
+    }
+    chart.panels = {by_seconds, by_rays};
+    return chart;
+}
+
+void write_charts(const Contest& contest, std::span<const MethodSummary> summaries,
+                  WriteReport& report) {
+    const Chart chart = chart_of(contest, summaries);
+    const std::string svg = path_in(contest, "error.svg"), png = path_in(contest, "error.png");
+    report.attempt(svg, [&] { write_atomically(svg, chart_svg(chart)); });
+    report.attempt(png, [&] { write_png(png, chart_image(chart), 1); });
+}
+
+void write_pictures(const Contest& contest, std::span<const MethodRuns> results,
+                    WriteReport& report) {
+    const ViewSettings& view = contest.settings.view;
+    const Reference& reference = contest.reference;
+    const Camera camera = camera_of(view, contest.mesh, contest.tracer, reference.radiosity);
+    const auto picture = [&](std::span<const Vec3> radiosity) {
+        return render_view(view, contest.mesh, contest.tracer, radiosity, camera,
+                           contest.settings.options.threads);
+    };
+    const Image truth = picture(reference.radiosity);
+    const double exposure = exposure_of(view, truth);
+    const auto write = [&](const std::string& name, const Image& image, double factor) {
+        const std::string path = path_in(contest, name);
+        report.attempt(path, [&] { write_png(path, image, factor); });
+    };
+    write("reference.png", truth, exposure);
+    std::vector<std::vector<float>> differences;
+    for (const MethodRuns& result : results) {
+        const Image image = picture(result.runs.front().radiosity);
+        write(std::string(result.method->name) + ".png", image, exposure);
+        differences.push_back(luminance_difference(image, truth, exposure));
+    }
+    const DifferenceScale scale = common_scale(differences);
+    for (std::size_t i = 0; i < results.size(); ++i)
+        write(std::string(results[i].method->name) + "_difference.png",
+              false_colour(differences[i], truth.width, truth.height, scale), 1);
+}
+
+} // namespace
+
+void make_folder(const std::string& folder) {
+    std::error_code failure;
+    if (fs::exists(folder, failure) && !fs::is_directory(folder, failure))
+        throw OutputError(folder, "is a file; a folder is needed");
+    fs::create_directories(folder, failure);
+    if (failure)
+        throw OutputError(folder, "the folder cannot be made: " + failure.message());
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        throw OutputError(folder,
+                          std::string("cannot write to the folder: ") + std::strerror(errno));
+}
+
+WriteReport write_comparison(const Contest& contest, std::span<const MethodRuns> results,
+                             std::span<const MethodSummary> summaries) {
+    WriteReport report;
+    const std::string log = path_in(contest, "error.csv");
+    report.attempt(log, [&] { write_steps_log(log, all_rows(results)); });
+    write_charts(contest, summaries, report);
+    write_pictures(contest, results, report);
+    return report;
+}
+
+WriteReport write_reference(const Contest& contest) {
+    WriteReport report;
+    const std::string path = path_in(contest, "reference.csv");
+    report.attempt(path, [&] {
+        write_patch_table(path, contest.mesh, contest.reference.radiosity,
+                          contest.reference.standard_error);
+    });
+    return report;
+}
+
+} // namespace hemilux

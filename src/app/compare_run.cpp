@@ -1,0 +1,142 @@
+#include "app/compare_run.h"
+
+#include "app/stopwatch.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace hemilux {
+
+namespace {
+
+/// The budget as given, or the usual number of rays.
+Budget budget_of(const Contest& contest) {
+    Budget budget = contest.settings.budget;
+    if (!budget.rays && !budget.seconds)
+        budget.rays = Budget::default_steps * contest.settings.options.rays *
+                      static_cast<double>(contest.mesh.patches().size());
+    return budget;
+}
+
+/// A method at work. Its time is the sum of its own steps and of what it does before the first.
+class Runner {
+  public:
+    Runner(const Contest& contest, const Method& method, std::uint32_t run, const Budget& budget)
+        : contest_(contest), method_(method), run_(run), budget_(budget),
+          options_(contest.settings.options) {
+        options_.seed += run;
+        options_.literal = options_.literal && method.has_literal;
+        const Stopwatch preparing;
+        solver_ = method.make({contest.mesh, contest.tracer, options_, contest.monitor});
+        seconds_ = preparing.seconds();
+    }
+
+    /// False when it was interrupted.
+    bool step() {
+        const double before = used();
+        const Stopwatch stepping;
+        if (!solver_->step())
+            return false;
+        seconds_ += stepping.seconds();
+        step_before_ = last_step_;
+        last_step_ = used() - before;
+        result_.rows.push_back(row());
+        return true;
+    }
+
+    /// Whether the next step would end farther from the budget than the last one did.
+    [[nodiscard]] bool done() const {
+        if (result_.rows.empty())
+            return false;
+        const double growth =
+            step_before_ > 0 ? std::clamp(last_step_ / step_before_, 1.0, 2.0) : 1.0;
+        return solver_->finished() || used() + growth * last_step_ / 2 > limit();
+    }
+    [[nodiscard]] double share() const { return done() ? 1 : std::min(1.0, used() / limit()); }
+    [[nodiscard]] const StepRow& last_row() const { return result_.rows.back(); }
+
+    [[nodiscard]] MethodRun result() {
+        const Solution& solution = solver_->solution();
+        result_.radiosity = solution.radiosity;
+        result_.bytes_density = solution.bytes_density;
+        result_.complete = done();
+        return std::move(result_);
+    }
+
+  private:
+    [[nodiscard]] double limit() const { return budget_.rays ? *budget_.rays : *budget_.seconds; }
+    [[nodiscard]] double used() const {
+        return budget_.rays ? static_cast<double>(rays()) : seconds_;
+    }
+    [[nodiscard]] std::uint64_t rays() const {
+        return solver_->solution().rays_energy + solver_->solution().rays_density;
+    }
+    [[nodiscard]] StepRow row() const {
+        const Solution& solution = solver_->solution();
+        const auto step = static_cast<std::uint32_t>(result_.rows.size() + 1);
+        return {std::string(method_.name), run_,
+                StepRecord{step, rays(), seconds_, estimated_error(contest_.mesh, solution)},
+                contest_.reference.error(contest_.mesh, solution.radiosity)};
+    }
+
+    const Contest& contest_;
+    const Method& method_;
+    std::uint32_t run_;
+    Budget budget_;
+    SolveOptions options_;
+    std::unique_ptr<Solver> solver_;
+    double seconds_ = 0;
+    double last_step_ = 0, step_before_ = 0; ///< of the budget
+    MethodRun result_;
+};
+
+using Runners = std::vector<std::unique_ptr<Runner>>;
+
+double mean_share(const Runners& runners, std::size_t of) {
+    double sum = 0;
+    for (const auto& runner : runners)
+        sum += runner->share();
+    return sum / static_cast<double>(of);
+}
+
+/// One run of all methods, each until its budget is used up or all are interrupted.
+Runners run_once(const Contest& contest, std::uint32_t run,
+                 const std::function<void(const StepRow&, double share)>& after_step) {
+    const Budget budget = budget_of(contest);
+    const std::vector<const Method*>& methods = contest.settings.methods;
+    Runners runners;
+    for (const Method* const method : methods) {
+        if (contest.monitor.interrupted)
+            return runners;
+        runners.push_back(std::make_unique<Runner>(contest, *method, run, budget));
+    }
+    while (!contest.monitor.interrupted) {
+        const auto least = std::ranges::min_element(
+            runners, {}, [](const auto& runner) { return runner->share(); });
+        if ((*least)->done() || !(*least)->step())
+            break;
+        after_step((*least)->last_row(), mean_share(runners, methods.size()));
+    }
+    return runners;
+}
+
+} // namespace
+
+std::vector<MethodRuns>
+run_methods(const Contest& contest,
+            const std::function<void(const StepRow&, double share)>& after_step) {
+    std::vector<MethodRuns> results;
+    for (const Method* const method : contest.settings.methods)
+        results.push_back({method, {}});
+    const std::uint32_t runs = contest.settings.runs;
+    for (std::uint32_t run = 0; run < runs && !contest.monitor.interrupted; ++run) {
+        const Runners runners = run_once(contest, run, [&](const StepRow& row, double share) {
+            after_step(row, (run + share) / runs);
+        });
+        for (std::size_t m = 0; m < runners.size(); ++m)
+            results[m].runs.push_back(runners[m]->result());
+    }
+    return results;
+}
+
+} // namespace hemilux

@@ -1,0 +1,42 @@
+#pragma once
+// Runs several methods at once, step by step, so that whatever else disturbs the machine disturbs
+// all alike: the next step is always that of the method which is least far in its budget.
+
+#include "app/reference.h"
+#include "app/settings.h"
+#include "io/tables.h"
+
+#include <functional>
+#include <vector>
+
+namespace hemilux {
+
+/// One run of one method.
+struct MethodRun {
+    std::vector<StepRow> rows;
+    std::vector<Vec3> radiosity; ///< at the end of the budget
+    std::uint64_t bytes_density = 0;
+    bool complete = false; ///< not interrupted
+};
+
+/// All runs of one method; those that were begun.
+struct MethodRuns {
+    const Method* method = nullptr;
+    std::vector<MethodRun> runs;
+};
+
+/// What the runs have in common; all of it outlives them.
+struct Contest {
+    const Mesh& mesh;
+    const Tracer& tracer;
+    const CompareSettings& settings;
+    const Reference& reference;
+    Monitor& monitor;
+};
+
+/// `after_step` is told the share of all runs that is done, 0 to 1.
+[[nodiscard]] std::vector<MethodRuns>
+run_methods(const Contest& contest,
+            const std::function<void(const StepRow&, double share)>& after_step);
+
+} // namespace hemilux

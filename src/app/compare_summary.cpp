@@ -1,0 +1,135 @@
+#include "app/compare_summary.h"
+
+#include "app/text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+
+namespace {
+
+using Figure = double (*)(const StepRow&);
+
+double rays_of(const StepRow& row) { return static_cast<double>(row.record.rays); }
+double seconds_of(const StepRow& row) { return row.record.seconds; }
+
+std::vector<const MethodRun*> runs_that_count(const MethodRuns& runs) {
+    std::vector<const MethodRun*> complete, begun;
+    for (const MethodRun& run : runs.runs) {
+        if (run.complete)
+            complete.push_back(&run);
+        if (!run.rows.empty())
+            begun.push_back(&run);
+    }
+    return complete.empty() ? begun : complete;
+}
+
+double mean(const std::vector<const MethodRun*>& runs, Figure figure) {
+    double sum = 0;
+    for (const MethodRun* const run : runs)
+        sum += figure(run->rows.back());
+    return sum / static_cast<double>(runs.size());
+}
+
+double geometric_mean(const std::vector<const MethodRun*>& runs, Figure figure) {
+    std::vector<double> numbers;
+    for (const MethodRun* const run : runs)
+        numbers.push_back(figure(run->rows.back()));
+    return hemilux::geometric_mean(numbers);
+}
+
+MeanCurve curve(const std::vector<const MethodRun*>& runs, Figure x) {
+    std::vector<ErrorCurve> curves;
+    for (const MethodRun* const run : runs) {
+        ErrorCurve& points = curves.emplace_back();
+        for (const StepRow& row : run->rows)
+            append(points, {x(row), row.error->all});
+    }
+    return mean_curve(curves);
+}
+
+MethodSummary summarise(const MethodRuns& result, bool literal) {
+    const std::vector<const MethodRun*> runs = runs_that_count(result);
+    MethodSummary summary;
+    summary.label = std::string(result.method->name) +
+                    (literal && result.method->has_literal ? " (literal)" : "");
+    summary.rays = mean(runs, rays_of);
+    summary.seconds = mean(runs, seconds_of);
+    summary.error = {geometric_mean(runs, [](const StepRow& row) { return row.error->all; }),
+                     geometric_mean(runs, [](const StepRow& row) { return row.error->detail; }),
+                     geometric_mean(runs, [](const StepRow& row) { return row.error->rest; })};
+    summary.estimated_error =
+        geometric_mean(runs, [](const StepRow& row) { return row.record.estimated_error; });
+    summary.by_seconds = curve(runs, seconds_of);
+    summary.by_rays = curve(runs, rays_of);
+    for (const MethodRun* const run : runs)
+        summary.bytes_density = std::max(summary.bytes_density, run->bytes_density);
+    return summary;
+}
+
+std::string number(const char* format, double x) {
+    return std::isfinite(x) ? formatted(format, x) : "-";
+}
+
+std::string gain(const std::optional<double>& x) { return x ? formatted("%.2f", *x) : "-"; }
+
+std::vector<std::string> table_row(const MethodSummary& s) {
+    return {s.label,
+            std::isfinite(s.rays) ? short_count(s.rays) : "-",
+            number("%.3g", s.seconds),
+            number("%.3g", 100 * s.error.all),
+            number("%.3g", 100 * s.error.detail),
+            number("%.3g", 100 * s.error.rest),
+            number("%.3g", 100 * s.estimated_error),
+            number("%.2f", s.estimated_error / s.error.all),
+            gain(s.gain_seconds),
+            gain(s.gain_rays),
+            s.bytes_density > 0 ? byte_size(s.bytes_density) : "-"};
+}
+
+/// Columns two blanks apart, the first flush left, the others flush right.
+std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths(rows.front().size());
+    for (const auto& row : rows)
+        for (std::size_t c = 0; c < row.size(); ++c)
+            widths[c] = std::max(widths[c], row[c].size());
+    std::string text;
+    for (const auto& row : rows) {
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            const std::string fill(widths[c] - row[c].size(), ' ');
+            text += c == 0 ? row[c] + fill : "  " + fill + row[c];
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+} // namespace
+
+std::vector<MethodSummary> summarise(std::span<const MethodRuns> results, bool literal) {
+    std::vector<MethodSummary> summaries;
+    for (const MethodRuns& result : results)
+        summaries.push_back(summarise(result, literal));
+    const auto base =
+        std::ranges::find(results, base_method, [](const MethodRuns& r) { return r.method->name; });
+    if (base == results.end())
+        return summaries;
+    const MethodSummary yardstick = summaries[static_cast<std::size_t>(base - results.begin())];
+    for (MethodSummary& summary : summaries) {
+        summary.gain_seconds = speed_up(summary.by_seconds.points(), yardstick.by_seconds.points());
+        summary.gain_rays = speed_up(summary.by_rays.points(), yardstick.by_rays.points());
+    }
+    return summaries;
+}
+
+std::string summary_table(std::span<const MethodSummary> summaries) {
+    std::vector<std::vector<std::string>> rows{{"method", "rays", "seconds", "error %", "detail %",
+                                                "rest %", "estimated %", "estimated/error",
+                                                "time gain", "ray gain", "density bytes"}};
+    for (const MethodSummary& summary : summaries)
+        rows.push_back(table_row(summary));
+    return aligned(rows);
+}
+
+} // namespace hemilux

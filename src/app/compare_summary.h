@@ -1,0 +1,36 @@
+#pragma once
+// What the runs of several methods say about them.
+
+#include "app/compare_run.h"
+#include "io/error_curves.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+/// Means over the runs at their ends, geometric ones for errors; NaN: unknown.
+struct MethodSummary {
+    std::string label;
+    double rays = 0, seconds = 0;
+    RelativeError error;
+    double estimated_error = 0;
+    std::uint64_t bytes_density = 0;
+    MeanCurve by_seconds, by_rays; ///< true error
+    /// How many times less of it the base method's error costs; see `speed_up`.
+    std::optional<double> gain_seconds, gain_rays;
+};
+
+/// The method that gains are relative to.
+inline constexpr std::string_view base_method = "progressive-monte-carlo";
+
+/// In the order of the results. Runs that were interrupted count only where a method has no other.
+[[nodiscard]] std::vector<MethodSummary> summarise(std::span<const MethodRuns> results,
+                                                   bool literal);
+
+/// A line of headings, then one per method; errors in per cent.
+[[nodiscard]] std::string summary_table(std::span<const MethodSummary> summaries);
+
+} // namespace hemilux

@@ -1,0 +1,100 @@
+#include "app/formfactors.h"
+
+#include "app/exit_code.h"
+#include "app/extension.h"
+#include "app/load_geometry.h"
+#include "app/signals.h"
+#include "app/talk.h"
+#include "app/text.h"
+#include "app/write_report.h"
+#include "bvh/bvh.h"
+#include "io/factor_table.h"
+#include "io/npy.h"
+#include "radiosity/exact_form_factors.h"
+#include "radiosity/matrix_quality.h"
+
+#include <algorithm>
+
+namespace hemilux {
+
+namespace {
+
+bool is_dense(const std::string& path) { return extension_of(path) == ".npy"; }
+
+void check_size(const FormFactorSettings& settings, std::size_t patches) {
+    const auto refuse = [&](std::size_t most, const std::string& what, const std::string& advice) {
+        if (patches > most)
+            throw UsageError(what + " is for up to " + grouped(most) + " patches, not " +
+                             grouped(patches) + "; " + advice);
+    };
+    if (std::ranges::any_of(settings.outputs, is_dense))
+        refuse(settings.most_dense, "a dense .npy matrix", "write .csv instead");
+    if (settings.exact)
+        refuse(settings.most_exact, "--exact", "leave it out and take more --rays");
+}
+
+void say_quality(Talk talk, const MatrixQuality& quality) {
+    const auto line = [talk](const std::string& text) { say(talk, Talk::normal, text); };
+    line(counted(quality.entries, "factor", "factors") +
+         formatted(" above 0, from %.3g to %.6g", quality.least, quality.most));
+    line(formatted("rows: |sum - 1 + lost| %.2g on average, %.2g at most", quality.closure_mean,
+                   quality.closure_most) +
+         "; lost " + percent(quality.lost_mean) + " on average");
+    line(formatted("reciprocity: |A_i F_ij - A_j F_ji| is %.2g of the whole; as a factor %.2g at "
+                   "most",
+                   quality.reciprocity_mean, quality.reciprocity_most));
+}
+
+/// The matrix, or nothing where the user interrupted.
+std::optional<SparseMatrix> compute(const FormFactorSettings& settings, const Mesh& mesh,
+                                    SampledFormFactors& samples, const Workers& workers,
+                                    Monitor& monitor) {
+    const std::uint64_t traced = samples.trace_up_to(settings.rays, workers, monitor);
+    if (monitor.interrupted)
+        return std::nullopt;
+    say(settings.talk, Talk::normal,
+        counted(mesh.patches().size(), "patch", "patches") + ", " +
+            short_count(static_cast<double>(traced)) + " rays");
+    if (!settings.exact)
+        return samples.matrix();
+    const ExactFormFactors exact(mesh, workers, monitor);
+    if (monitor.interrupted)
+        return std::nullopt;
+    say(settings.talk, Talk::normal,
+        counted(exact.exact_pairs(), "pair", "pairs") + " by contour integration, " +
+            grouped(exact.sampled_pairs()) + " by rays");
+    return exact.matrix(samples);
+}
+
+} // namespace
+
+int formfactors(const FormFactorSettings& settings) {
+    check_distinct(settings.outputs);
+    for (const std::string& path : settings.outputs)
+        check_writable(path);
+    Monitor monitor;
+    const InterruptGuard guard(monitor.interrupted);
+    const Mesh mesh = load_geometry(settings.scene, settings.talk);
+    check_size(settings, mesh.patches().size());
+    const Bvh bvh(mesh.soup());
+    const Workers workers(settings.options.threads);
+    SampledFormFactors samples(mesh, bvh, {}, settings.options.seed);
+    const auto matrix = compute(settings, mesh, samples, workers, monitor);
+    if (!matrix) {
+        say(settings.talk, Talk::quiet, "interrupted; nothing was written");
+        return exit_interrupted;
+    }
+    say_quality(settings.talk, judge_matrix(*matrix, mesh, samples));
+    WriteReport report;
+    for (const std::string& path : settings.outputs)
+        report.attempt(path, [&] {
+            if (is_dense(path))
+                write_npy(path, *matrix);
+            else
+                write_factor_table(path, *matrix);
+        });
+    report.say(settings.talk);
+    return report.failed.empty() ? exit_done : exit_output;
+}
+
+} // namespace hemilux

@@ -1,0 +1,17 @@
+#pragma once
+// What is said on stderr, as far as the user wants to hear it.
+
+#include "app/settings.h"
+
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+/// Says a line unless the user wants less talk than `least`.
+void say(Talk wanted, Talk least, const std::string& line);
+
+/// Warnings of a reader: the first few, or all with -v.
+void say_warnings(Talk wanted, const std::vector<std::string>& warnings);
+
+} // namespace hemilux

@@ -1,0 +1,26 @@
+#include "app/view.h"
+
+#include "io/render.h"
+
+namespace hemilux {
+
+Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
+                 std::span<const Vec3> radiosity) {
+    const auto [width, height] = view.size;
+    return view.camera
+               ? *view.camera
+               : automatic_camera(mesh, tracer, radiosity, static_cast<double>(width) / height);
+}
+
+Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
+                  std::span<const Vec3> radiosity, const Camera& camera, unsigned threads) {
+    const auto [width, height] = view.size;
+    return render(mesh, tracer, radiosity, camera,
+                  {.width = width, .height = height, .threads = threads});
+}
+
+double exposure_of(const ViewSettings& view, const Image& image) {
+    return view.exposure ? *view.exposure : auto_exposure(image);
+}
+
+} // namespace hemilux

@@ -1,0 +1,23 @@
+#pragma once
+// The view of a scene that the user asked for.
+
+#include "app/settings.h"
+#include "io/image.h"
+
+#include <span>
+
+namespace hemilux {
+
+/// The camera given, or one chosen for the scene.
+[[nodiscard]] Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
+                               std::span<const Vec3> radiosity);
+
+/// Linear radiosity in the size asked for.
+[[nodiscard]] Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
+                                std::span<const Vec3> radiosity, const Camera& camera,
+                                unsigned threads);
+
+/// The factor given, or one chosen for the picture.
+[[nodiscard]] double exposure_of(const ViewSettings& view, const Image& image);
+
+} // namespace hemilux

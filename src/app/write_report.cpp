@@ -1,0 +1,26 @@
+#include "app/write_report.h"
+
+#include "app/talk.h"
+#include "io/error.h"
+
+namespace hemilux {
+
+void WriteReport::attempt(const std::string& path, const std::function<void()>& write) {
+    try {
+        write();
+        written.push_back(path);
+    } catch (const OutputError& error) {
+        failed.emplace_back(error.what());
+    } catch (const std::exception& error) {
+        failed.push_back(path + ": " + error.what());
+    }
+}
+
+void WriteReport::say(Talk talk) const {
+    for (const std::string& path : written)
+        hemilux::say(talk, Talk::normal, "wrote " + path);
+    for (const std::string& message : failed)
+        hemilux::say(talk, Talk::quiet, "hemilux: " + message);
+}
+
+} // namespace hemilux

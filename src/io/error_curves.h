@@ -1,0 +1,51 @@
+#pragma once
+// Error against what it cost, seconds or rays: curves that are near to straight lines when both
+// axes are logarithmic, so everything here is done with logarithms.
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+struct CurvePoint {
+    double x;     ///< seconds or rays so far
+    double error; ///< relative
+};
+
+/// One run: ascending in x, without points that have no logarithm.
+using ErrorCurve = std::vector<CurvePoint>;
+
+/// Adds a point unless x is not above that of the last one, or a number is not positive and finite.
+void append(ErrorCurve& curve, CurvePoint point);
+
+/// Several runs at common x: geometric mean, least and greatest error.
+struct MeanCurve {
+    std::vector<double> x, mean, low, high;
+
+    [[nodiscard]] bool empty() const { return x.empty(); }
+    /// The mean alone.
+    [[nodiscard]] ErrorCurve points() const;
+};
+
+/// The error at x, interpolated; empty where the curve does not reach.
+[[nodiscard]] std::optional<double> error_at(const ErrorCurve& curve, double x);
+
+/// The mean of the runs over the x that all have, at up to `count` places evenly spaced in log x;
+/// empty where they have none in common. Runs without a point do not count.
+[[nodiscard]] MeanCurve mean_curve(std::span<const ErrorCurve> runs, std::size_t count = 100);
+
+/// The first x at which the error has come down to the given one; empty where it never does, or
+/// where the curve begins below it.
+[[nodiscard]] std::optional<double> x_of_error(const ErrorCurve& curve, double error);
+
+/// How many times less a curve costs than the base at the same error: the smallest that both reach.
+/// Empty where they have no error in common.
+[[nodiscard]] std::optional<double> speed_up(const ErrorCurve& curve, const ErrorCurve& base);
+
+/// exp of the mean of logarithms; numbers that are not positive and finite do not count. NaN where
+/// none does.
+[[nodiscard]] double geometric_mean(std::span<const double> numbers);
+
+} // namespace hemilux

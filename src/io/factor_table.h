@@ -1,0 +1,13 @@
+#pragma once
+// A sparse matrix of form factors as CSV: `i,j,F`, a row per factor above 0.
+
+#include "radiosity/sampled_form_factors.h"
+
+#include <string>
+
+namespace hemilux {
+
+/// Numbers are the shortest text that gives back the same double. Throws OutputError.
+void write_factor_table(const std::string& path, const SparseMatrix& matrix);
+
+} // namespace hemilux

@@ -1,0 +1,36 @@
+#pragma once
+// A logarithmic axis: its range, and the numbers 1, 2 and 5 times a power of ten on it.
+
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+struct LogTick {
+    double value;
+    bool labelled;
+};
+
+class LogAxis {
+  public:
+    /// Wide enough for all numbers that are positive and finite, with some room at both ends, and
+    /// no narrower than a factor of four.
+    explicit LogAxis(const std::vector<double>& numbers);
+
+    [[nodiscard]] double low() const { return low_; }
+    [[nodiscard]] double high() const { return high_; }
+    /// 0 at the low end, 1 at the high one.
+    [[nodiscard]] double place(double x) const;
+    /// The inverse of `place`.
+    [[nodiscard]] double at(double place) const;
+    /// Ascending. On a long axis only the powers of ten have labels, or only some of them.
+    [[nodiscard]] std::vector<LogTick> ticks() const;
+
+  private:
+    double low_ = 1, high_ = 10;
+};
+
+/// 0.05, 20, 500, 2k, 10M, 1e-07
+[[nodiscard]] std::string tick_text(double value);
+
+} // namespace hemilux

@@ -1,0 +1,220 @@
+// What `hemilux compare` writes and says.
+#include "app/program.h"
+#include "radiosity/solver.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <sstream>
+
+using Catch::Contains;
+using test::Workplace;
+
+namespace {
+
+const std::string quick = "--reference-error .02 --size 40x30 ";
+
+std::vector<std::vector<std::string>> split(const std::string& text, char separator) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream stream(line);
+        std::vector<std::string>& row = rows.emplace_back();
+        for (std::string field; std::getline(stream, field, separator);)
+            row.push_back(field);
+    }
+    return rows;
+}
+
+/// The rows of the table on stdout, by method; a field never has two blanks side by side.
+std::map<std::string, std::vector<std::string>> table_of(const std::string& out) {
+    std::map<std::string, std::vector<std::string>> table;
+    for (const auto& words : split(out, ' ')) {
+        std::vector<std::string> fields;
+        bool open = false;
+        for (const std::string& word : words) {
+            if (!word.empty() && open)
+                fields.back() += " " + word;
+            else if (!word.empty())
+                fields.push_back(word);
+            open = !word.empty();
+        }
+        table[fields.front()] = fields;
+    }
+    return table;
+}
+
+void check_fails(const Workplace& place, int code, const std::string& arguments,
+                 const std::string& message) {
+    CAPTURE(arguments);
+    const Workplace::Outcome outcome = place.hemilux("compare " + arguments);
+    CHECK(outcome.code == code);
+    CHECK_THAT(outcome.err, Contains(message));
+    CHECK(outcome.out.empty());
+}
+
+} // namespace
+
+TEST_CASE("a comparison leaves a log, charts, pictures and a table") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome =
+        place.hemilux("compare room.obj -o deep/compared --methods hemisphere,progressive-monte-"
+                      "carlo --runs 2 --rays 100 --budget-rays 48000 " +
+                      quick);
+    REQUIRE(outcome.code == 0);
+    for (const char* file :
+         {"error.csv", "error.svg", "error.png", "reference.csv", "reference.png", "hemisphere.png",
+          "hemisphere_difference.png", "progressive-monte-carlo.png",
+          "progressive-monte-carlo_difference.png"}) {
+        CHECK(place.has(std::string("deep/compared/") + file));
+        CHECK_THAT(outcome.err, Contains(std::string("wrote deep/compared/") + file));
+    }
+    CHECK_THAT(place.read("deep/compared/error.svg"),
+               Contains("hemisphere") && Contains("slope -1/2"));
+    // Width and height in the header of a PNG (big endian).
+    CHECK(place.read("deep/compared/hemisphere.png").substr(16, 8) ==
+          std::string("\0\0\0\x28\0\0\0\x1e", 8));
+
+    const std::string log = place.read("deep/compared/error.csv");
+    CHECK(log.rfind("method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,"
+                    "true_error_rest\n",
+                    0) == 0);
+    std::map<std::string, int> steps;
+    std::map<std::string, double> last_rays;
+    for (const auto& row : split(log, ',')) {
+        if (row[0] == "method")
+            continue;
+        REQUIRE(row.size() == 9);
+        const std::string run = row[0] + row[1];
+        CHECK(std::stoi(row[2]) == ++steps[run]);
+        CHECK(std::stod(row[3]) > last_rays[run]);
+        last_rays[run] = std::stod(row[3]);
+        CHECK(std::stod(row[6]) > 0);
+    }
+    CHECK(steps.size() == 4);
+    for (const auto& [run, rays] : last_rays)
+        CHECK(rays == Approx(48000).epsilon(0.04)); // half a step
+
+    const auto table = table_of(outcome.out);
+    REQUIRE(table.size() == 3);
+    CHECK(table.at("method") == std::vector<std::string>{"method", "rays", "seconds", "error %",
+                                                         "detail %", "rest %", "estimated %",
+                                                         "estimated/error", "time gain", "ray gain",
+                                                         "density bytes"});
+    CHECK(table.at("progressive-monte-carlo")[8] == "1.00");
+    CHECK(table.at("progressive-monte-carlo")[9] == "1.00");
+    CHECK(table.at("progressive-monte-carlo")[10] == "-");
+    CHECK_THAT(table.at("hemisphere")[10], Contains("bytes") || Contains("B"));
+    // 2000 rays per patch on 24 patches.
+    for (const char* method : {"hemisphere", "progressive-monte-carlo"})
+        CHECK(std::stod(table.at(method)[3]) < 6);
+}
+
+TEST_CASE("by default all unbiased methods are compared, by rays") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux("compare room.obj -o a --runs 1 --rays 4 -q " + quick);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    const auto table = table_of(outcome.out);
+    std::size_t unbiased = 0;
+    for (const hemilux::Method* const method : hemilux::methods()) {
+        CHECK(table.contains(std::string(method->name)) == method->unbiased);
+        unbiased += method->unbiased;
+    }
+    CHECK(table.size() == unbiased + 1);
+}
+
+TEST_CASE("the reference that was computed serves again, and steps do not depend on threads") {
+    const Workplace place;
+    place.write_room();
+    const std::string common =
+        "compare room.obj --methods stratified,matrix --runs 2 --rays 30 --budget-rays 20000 -v " +
+        quick;
+    const auto first = place.hemilux(common + "-o a -t 1");
+    REQUIRE(first.code == 0);
+    CHECK_THAT(first.err, Contains("reference, step 1:") && Contains("stratified, run 2, step 1:"));
+    const std::string table = place.read("a/reference.csv");
+    const auto again = place.hemilux(common + "-o a --reference a/reference.csv -t 2");
+    REQUIRE(again.code == 0);
+    CHECK_THAT(again.err, !Contains("reference, step 1:") && !Contains("wrote a/reference.csv"));
+    CHECK(place.read("a/reference.csv") == table);
+    CHECK(table_of(again.out).at("stratified")[8] == "-"); // there is no base method
+    // The runs have seeds of their own, and the reference has none of them.
+    std::set<std::string> errors;
+    const auto rows = split(place.read("a/error.csv"), ',');
+    for (std::size_t i = 1; i < rows.size(); ++i)
+        errors.insert(rows[i][6]);
+    CHECK(errors.size() == rows.size() - 1);
+    CHECK(errors.count("0") == 0);
+
+    REQUIRE(place.hemilux(common + "-o b --reference a/reference.csv -t 1").code == 0);
+    CHECK(place.read("b/stratified.png") == place.read("a/stratified.png"));
+    CHECK(place.read("b/stratified_difference.png") == place.read("a/stratified_difference.png"));
+}
+
+TEST_CASE("a budget of time ends near it for every method") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place
+                .hemilux("compare room.obj -o a --methods hemisphere,stratified --runs 1 --rays 50 "
+                         "--budget-time .2 " +
+                         quick)
+                .code == 0);
+    std::map<std::string, double> last;
+    for (const auto& row : split(place.read("a/error.csv"), ','))
+        if (row[0] != "method")
+            last[row[0]] = std::stod(row[4]);
+    REQUIRE(last.size() == 2);
+    for (const auto& [method, seconds] : last) {
+        CHECK(seconds > 0.1);
+        CHECK(seconds < 0.4);
+    }
+}
+
+TEST_CASE("--literal goes to the methods that have it, and shows") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux("compare room.obj -o a --methods hemisphere,stratified "
+                                       "--runs 1 --literal --budget-rays 100000 " +
+                                       quick);
+    REQUIRE(outcome.code == 0);
+    const auto table = table_of(outcome.out);
+    REQUIRE(table.contains("hemisphere (literal)"));
+    CHECK(std::stod(table.at("hemisphere (literal)")[3]) > 10);
+    CHECK(std::stod(table.at("stratified")[3]) < 5);
+}
+
+TEST_CASE("a scene that reflects nothing has no error, and says so by dashes") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome =
+        place.hemilux("compare room.obj -o a --methods stratified --runs 1 --rays 4 "
+                      "--budget-rays 1000 --reflectance '*=0' " +
+                      quick);
+    CHECK(outcome.code == 0);
+    CHECK(table_of(outcome.out).at("stratified")[3] == "-");
+}
+
+TEST_CASE("what cannot be compared is refused before any work") {
+    const Workplace place;
+    place.write_room();
+    check_fails(place, 1, "room.obj -o a --methods hemisfere", "did you mean 'hemisphere'?");
+    check_fails(place, 1, "room.obj -o a --methods hemisphere,stratifed",
+                "did you mean 'stratified'?");
+    check_fails(place, 1, "room.obj -o a --methods matrix,matrix", "named twice");
+    check_fails(place, 1, "room.obj -o a --methods hemisphere,", "--methods");
+    check_fails(place, 1, "room.obj -o a --budget-rays 1e6 --budget-time 3", "--budget-time");
+    check_fails(place, 1, "room.obj -o a --budget-rays 0", "--budget-rays");
+    check_fails(place, 1, "room.obj -o a --runs 0", "--runs");
+    check_fails(place, 1, "room.obj -o a --detail wals", "did you mean 'walls'?");
+    check_fails(place, 1, "room.obj", "output");
+    check_fails(place, 2, "room.obj -o a --reference none.csv", "none.csv");
+    check_fails(place, 2, "none.obj -o a", "none.obj");
+    check_fails(place, 3, "room.obj -o room.mtl", "room.mtl: is a file");
+    check_fails(place, 3, "room.obj -o room.mtl/a", "room.mtl/a");
+    CHECK_FALSE(place.has("a/error.csv"));
+}

@@ -1,0 +1,102 @@
+#include "io/error_curves.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace hemilux;
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// error = factor x^-1/2 at x = first, 2 first, 4 first, ...
+ErrorCurve root_law(double factor, double first, int points) {
+    ErrorCurve curve;
+    for (double x = first; points-- > 0; x *= 2)
+        append(curve, {x, factor / std::sqrt(x)});
+    return curve;
+}
+
+} // namespace
+
+TEST_CASE("a curve takes what has a logarithm, in ascending order") {
+    ErrorCurve curve;
+    for (const CurvePoint& point : std::initializer_list<CurvePoint>{
+             {0, 1}, {1, unknown}, {1, 0}, {1, -1}, {1, 0.5}, {1, 0.4}, {0.5, 0.4}, {2, 0.3}})
+        append(curve, point);
+    REQUIRE(curve.size() == 2);
+    CHECK(curve[0].error == 0.5);
+    CHECK(curve[1].x == 2);
+}
+
+TEST_CASE("power laws are straight: interpolation is exact on them") {
+    const ErrorCurve curve = root_law(3, 10, 5); // to 160
+    for (const double x : {10.0, 11.0, 37.0, 100.0, 160.0})
+        CHECK(error_at(curve, x).value() == Approx(3 / std::sqrt(x)));
+    CHECK_FALSE(error_at(curve, 9.99));
+    CHECK_FALSE(error_at(curve, 160.01));
+    CHECK_FALSE(error_at({}, 1));
+    for (const double x : {10.0, 25.0, 160.0})
+        CHECK(x_of_error(curve, 3 / std::sqrt(x)).value() == Approx(x));
+    CHECK_FALSE(x_of_error(curve, 3 / std::sqrt(9.9)));
+    CHECK_FALSE(x_of_error(curve, 3 / std::sqrt(161.0)));
+    CHECK_FALSE(x_of_error({}, 1));
+}
+
+TEST_CASE("the first time that an error is reached counts, whatever comes after") {
+    const ErrorCurve curve{{1, 8}, {2, 4}, {4, 6}, {8, 2}};
+    CHECK(x_of_error(curve, 4).value() == Approx(2));
+    CHECK(x_of_error(curve, 5).value() < 2);
+    CHECK(x_of_error(curve, 3).value() > 4);
+}
+
+TEST_CASE("the mean of runs is geometric and covers what all of them cover") {
+    const std::vector<ErrorCurve> runs{root_law(1, 1, 8), root_law(4, 3, 4), {}};
+    const MeanCurve mean = mean_curve(runs, 20);
+    REQUIRE(mean.x.size() == 20);
+    CHECK(mean.x.front() == 3);
+    CHECK(mean.x.back() == 24);
+    for (std::size_t i = 0; i < mean.x.size(); ++i) {
+        const double root = std::sqrt(mean.x[i]);
+        CHECK(mean.low[i] == Approx(1 / root));
+        CHECK(mean.mean[i] == Approx(2 / root));
+        CHECK(mean.high[i] == Approx(4 / root));
+        if (i > 0)
+            CHECK(mean.x[i] > mean.x[i - 1]);
+    }
+    CHECK(mean.points().size() == 20);
+}
+
+TEST_CASE("runs with nothing in common have no mean") {
+    CHECK(mean_curve(std::vector<ErrorCurve>{}).empty());
+    CHECK(mean_curve(std::vector<ErrorCurve>{{}, {}}).empty());
+    CHECK(mean_curve(std::vector<ErrorCurve>{root_law(1, 1, 3), root_law(1, 10, 3)}).empty());
+    const MeanCurve one = mean_curve(std::vector<ErrorCurve>{{{5, 0.1}}});
+    REQUIRE(one.x.size() == 1);
+    CHECK(one.mean[0] == Approx(0.1));
+}
+
+TEST_CASE("the gain is the ratio of costs at the smallest error that both reach") {
+    const ErrorCurve base = root_law(6, 100, 6);
+    CHECK(speed_up(base, base).value() == Approx(1));
+    // Half the error at equal cost: a quarter of the cost at equal error.
+    CHECK(speed_up(root_law(3, 100, 6), base).value() == Approx(4));
+    CHECK(speed_up(base, root_law(3, 100, 6)).value() == Approx(0.25));
+    // The same law, seen at other places.
+    CHECK(speed_up(root_law(3, 37, 4), base).value() == Approx(4));
+    CHECK_FALSE(speed_up(root_law(1000, 100, 6), base));
+    CHECK_FALSE(speed_up({}, base));
+    CHECK_FALSE(speed_up(base, {}));
+    // A method with a floor is judged where its floor is.
+    const ErrorCurve floored{{100, 0.6}, {200, 0.5}, {400, 0.4}, {800, 0.4}};
+    CHECK(speed_up(floored, base).value() == Approx(std::pow(6 / 0.4, 2) / 400));
+}
+
+TEST_CASE("the geometric mean leaves out what has no logarithm") {
+    CHECK(geometric_mean(std::vector<double>{2, 8}) == Approx(4));
+    CHECK(geometric_mean(std::vector<double>{unknown, 3, 0}) == Approx(3));
+    CHECK(std::isnan(geometric_mean(std::vector<double>{unknown})));
+    CHECK(std::isnan(geometric_mean({})));
+}
