@@ -27,8 +27,8 @@ SceneWriter make_open_scene() {
     add_table(writer, bench, {1.6, .45, .5}, {6, 2}, 2);
     writer.group("lamp");
     writer.use("metal");
-    // It ends well below the lantern: a small cap right under it would be so bright that the error of
-    // the whole scene would be its own.
+    // It ends well below the lantern: a small cap right under it would be so bright that the error
+    // of the whole scene would be its own.
     writer.add_prism(Placement(1.7, gap, .6), {.06, .04, 2.0, 8, 6});
     writer.use("lamp");
     writer.add_prism(Placement(1.7, 2.21, .6), {.12, .2, .3, 8});
