@@ -6,6 +6,7 @@
 #include "app/compare_summary.h"
 #include "app/exit_code.h"
 #include "app/load.h"
+#include "app/method_options.h"
 #include "app/progress.h"
 #include "app/signals.h"
 #include "app/stopwatch.h"
@@ -116,11 +117,16 @@ int finish(const Contest& contest, std::vector<MethodRuns> results) {
 } // namespace
 
 int compare(const CompareSettings& settings) {
+    std::vector<const Method*> methods = settings.methods;
+    if (settings.reference.empty())
+        methods.push_back(find_method("matrix"));
+    check_own_options(settings.options, methods);
     make_folder(settings.folder);
     Monitor monitor;
     const InterruptGuard guard(monitor.interrupted);
     const LoadedMesh loaded = load_mesh(settings.scene, settings.talk);
     const Mesh& mesh = loaded.mesh;
+    check_exact(settings.options, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;
     if (!settings.reference.empty())

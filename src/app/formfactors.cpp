@@ -3,6 +3,7 @@
 #include "app/exit_code.h"
 #include "app/extension.h"
 #include "app/load_geometry.h"
+#include "app/method_options.h"
 #include "app/signals.h"
 #include "app/talk.h"
 #include "app/text.h"
@@ -22,15 +23,10 @@ namespace {
 bool is_dense(const std::string& path) { return extension_of(path) == ".npy"; }
 
 void check_size(const FormFactorSettings& settings, std::size_t patches) {
-    const auto refuse = [&](std::size_t most, const std::string& what, const std::string& advice) {
-        if (patches > most)
-            throw UsageError(what + " is for up to " + grouped(most) + " patches, not " +
-                             grouped(patches) + "; " + advice);
-    };
-    if (std::ranges::any_of(settings.outputs, is_dense))
-        refuse(settings.most_dense, "a dense .npy matrix", "write .csv instead");
-    if (settings.exact)
-        refuse(settings.most_exact, "--exact", "leave it out and take more --rays");
+    if (patches > settings.most_dense && std::ranges::any_of(settings.outputs, is_dense))
+        throw UsageError("a dense .npy matrix is for up to " + grouped(settings.most_dense) +
+                         " patches, not " + grouped(patches) + "; write .csv instead");
+    check_exact(settings.options, patches);
 }
 
 void say_quality(Talk talk, const MatrixQuality& quality) {
@@ -55,7 +51,7 @@ std::optional<SparseMatrix> compute(const FormFactorSettings& settings, const Me
     say(settings.talk, Talk::normal,
         counted(mesh.patches().size(), "patch", "patches") + ", " +
             short_count(static_cast<double>(traced)) + " rays");
-    if (!settings.exact)
+    if (!settings.options.exact)
         return samples.matrix();
     const ExactFormFactors exact(mesh, workers, monitor);
     if (monitor.interrupted)

@@ -9,13 +9,12 @@ namespace hemilux {
 
 struct FormFactorSettings {
     SceneSettings scene;
-    SolveOptions options;      ///< seed, threads
+    SolveOptions options;      ///< seed, threads, exact
     std::uint32_t rays = 4096; ///< per patch; a power of two
-    bool exact = false;        ///< without chance where two patches see each other fully
     std::vector<std::string> outputs;
     Talk talk = Talk::normal;
 
-    static constexpr std::size_t most_dense = 20'000, most_exact = 2000; ///< patches
+    static constexpr std::size_t most_dense = 20'000; ///< patches
 };
 
 CLI::App* add_formfactors_command(CLI::App& program, FormFactorSettings& settings);

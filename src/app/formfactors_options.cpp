@@ -37,7 +37,7 @@ CLI::App* add_formfactors_command(CLI::App& program, FormFactorSettings& setting
                "a power of two from 1 to 1048576", power_of_two,
                [&settings](std::uint32_t rays) { settings.rays = rays; })
         ->group("Method");
-    app->add_flag("--exact", settings.exact,
+    app->add_flag("--exact", settings.options.exact,
                   "without chance where nothing can stand between two patches; up to 2000 patches")
         ->group("Method");
     add_random_options(*app, settings.options);

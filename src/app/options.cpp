@@ -1,12 +1,14 @@
 #include "app/options.h"
 
 #include "app/exit_code.h"
+#include "app/method_options.h"
 #include "app/names.h"
 #include "app/option_groups.h"
 #include "app/option_kinds.h"
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 namespace hemilux {
 
@@ -95,6 +97,9 @@ void add_output_options(CLI::App& app, SolveSettings& settings) {
     add_text(app, "--stats", "FILE", settings.statistics, "statistics of the run as JSON")
         ->group(output_group);
     add_text(app, "--steps-log", "FILE", settings.steps_log, "a CSV row per step")
+        ->group(output_group);
+    app.add_flag("--every-step", settings.every_step,
+                 "also write the pictures after every step, as NAME-0001.png and so on")
         ->group(output_group);
     add_view_options(app, settings.view);
 }
@@ -185,6 +190,7 @@ CLI::App* add_solve_command(CLI::App& program, SolveSettings& settings) {
     add_scene_options(*app, settings.scene);
     add_method_option(*app, settings.method);
     add_method_options(*app, settings.options);
+    add_own_options(*app, settings.options);
     add_stop_options(*app, settings.stop);
     add_output_options(*app, settings);
     add_comparison_options(*app, settings);
@@ -199,6 +205,7 @@ CLI::App* add_compare_command(CLI::App& program, CompareSettings& settings) {
     add_scene_options(*app, settings.scene);
     add_methods_option(*app, settings.methods);
     add_method_options(*app, settings.options);
+    add_own_options(*app, settings.options);
     add_budget_options(*app, settings);
     add_reference_options(*app, settings);
     add_text(*app, "-o,--output", "DIR", settings.folder,

@@ -17,6 +17,10 @@ struct Output {
     OutputKind kind;
 };
 
+[[nodiscard]] constexpr bool is_picture(OutputKind kind) {
+    return kind == OutputKind::png || kind == OutputKind::hdr;
+}
+
 /// By the extension of the path, in small or capital letters; empty where it is none of ours.
 [[nodiscard]] std::optional<Output> parse_output(std::string_view path);
 

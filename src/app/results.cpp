@@ -5,6 +5,7 @@
 #include "io/image.h"
 #include "io/ply.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace hemilux {
@@ -69,6 +70,8 @@ void check_outputs(const SolveSettings& settings) {
     std::vector<std::string> paths = output_paths(settings);
     if (paths.empty())
         throw UsageError("nothing would be written; add an output such as -o picture.png");
+    if (settings.every_step && std::ranges::none_of(settings.outputs, is_picture, &Output::kind))
+        throw UsageError("--every-step is for pictures; add -o picture.png");
     if (!settings.reference.empty())
         paths.push_back(settings.reference); // must not be overwritten
     check_distinct(paths);

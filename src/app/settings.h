@@ -40,6 +40,7 @@ struct SolveSettings {
     ViewSettings view;
     std::vector<Output> outputs;
     std::string statistics, steps_log; ///< paths; empty: not asked for
+    bool every_step = false;           ///< pictures also after every step
     std::string reference;             ///< path of a patch table; empty: none
     std::vector<std::string> detail;   ///< groups; empty: those that begin with `detail`
     Talk talk = Talk::normal;

@@ -3,10 +3,12 @@
 #include "app/commands.h"
 #include "app/exit_code.h"
 #include "app/load.h"
+#include "app/method_options.h"
 #include "app/progress.h"
 #include "app/reference.h"
 #include "app/results.h"
 #include "app/signals.h"
+#include "app/step_pictures.h"
 #include "app/stopwatch.h"
 #include "app/summary.h"
 #include "app/talk.h"
@@ -16,6 +18,7 @@
 #include "radiosity/workers.h"
 
 #include <algorithm>
+#include <span>
 
 namespace hemilux {
 
@@ -55,9 +58,10 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
 }
 
 /// The last words; returns the exit code.
-int finish(const SolveSettings& settings, const Results& results,
+int finish(const SolveSettings& settings, const Results& results, const WriteReport& of_steps,
            const std::optional<Reference>& reference, bool interrupted) {
-    const WriteReport report = write_results(settings, results);
+    WriteReport report = write_results(settings, results);
+    report.add(of_steps);
     say(settings.talk, Talk::normal, run_text(results.statistics));
     say(settings.talk, Talk::verbose, memory_text(results.statistics));
     if (reference) {
@@ -84,6 +88,7 @@ int finish(const SolveSettings& settings, const Results& results,
 
 int solve(const SolveSettings& settings) {
     check_outputs(settings);
+    check_own_options(settings.options, std::span(&settings.method, 1));
     const StopRule stop = stop_rule(settings);
     Monitor monitor;
     const InterruptGuard guard(monitor.interrupted);
@@ -91,6 +96,7 @@ int solve(const SolveSettings& settings) {
 
     const LoadedMesh loaded = load_mesh(settings.scene, settings.talk);
     const Mesh& mesh = loaded.mesh;
+    check_exact(settings.options, mesh.patches().size());
     statistics.seconds_read = loaded.seconds_read;
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;
@@ -107,12 +113,15 @@ int solve(const SolveSettings& settings) {
     const SolverInput input{mesh, bvh, settings.options, monitor};
     const std::unique_ptr<Solver> solver = settings.method->make(input);
     std::vector<StepRow> rows;
+    StepPictures step_pictures(settings, mesh, bvh);
     const bool completed =
         run(*solver, input, stop, [&](const StepRecord& record, const Solution& solution) {
             rows.push_back({std::string(settings.method->name), 0, record, std::nullopt});
             if (reference)
                 rows.back().error = reference->error(mesh, solution.radiosity);
             progress.step_done(record);
+            if (settings.every_step)
+                step_pictures.write(solution.radiosity, record.step);
             if (settings.talk == Talk::verbose)
                 progress.say(step_text(rows.back()));
         });
@@ -121,8 +130,8 @@ int solve(const SolveSettings& settings) {
 
     fill(statistics, settings, mesh, solver->solution(), seconds_solver);
     statistics.bytes_peak = peak_memory_bytes();
-    return finish(settings, {mesh, bvh, solver->solution(), statistics, rows}, reference,
-                  !completed);
+    return finish(settings, {mesh, bvh, solver->solution(), statistics, rows},
+                  step_pictures.report(), reference, !completed);
 }
 
 } // namespace hemilux

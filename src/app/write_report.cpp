@@ -16,6 +16,11 @@ void WriteReport::attempt(const std::string& path, const std::function<void()>& 
     }
 }
 
+void WriteReport::add(const WriteReport& other) {
+    written.insert(written.end(), other.written.begin(), other.written.end());
+    failed.insert(failed.end(), other.failed.begin(), other.failed.end());
+}
+
 void WriteReport::say(Talk talk) const {
     for (const std::string& path : written)
         hemilux::say(talk, Talk::normal, "wrote " + path);

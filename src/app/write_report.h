@@ -15,6 +15,7 @@ struct WriteReport {
 
     /// Calls `write` and notes whether it threw.
     void attempt(const std::string& path, const std::function<void()>& write);
+    void add(const WriteReport& other);
     /// Tells the user.
     void say(Talk talk) const;
 };

@@ -11,6 +11,9 @@
 
 namespace hemilux {
 
+/// More would take very long.
+inline constexpr std::size_t most_patches_for_exact_factors = 2000;
+
 class ExactFormFactors {
   public:
     /// All pairs of patches that see each other fully. Work grows as patches^2 facets: for a few

@@ -36,6 +36,7 @@ ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strat
 }
 
 bool ShootingSolver::solve_once(std::uint64_t stream, StepResult& result) {
+    strategy_->begin_step(stream); // the pilot's is after all others
     const auto patches = input_.mesh.patches();
     std::vector<Vec3> unshot(patches.size()), received(patches.size());
     for (std::uint32_t i = 0; i < patches.size(); ++i)
@@ -157,25 +158,37 @@ void ShootingSolver::shoot(std::uint32_t patch, std::uint64_t stream,
         if (!(n > 0))
             continue;
         // Below one ray per cell, the ray that is shot carries the power of those that are not.
-        const double ray_power = share.power / (literal || expected >= 1 ? n : expected);
+        const double sharing = literal || expected >= 1 ? n : expected;
+        const auto own = strategy_->private_cell(patch, share.cell);
+        const double ray_power = (own ? own->power : share.power) / sharing;
+        const Aim target = aim(patch, share.cell, own);
         volley.bursts.push_back({patch, static_cast<std::uint32_t>(n), ray_power});
         for (double k = 0; k < n; ++k)
-            volley.receivers.push_back(trace(patch, frame, share.cell, rng));
+            volley.receivers.push_back(trace(input_.mesh.patches()[patch], frame, target, rng));
     }
 }
 
-std::uint32_t ShootingSolver::trace(std::uint32_t patch, const Frame& frame, std::uint16_t cell,
-                                    Rng& rng) const {
+/// As printed, rays into triangles leave from the centre; those of plain Monte Carlo do not.
+ShootingSolver::Aim ShootingSolver::aim(std::uint32_t patch, std::uint16_t cell,
+                                        const std::optional<PrivateCell>& own) const {
     const Patch& from = input_.mesh.patches()[patch];
+    if (!own && cell == whole_hemisphere)
+        return {&from.shape, {}, nullptr};
+    const Polygon* origins = own ? &own->origins : &from.shape;
+    const SphericalTriangle& triangle = own ? own->shape : hemisphere_.cells()[cell].shape;
+    if (!input_.options.literal)
+        return {origins, {}, &triangle};
+    return {nullptr, own ? origins->centre() : from.centre, &triangle};
+}
+
+std::uint32_t ShootingSolver::trace(const Patch& from, const Frame& frame, const Aim& aim,
+                                    Rng& rng) const {
     Ray ray{};
     ray.from = from.facet;
-    ray.origin = from.centre;
-    if (!input_.options.literal)
-        ray.origin = sample_uniform(from.shape, rng);
-    ray.direction = frame.to_world(
-        cell == whole_hemisphere
-            ? sample_cosine(rng)
-            : hemisphere_.cells()[cell].shape.sample_rejection([&] { return rng.uniform(); }));
+    ray.origin = aim.origins ? sample_uniform(*aim.origins, rng) : aim.centre;
+    ray.direction =
+        frame.to_world(aim.triangle ? aim.triangle->sample_rejection([&] { return rng.uniform(); })
+                                    : sample_cosine(rng));
     return receiver_of(ray, input_.mesh, input_.tracer);
 }
 

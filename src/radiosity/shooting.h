@@ -16,9 +16,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace hemilux {
+
+struct Patch;
 
 class ShootingSolver final : public StepwiseSolver {
   public:
@@ -30,6 +33,12 @@ class ShootingSolver final : public StepwiseSolver {
         std::uint32_t patch;
         std::uint32_t rays;
         double ray_power; ///< Phi_ray / Phi_patch
+    };
+    /// Where the rays of a burst start and where they go.
+    struct Aim {
+        const Polygon* origins; ///< nullptr: all from the centre
+        Vec3 centre;
+        const SphericalTriangle* triangle; ///< nullptr: the whole hemisphere
     };
     /// What some consecutive patches shot and where each ray arrived.
     struct Volley {
@@ -44,7 +53,9 @@ class ShootingSolver final : public StepwiseSolver {
     void plan(std::uint64_t stream, const std::vector<Vec3>& unshot);
     void shoot(std::uint32_t patch, std::uint64_t stream, std::vector<CellShare>& shares,
                Volley& volley) const;
-    [[nodiscard]] std::uint32_t trace(std::uint32_t patch, const Frame& frame, std::uint16_t cell,
+    [[nodiscard]] Aim aim(std::uint32_t patch, std::uint16_t cell,
+                          const std::optional<PrivateCell>& own) const;
+    [[nodiscard]] std::uint32_t trace(const Patch& from, const Frame& frame, const Aim& aim,
                                       Rng& rng) const;
 
     static void collect(const Volley& volley, const std::vector<Vec3>& unshot,

@@ -17,6 +17,18 @@ namespace hemilux {
 
 class Mesh;
 
+/// What the method `progressive` may do besides.
+struct ProgressiveOptions {
+    /// A step is one shot; else as many as use up the rays of a step.
+    bool one_shot = false;
+    /// Adds to the solution shown an estimate of the light that is still unshot (Cohen et al.
+    /// 1988). It makes early pictures brighter and is gone at the end.
+    bool ambient = false;
+    /// Patches also shoot what they will probably receive later, and take back what was too much
+    /// (Feda and Purgathofer 1992). Fewer shots in bright rooms.
+    bool overshoot = false;
+};
+
 struct SolveOptions {
     /// Mean energy rays per patch and step, N_hemi of the paper. More: fewer, longer steps.
     double rays = 64;
@@ -26,6 +38,9 @@ struct SolveOptions {
     double threshold = 0;
     /// The rules as printed in the paper; biased (docs/decisions.md, D1, D2, D10).
     bool literal = false;
+    /// `matrix`: factors without chance where patches see each other fully. For small scenes.
+    bool exact = false;
+    ProgressiveOptions progressive;
     std::uint64_t seed = 1;
     /// 0: one per core. The result does not depend on it.
     unsigned threads = 0;

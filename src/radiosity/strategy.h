@@ -3,10 +3,13 @@
 // the stepwise shooting methods differ: the loops of Compute Radiosity (paper section 5b) are the
 // same.
 
+#include "geometry/polygon.h"
+#include "geometry/spherical_triangle.h"
 #include "radiosity/solver.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace hemilux {
@@ -16,18 +19,32 @@ namespace hemilux {
 /// is unbiased, however the rays are dealt, as long as each cell with power has a positive share of
 /// them.
 struct CellShare {
-    std::uint16_t cell; ///< of Hemisphere::cells(), or whole_hemisphere
-    double power;       ///< A_tr / A_hemi in the paper
+    std::uint16_t cell; ///< of Hemisphere::cells(), or whole_hemisphere, or private
+    double power;       ///< A_tr / A_hemi in the paper; unused in a private cell
     double rays;        ///< N_tr / N_hemi in the paper
 };
 
 inline constexpr std::uint16_t whole_hemisphere = 0xffff;
 
+/// A cell that is not of the table which all patches share; made only when rays are shot into it.
+struct PrivateCell {
+    double power; ///< as CellShare's
+    SphericalTriangle shape;
+    Polygon origins; ///< the part of the patch where its rays start
+};
+
 class Strategy {
   public:
     virtual ~Strategy() = default;
+    /// What is dealt from now on belongs to this step, 0 being the first.
+    virtual void begin_step(std::uint64_t) {}
     /// The cells of a patch, always in the same order. Callable from several threads.
     virtual void deal(std::uint32_t patch, std::vector<CellShare>& shares) const = 0;
+    /// What a cell that was dealt is, where it is not of the table.
+    [[nodiscard]] virtual std::optional<PrivateCell> private_cell(std::uint32_t /*patch*/,
+                                                                  std::uint16_t /*cell*/) const {
+        return std::nullopt;
+    }
 
     [[nodiscard]] virtual std::uint64_t density_rays() const { return 0; }
     [[nodiscard]] virtual std::uint64_t density_bytes() const { return 0; }

@@ -163,3 +163,41 @@ TEST_CASE("info describes a scene on stdout") {
     CHECK(place.hemilux("info room.obj --emission '*=0'").code == 0);
     CHECK_THAT(place.hemilux("info room.obj --max-edge .3").out, Contains("96"));
 }
+
+TEST_CASE("a picture after every step shows one view as it gets brighter") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux("solve room.obj --method progressive --one-shot --steps 3 "
+                                       "--every-step --size 40x30 -o p.png -o p.hdr -o p.csv");
+    REQUIRE(outcome.code == 0);
+    for (const char* name : {"p-0001.png", "p-0002.png", "p-0003.png", "p-0003.hdr", "p.png"})
+        CHECK(place.has(name));
+    CHECK_FALSE(place.has("p-0004.png"));
+    CHECK_FALSE(place.has("p-0001.csv"));
+    CHECK(place.read("p-0001.hdr") != place.read("p-0003.hdr"));
+    CHECK(place.read("p-0003.hdr") == place.read("p.hdr"));
+    CHECK_THAT(outcome.err, Contains("wrote p-0002.png"));
+}
+
+TEST_CASE("what a method alone can do is asked of that method alone") {
+    const Workplace place;
+    place.write_room();
+    // In an empty box all factors are known: one step, and no error is left.
+    REQUIRE(place.hemilux("solve room.obj --method matrix --exact -q -o a.json").code == 0);
+    CHECK_THAT(place.read("a.json"), Contains("\"steps\": 1,"));
+    CHECK(place
+              .hemilux("solve room.obj --method progressive --ambient --overshoot --one-shot "
+                       "--steps 4 -q -o a.json")
+              .code == 0);
+    for (const std::string option : {"--exact", "--one-shot", "--ambient", "--overshoot"}) {
+        const auto outcome = place.hemilux("solve room.obj -o b.json " + option);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains(option + " is for --method "));
+    }
+    const auto large =
+        place.hemilux("solve room.obj --method matrix --exact --max-edge .02 -o b.json");
+    CHECK(large.code == 1);
+    CHECK_THAT(large.err, Contains("--exact is for up to"));
+    CHECK(place.hemilux("solve room.obj --every-step -o b.json").code == 1);
+    CHECK_FALSE(place.has("b.json"));
+}

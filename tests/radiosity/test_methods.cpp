@@ -32,9 +32,14 @@ SolveOptions with_seed(std::uint64_t seed, double rays = 64) {
     return options;
 }
 
-StopRule enough(const Method& method, std::uint32_t n) {
-    return method.default_stop.error ? StopRule{.steps = 2, .seconds = {}, .error = {}}
-                                     : test::steps(n);
+/// Enough for the tests below. `progressive`, whose steps are shots, goes on until nothing is left
+/// to shoot; what it calls rays is an accuracy of form factors, and an eighth will do.
+Solution solve(const Model& model, const Method& method, SolveOptions options, std::uint32_t n) {
+    if (method.name == "progressive") {
+        options.rays /= 8;
+        return test::solve(model, method, options, test::steps(1'000'000));
+    }
+    return test::solve(model, method, options, test::steps(method.default_stop.error ? 2 : n));
 }
 
 } // namespace
@@ -46,8 +51,7 @@ TEST_CASE("White furnace: every patch within 4 standard errors of E / (1 - rho)"
         for (const double rho : {.5, .8})
             for (const bool convex : {true, false}) {
                 const Model model(convex ? test::furnace_box(3, rho) : test::furnace_l_shape(rho));
-                const Solution s =
-                    test::solve(model, *method, with_seed(11, 32), enough(*method, 128));
+                const Solution s = solve(model, *method, with_seed(11, 32), 128);
                 CAPTURE(method->name, rho, convex);
                 CHECK(worst_deviation(s, Vec3(1 / (1 - rho))) < 4);
             }
@@ -59,7 +63,9 @@ TEST_CASE("The printed rules fail the furnace clearly") {
     options.literal = true;
     for (const Method* method : methods())
         if (method->has_literal) {
-            const Solution s = test::solve(model, *method, options, test::steps(32));
+            // hemisphere-1997 shoots by its own rules in the first three steps only.
+            const std::uint32_t n = method->name == "hemisphere-1997" ? 3 : 32;
+            const Solution s = test::solve(model, *method, options, test::steps(n));
             CAPTURE(method->name);
             CHECK(worst_deviation(s, Vec3(5)) > 20);
             CHECK(
@@ -76,7 +82,7 @@ TEST_CASE("A closed room keeps its energy, and colours do not mix") {
     scene.materials[1].emission = {1, 2, 3};
     const Model model(scene);
     for (const Method* method : methods()) {
-        const Solution s = test::solve(model, *method, with_seed(3, 256), enough(*method, 64));
+        const Solution s = solve(model, *method, with_seed(3, 256), 64);
         CAPTURE(method->name);
         Vec3 sum(0.0);
         for (std::size_t i = 0; i < s.radiosity.size(); ++i)
@@ -98,7 +104,7 @@ TEST_CASE("The lit cube's face means") {
     // other.
     const Model model(test::cube_with_lit_floor(4, .5));
     for (const Method* method : methods()) {
-        const Solution s = test::solve(model, *method, with_seed(5, 256), enough(*method, 100));
+        const Solution s = solve(model, *method, with_seed(5, 256), 100);
         CAPTURE(method->name);
         std::array<double, 6> mean{};
         for (std::size_t i = 0; i < 96; ++i)
@@ -113,16 +119,21 @@ TEST_CASE("The lit cube's face means") {
 TEST_CASE("A spherical cavity with an opening") {
     // B = E / (1 - rho (1 + cos phi) / 2); the polyhedron of triangles is not quite a sphere.
     constexpr double rho = .5;
-    Scene scene = test::sphere(4, 1, rho, 1);
-    const double cos_phi = std::cos(std::numbers::pi / 6);
-    std::erase_if(scene.facets, [&](const Facet& f) {
-        const Vec3 centre =
-            scene.vertices[f.vertex[0]] + scene.vertices[f.vertex[1]] + scene.vertices[f.vertex[2]];
-        return glm::normalize(centre).z > cos_phi;
-    });
-    const Model model(std::move(scene));
+    const auto cavity = [](int level) {
+        Scene scene = test::sphere(level, 1, rho, 1);
+        const double cos_phi = std::cos(std::numbers::pi / 6);
+        std::erase_if(scene.facets, [&](const Facet& f) {
+            const Vec3 centre = scene.vertices[f.vertex[0]] + scene.vertices[f.vertex[1]] +
+                                scene.vertices[f.vertex[2]];
+            return glm::normalize(centre).z > cos_phi;
+        });
+        return scene;
+    };
+    const Model fine(cavity(4)), coarse(cavity(3));
     for (const Method* method : methods()) {
-        const Solution s = test::solve(model, *method, with_seed(8, 32), enough(*method, 4));
+        // What is shot to all patches in turn takes time as their square.
+        const Model& model = method->name == "progressive" ? coarse : fine;
+        const Solution s = solve(model, *method, with_seed(8, 32), 4);
         CAPTURE(method->name);
         double area = 0, sum = 0;
         for (std::size_t i = 0; i < s.radiosity.size(); ++i) {
@@ -145,13 +156,13 @@ TEST_CASE("A large sphere inside out: backs absorb, two-sided sheets shine on bo
     for (const Method* method : methods()) {
         CAPTURE(method->name);
         const Model one(scene);
-        const Solution s = test::solve(one, *method, with_seed(2, 2000), enough(*method, 16));
+        const Solution s = solve(one, *method, with_seed(2, 2000), 16);
         CHECK(s.radiosity[1].x == 0);
         // F(2,1) of opposed squares: side 2, distance 1 (Howell C-11 with X = Y = 2).
         constexpr double factor = .41525;
         CHECK(s.energy.absorbed.x == Approx(4 * factor).epsilon(.01));
         const Model two(scene, {.two_sided = true});
-        const Solution t = test::solve(two, *method, with_seed(2, 2000), enough(*method, 16));
+        const Solution t = solve(two, *method, with_seed(2, 2000), 16);
         REQUIRE(t.radiosity.size() == 4);
         CHECK(t.radiosity[2].x == 0);                                // upper side of the sheet
         CHECK(t.radiosity[3].x == Approx(.5 * factor).epsilon(.01)); // lower side
@@ -216,7 +227,7 @@ TEST_CASE("A step shoots about the rays that were asked for") {
          {test::room_with_block(), test::open_scene(), test::furnace_box(4, .95)}) {
         const Model model(scene);
         for (const Method* method : methods()) {
-            if (!method->strategy)
+            if (!method->unbiased)
                 continue;
             const Solution s = test::solve(model, *method, with_seed(4, 100), test::steps(8));
             const double per_step = double(s.rays_energy) / 8 / double(model.mesh.patches().size());

@@ -4,12 +4,15 @@
 // the system B = E + rho F B solved to a residual of 1e-12. Several independent replicates of the
 // factors give several solutions; their mean is the result, their spread its standard error. Each
 // step doubles the rays; the run ends when the estimated error is small enough (.002 unless asked
-// otherwise).
+// otherwise). With --exact, factors between patches that see each other fully are without chance,
+// by contour integration (exact_form_factors.h); rays are used for the other pairs alone.
 //
 // Consistent: a solution depends on its factors in a non-linear way, so its bias falls as one over
 // the rays, well below its error. Good up to some ten thousand patches: memory is 8 bytes per pair
-// of patches that see each other and replicate.
+// of patches that see each other and replicate. --exact is for small scenes: its time grows as
+// patches^2 faces.
 
+#include "radiosity/exact_form_factors.h"
 #include "radiosity/gmres.h"
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
@@ -18,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace hemilux {
 namespace {
@@ -45,7 +49,11 @@ class MatrixSolver final : public Solver {
     explicit MatrixSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads) {
         const auto patches = input.mesh.patches();
-        const auto emitters = few_emitters(input.mesh);
+        std::vector<std::uint32_t> emitters;
+        if (input.options.exact)
+            exact_.emplace(input.mesh, workers_, input.monitor);
+        else
+            emitters = few_emitters(input.mesh);
         for (std::uint64_t r = 0; r < replicates; ++r)
             factors_.emplace_back(input.mesh, input.tracer, emitters,
                                   hash_words({input.options.seed, r}));
@@ -93,7 +101,7 @@ class MatrixSolver final : public Solver {
     /// B = E + rho F B for one replicate, channel by channel, from the last solution on.
     void solve(const SampledFormFactors& factors, std::vector<Vec3>& radiosity,
                EnergyBalance& energy) {
-        const SparseMatrix f = factors.matrix();
+        const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
         const std::size_t n = radiosity.size();
         std::vector<double> emission(n), rho(n), x(n), incident(n);
         for (int c = 0; c < 3; ++c) {
@@ -143,6 +151,7 @@ class MatrixSolver final : public Solver {
     SolverInput input_;
     Workers workers_;
     std::vector<SampledFormFactors> factors_;
+    std::optional<ExactFormFactors> exact_;
     std::vector<std::vector<Vec3>> guesses_; ///< solution of each replicate
     std::uint32_t rays_ = 0;                 ///< per patch and replicate
     std::uint64_t traced_ = 0;

@@ -1,0 +1,57 @@
+#pragma once
+// How the technique of 1997 divides a spherical triangle (paper section 4): by a new point on each
+// edge, nearer to the end where more surfaces are.
+
+#include "geometry/vector.h"
+
+#include <array>
+#include <cstddef>
+
+namespace hemilux {
+
+/// A unit vector and the number of surfaces that a ray found along it, or would probably find: ns
+/// or ens in the paper.
+struct CountedDirection {
+    Vec3 direction;
+    double surfaces;
+};
+
+/// Counter-clockwise seen from outside.
+using CountedTriangle = std::array<CountedDirection, 3>;
+
+/// How far from P1 towards P2 the new point P3 lies, as a share of the edge: equation (1),
+/// P3P1 / P2P3 = ns(P2) / ns(P1). One half where nothing was found along P1 or P2.
+[[nodiscard]] double division_share(double ns_1, double ns_2);
+
+/// The point at this share of the shorter arc from a to b, both of unit length and not opposite.
+[[nodiscard]] Vec3 point_on_arc(const Vec3& a, const Vec3& b, double share);
+
+/// The new point F of the edge AB with its estimated count: AF / FB = ens(B) / ens(A) and
+/// ens(F) = (ens(A) BF + ens(B) AF) / AB.
+[[nodiscard]] CountedDirection estimated_point(const CountedDirection& a,
+                                               const CountedDirection& b);
+
+/// Corners of child 0 to 3 of the triangle ABC with new points on AB, BC and CA: those at A, B and
+/// C, then the middle one.
+template <class Corner>
+[[nodiscard]] std::array<Corner, 3> child_corners(const std::array<Corner, 3>& corner,
+                                                  const std::array<Corner, 3>& between,
+                                                  std::size_t child) {
+    const auto& [a, b, c] = corner;
+    const auto& [ab, bc, ca] = between;
+    switch (child) {
+    case 0:
+        return {a, ab, ca};
+    case 1:
+        return {ab, b, bc};
+    case 2:
+        return {ca, bc, c};
+    default:
+        return {ab, bc, ca};
+    }
+}
+
+/// Child 0 to 3, divided at the estimated points.
+[[nodiscard]] CountedTriangle estimated_child(const CountedTriangle& triangle, std::size_t child);
+
+} // namespace hemilux

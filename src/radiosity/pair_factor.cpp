@@ -1,0 +1,98 @@
+#include "radiosity/pair_factor.h"
+
+#include "radiosity/mesh.h"
+#include "radiosity/point_to_patch.h"
+#include "radiosity/rng.h"
+#include "radiosity/sobol.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace hemilux {
+namespace {
+
+/// A pair that is worth fewer rays gets just these, in two sets of points: too few to judge by.
+constexpr double least_worth_to_adapt = 32;
+
+/// Others get from a quarter to four times what they are worth, in four sets, whose agreement is
+/// seldom chance: until the variance is that of `worth` points with this relative variance each.
+constexpr double least_share = 0.25, most_share = 4;
+constexpr std::uint32_t adaptive_sets = 4;
+constexpr double relative_variance = 0.03;
+
+/// Whatever a pair is worth.
+constexpr double most_rays = 8192;
+
+/// Points of each set, a power of two, for which they are best distributed.
+std::uint32_t points_per_set(double rays, std::uint32_t sets) {
+    const double points = std::clamp(rays, 2.0, most_rays) / sets;
+    return std::bit_ceil(static_cast<std::uint32_t>(std::max(points, 1.0)));
+}
+
+} // namespace
+
+void PairFactor::average(std::span<const double> sums, double points) {
+    const auto sets = static_cast<double>(sums.size());
+    factor = std::accumulate(sums.begin(), sums.end(), 0.0) / (sets * points);
+    double squares = 0;
+    for (const double sum : sums)
+        squares += (sum / points - factor) * (sum / points - factor);
+    variance = squares / (sets * (sets - 1));
+}
+
+bool may_see(const Patch& a, const Patch& b) {
+    // Neighbours in one plane are in front of each other by rounding errors only.
+    constexpr double least_height = 1e-12;
+    const auto reaches_above = [](const Patch& patch, const Patch& plane) {
+        return std::ranges::any_of(patch.shape.corner, [&](const Vec3& corner) {
+            return glm::dot(plane.normal, corner - plane.centre) > least_height;
+        });
+    };
+    return reaches_above(a, b) && reaches_above(b, a);
+}
+
+double rough_factor(const Patch& from, const Patch& to) {
+    const Vec3 d = to.centre - from.centre;
+    const double r2 = glm::dot(d, d), r = std::sqrt(r2);
+    const double least_cosine = (std::sqrt(from.area) + std::sqrt(to.area)) / (2 * r);
+    const auto cosine = [&](double at_centres) {
+        return std::min(std::max(least_cosine, at_centres), 1.0); // 1 for a NaN of equal centres
+    };
+    return cosine(glm::dot(from.normal, d) / r) * cosine(-glm::dot(to.normal, d) / r) * to.area /
+           (std::numbers::pi * r2 + to.area);
+}
+
+PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
+                       double worth, std::uint64_t seed) {
+    const bool adaptive = worth >= least_worth_to_adapt;
+    const std::uint32_t sets = adaptive ? adaptive_sets : 2;
+    const std::uint32_t most = points_per_set(adaptive ? most_share * worth : worth, sets);
+    PairFactor result;
+    std::array<double, adaptive_sets> sum{};
+    std::uint32_t begin = 0, end = adaptive ? points_per_set(least_share * worth, sets) : most;
+    for (;; begin = end, end *= 2) {
+        for (std::uint32_t set = 0; set < sets; ++set) {
+            const std::uint64_t set_seed = hash_words({seed, from, set});
+            for (std::uint32_t k = begin; k < end; ++k) {
+                const double f =
+                    point_to_patch(mesh, tracer, from, to, sobol4(k, set_seed), result.rays);
+                sum[set] += f;
+                result.hits += f > 0;
+            }
+        }
+        result.average({sum.data(), sets}, end);
+        const double allowed = relative_variance * result.factor * result.factor / worth;
+        if (end >= most || result.variance <= allowed) {
+            // To stop when the sets agree is to stop when they happen to: not better than allowed.
+            if (adaptive)
+                result.variance = std::max(result.variance, allowed);
+            return result;
+        }
+    }
+}
+
+} // namespace hemilux

@@ -1,0 +1,39 @@
+#pragma once
+// The form factor between two patches by shadow rays (Wallace, Elmquist and Haines 1989), as
+// exactly as the light between them is worth.
+//
+// Points of the receiver are independent scrambled Sobol sets, whose spread tells the error; they
+// grow until it is small enough.
+
+#include "bvh/tracer.h"
+
+#include <cstdint>
+#include <span>
+
+namespace hemilux {
+
+class Mesh;
+struct Patch;
+
+struct PairFactor {
+    double factor = 0;   ///< F_from,to [-]
+    double variance = 0; ///< of the factor
+    std::uint64_t rays = 0, hits = 0;
+
+    /// Mean and spread of sets of so many points.
+    void average(std::span<const double> sums, double points);
+};
+
+/// Whether each has a corner in front of the other.
+[[nodiscard]] bool may_see(const Patch& a, const Patch& b);
+
+/// About F_from,to without looking: the kernel between the centres, with cosines as they may be
+/// elsewhere on the patches. Rather too large than too small.
+[[nodiscard]] double rough_factor(const Patch& from, const Patch& to);
+
+/// `worth`: about how many rays are to be spent, more on pairs that see each other in part and
+/// fewer on those that see each other well; two at least.
+[[nodiscard]] PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t from,
+                                     std::uint32_t to, double worth, std::uint64_t seed);
+
+} // namespace hemilux

@@ -1,0 +1,202 @@
+// The technique of 1997: where its vertices move, what it estimates, and how its triangles and rays
+// lie.
+#include "geometry/spherical_triangle.h"
+#include "radiosity/edge_division.h"
+#include "radiosity/hemisphere.h"
+#include "radiosity/strategy.h"
+#include "radiosity/workers.h"
+#include "support/directions.h"
+#include "support/scenes.h"
+#include "support/solve.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+using namespace hemilux;
+using test::Model;
+
+namespace {
+
+double angle(const Vec3& a, const Vec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+SphericalTriangle shape(const CountedTriangle& t) {
+    return {t[0].direction, t[1].direction, t[2].direction};
+}
+
+CountedTriangle random_counted(Rng& rng) {
+    CountedTriangle result;
+    const auto vertices = test::random_triangle(rng).vertices();
+    for (std::size_t i = 0; i < 3; ++i)
+        result[i] = {vertices[i], std::floor(20 * rng.uniform())};
+    return result;
+}
+
+struct Dealer {
+    SolveOptions options;
+    Monitor monitor;
+    Hemisphere hemisphere{0};
+    std::unique_ptr<Strategy> strategy;
+
+    explicit Dealer(const Model& model, bool literal = false) {
+        options.literal = literal;
+        const SolverInput input{model.mesh, model.bvh, options, monitor};
+        strategy = find_method("hemisphere-1997")->strategy(input, hemisphere, Workers(1));
+    }
+    [[nodiscard]] std::vector<CellShare> deal(std::uint64_t step) const {
+        strategy->begin_step(step);
+        std::vector<CellShare> shares;
+        strategy->deal(0, shares);
+        return shares;
+    }
+};
+
+} // namespace
+
+TEST_CASE("Equation (1): a new point lies nearer to the end with more surfaces") {
+    const Vec3 p1 = glm::normalize(Vec3(1, 2, 3)), p2 = glm::normalize(Vec3(-1, .5, .2));
+    for (const auto& [ns1, ns2] : {std::pair{1., 1.}, {3., 1.}, {1., 7.}, {250., 4.}}) {
+        const Vec3 p3 = point_on_arc(p1, p2, division_share(ns1, ns2));
+        CAPTURE(ns1, ns2);
+        CHECK(angle(p3, p1) / angle(p2, p3) == Approx(ns2 / ns1).epsilon(1e-10));
+        CHECK(angle(p1, p3) + angle(p3, p2) == Approx(angle(p1, p2)).epsilon(1e-12));
+        CHECK(glm::length(p3) == Approx(1).epsilon(1e-14));
+    }
+    // From either end it is the same point, so neighbours have no gap between them.
+    const Vec3 back = point_on_arc(p2, p1, division_share(2, 5));
+    CHECK(glm::length(back - point_on_arc(p1, p2, division_share(5, 2))) < 1e-15);
+}
+
+TEST_CASE("Where nothing was counted an edge is halved") {
+    for (const auto& [ns1, ns2] : {std::pair{0., 0.}, {0., 9.}, {9., 0.}})
+        CHECK(division_share(ns1, ns2) == .5);
+    CHECK(point_on_arc({0, 0, 1}, {0, 0, 1}, .3) == Vec3(0, 0, 1));
+    // Between points of the horizon lies the horizon.
+    CHECK(point_on_arc({1, 0, 0}, {0, 1, 0}, .3).z == 0);
+}
+
+TEST_CASE("Estimated counts follow the printed formulas") {
+    const CountedDirection a{glm::normalize(Vec3(0, .3, 1)), 2},
+        b{glm::normalize(Vec3(1, 0, .5)), 6};
+    const CountedDirection f = estimated_point(a, b);
+    const double af = angle(a.direction, f.direction), fb = angle(f.direction, b.direction),
+                 ab = angle(a.direction, b.direction);
+    CHECK(af / fb == Approx(6. / 2).epsilon(1e-12));
+    CHECK(f.surfaces == Approx((2 * fb + 6 * af) / ab).epsilon(1e-12));
+    CHECK(f.surfaces == Approx(5)); // 2/4 + 6 * 3/4
+    CHECK(estimated_point({a.direction, 0}, {b.direction, 8}).surfaces == Approx(4));
+}
+
+TEST_CASE("The four triangles fill their parent") {
+    Rng rng(5);
+    for (int i = 0; i < 200; ++i) {
+        const CountedTriangle parent = random_counted(rng);
+        double solid = 0, projected = 0;
+        for (std::size_t child = 0; child < 4; ++child) {
+            const SphericalTriangle t = shape(estimated_child(parent, child));
+            CHECK(t.solid_angle() > 0); // the right way round
+            solid += t.solid_angle();
+            projected += t.projected_solid_angle();
+        }
+        CHECK(solid == Approx(shape(parent).solid_angle()).epsilon(1e-10));
+        CHECK(projected == Approx(shape(parent).projected_solid_angle()).epsilon(1e-10));
+    }
+}
+
+TEST_CASE("Each step has four times as many triangles, until plain refinement follows") {
+    const Model model(test::room_with_block());
+    const Dealer dealer(model);
+    CHECK(dealer.deal(0).size() == 4 * 16);
+    CHECK(dealer.deal(1).size() == 4 * 64);
+    CHECK(dealer.deal(2).size() == 4 * 256);
+    for (const std::uint64_t step : {3u, 4u, 100u}) {
+        const auto shares = dealer.deal(step);
+        REQUIRE(shares.size() == 1);
+        CHECK(shares[0].cell == whole_hemisphere);
+    }
+    // Counted: 41 directions for each sub-patch, a float vector and a byte each.
+    CHECK(dealer.strategy->density_rays() == 4 * 41 * model.mesh.patches().size());
+    CHECK(dealer.strategy->density_bytes() == 13 * dealer.strategy->density_rays());
+}
+
+TEST_CASE("In a convex room all counts are equal, and edges are halved") {
+    const Model model(test::furnace_box(2, .5));
+    const Dealer dealer(model);
+    const Hemisphere regular(3);
+    for (const std::uint64_t step : {0u, 1u, 2u}) {
+        dealer.strategy->begin_step(step);
+        const int level = static_cast<int>(step) + 1;
+        const std::size_t begin = Hemisphere::cells_up_to(level - 1);
+        const std::size_t cells = Hemisphere::cells_up_to(level) - begin;
+        double worst = 0;
+        for (std::size_t k = 0; k < 4 * cells; ++k) {
+            const auto own = dealer.strategy->private_cell(7, static_cast<std::uint16_t>(k));
+            REQUIRE(own);
+            for (std::size_t v = 0; v < 3; ++v)
+                worst = std::max(
+                    worst, glm::length(own->shape.vertices()[v] -
+                                       regular.cells()[begin + k % cells].shape.vertices()[v]));
+        }
+        CHECK(worst < 1e-6); // floats
+    }
+}
+
+TEST_CASE("Rays start in sub-patches that fill the patch") {
+    Scene scene = test::furnace_box(1, .5);
+    test::add_quad(scene, {.2, .5, .2}, {.3, .5, .8}, {.8, .5, .7}, {.7, .5, .1}, 1, 1, 0);
+    scene.vertices.push_back({.5, .9, .5});
+    const auto last = static_cast<std::uint32_t>(scene.vertices.size()) - 1;
+    scene.facets.push_back({{last, 0, 1, 1}, 0, 0, 0});
+    const Model model(scene);
+    const Dealer dealer(model);
+    dealer.strategy->begin_step(0);
+    for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i) {
+        const Patch& patch = model.mesh.patches()[i];
+        double area = 0;
+        Vec3 centre(0.0);
+        for (std::uint16_t piece = 0; piece < 4; ++piece) {
+            const Polygon part =
+                dealer.strategy->private_cell(i, static_cast<std::uint16_t>(16 * piece))->origins;
+            CHECK(glm::dot(part.normal(), patch.normal) == Approx(1));
+            area += part.area();
+            centre += part.area() * part.centre();
+        }
+        CHECK(area == Approx(patch.area));
+        CHECK(glm::length(centre / area - patch.centre) < 1e-12);
+    }
+}
+
+TEST_CASE("Triangles are small where surfaces are many") {
+    // Solid angle and density of surfaces, seen from the floor of a room with a block in it.
+    const Model model(test::room_with_block());
+    const Dealer dealer(model);
+    dealer.strategy->begin_step(1);
+    double smallest = 10, largest = 0;
+    for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i)
+        for (std::uint16_t cell = 0; cell < 256; ++cell) {
+            const auto own = dealer.strategy->private_cell(i, cell);
+            smallest = std::min(smallest, own->shape.solid_angle());
+            largest = std::max(largest, own->shape.solid_angle());
+        }
+    // Midpoint division gives .07 to .14 sr.
+    CHECK(smallest < .03);
+    CHECK(largest > .2);
+}
+
+TEST_CASE("As printed, power goes by solid angle and every triangle gets a ray") {
+    const Model model(test::room_with_block());
+    const Dealer dealer(model, true);
+    const auto shares = dealer.deal(2);
+    double power = 0;
+    for (const CellShare& share : shares) {
+        CHECK(share.rays * dealer.options.rays == Approx(1));
+        const auto own = dealer.strategy->private_cell(3, share.cell);
+        power += own->power;
+        CHECK(own->power == Approx(own->shape.solid_angle() / (2 * std::numbers::pi) *
+                                   own->origins.area() / model.mesh.patches()[3].area)
+                                .margin(1e-15));
+    }
+    CHECK(power == Approx(1).epsilon(1e-9));
+}
