@@ -13,5 +13,6 @@ namespace hemilux {
 [[nodiscard]] SceneWriter make_furnace_box();
 [[nodiscard]] SceneWriter make_furnace_lshape();
 [[nodiscard]] SceneWriter make_cube();
+[[nodiscard]] SceneWriter make_cube_of_six();
 
 } // namespace hemilux

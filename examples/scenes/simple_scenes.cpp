@@ -59,16 +59,23 @@ SceneWriter make_furnace_lshape() {
     return writer;
 }
 
-SceneWriter make_cube() {
-    SceneWriter writer("cube_96");
+namespace {
+
+SceneWriter make_cube(std::string name, int n) {
+    SceneWriter writer(std::move(name));
     writer.define({"floor", Vec3(0.5), Vec3(1.0)});
     writer.define({"wall", Vec3(0.5), Vec3(0.0)});
-    const BoxShape cube{Vec3(0.0), Vec3(1.0), {4, 4, 4}};
+    const BoxShape cube{Vec3(0.0), Vec3(1.0), {n, n, n}};
     writer.use("floor");
     writer.add_box({}, cube, face_bottom, BoxAir::inside);
     writer.use("wall");
     writer.add_box({}, cube, all_faces - face_bottom, BoxAir::inside);
     return writer;
 }
+
+} // namespace
+
+SceneWriter make_cube() { return make_cube("cube_96", 4); }
+SceneWriter make_cube_of_six() { return make_cube("cube_6", 1); }
 
 } // namespace hemilux

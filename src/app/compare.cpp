@@ -13,8 +13,8 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "app/text.h"
-#include "bvh/bvh.h"
 #include "io/error.h"
+#include "radiosity/make_tracer.h"
 #include "radiosity/rng.h"
 
 #include <atomic>
@@ -34,12 +34,13 @@ bool wants_bar(const CompareSettings& settings) {
 /// The matrix method until it is good enough or interrupted, with random numbers that no run has.
 /// Empty where not even its first step was done.
 std::optional<Reference> compute_reference(const CompareSettings& settings, const Mesh& mesh,
-                                           const Tracer& tracer, Monitor& monitor) {
+                                           const Tracer& tracer, const Needs& needs,
+                                           Monitor& monitor) {
     const StopRule stop{.steps = {}, .seconds = {}, .error = settings.reference_error};
     SolveOptions options = settings.options;
     options.literal = false;
     options.seed = hash_words({options.seed, 0x7265666572656e63u});
-    const SolverInput input{mesh, tracer, options, monitor};
+    const SolverInput input{mesh, tracer, options, monitor, needs};
     Progress progress(monitor, share_of(stop), wants_bar(settings));
     progress.set_topic("reference");
     const std::unique_ptr<Solver> solver = find_method("matrix")->make(input);
@@ -132,16 +133,17 @@ int compare(const CompareSettings& settings) {
     if (!settings.reference.empty())
         reference = read_reference(settings.reference, mesh, {});
     const Stopwatch building;
-    const Bvh bvh(mesh.soup());
-    say(settings.talk, Talk::verbose, bvh_text(bvh.quality(), building.seconds()));
+    const Needs needs = needs_of(mesh, settings.options);
+    const auto [tracer, tree] = make_tracer(mesh, needs);
+    say(settings.talk, Talk::verbose, tracer_text(tree, building.seconds()));
     if (!reference)
-        reference = compute_reference(settings, mesh, bvh, monitor);
+        reference = compute_reference(settings, mesh, *tracer, needs, monitor);
     if (!reference) {
         say(settings.talk, Talk::quiet, "interrupted before there was a reference");
         return exit_interrupted;
     }
     reference->detail = std::move(detail);
-    const Contest contest{mesh, bvh, settings, *reference, monitor};
+    const Contest contest{mesh, *tracer, settings, *reference, monitor, needs};
     if (settings.reference.empty()) {
         const WriteReport report = write_reference(contest);
         report.say(settings.talk);

@@ -27,7 +27,8 @@ class Runner {
         options_.seed += run;
         options_.literal = options_.literal && method.has_literal;
         const Stopwatch preparing;
-        solver_ = method.make({contest.mesh, contest.tracer, options_, contest.monitor});
+        solver_ =
+            method.make({contest.mesh, contest.tracer, options_, contest.monitor, contest.needs});
         seconds_ = preparing.seconds();
     }
 

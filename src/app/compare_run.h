@@ -32,6 +32,7 @@ struct Contest {
     const CompareSettings& settings;
     const Reference& reference;
     Monitor& monitor;
+    const Needs& needs;
 };
 
 /// `after_step` is told the share of all runs that is done, 0 to 1.

@@ -1,4 +1,4 @@
-// hemilux info: what was read and what is doubtful in it.
+// hemilux info: what was read, what is doubtful in it, and what it does not need.
 
 #include "app/commands.h"
 #include "app/exit_code.h"
@@ -17,9 +17,11 @@ int info(const InfoSettings& settings) {
         for (const std::string& warning : read.warnings)
             std::fprintf(stderr, "warning: %s\n", warning.c_str());
     std::cout << describe(inspect(read));
-    if (settings.scene.mesh.max_edge > 0 || settings.scene.mesh.two_sided) {
+    if (!read.scene.facets.empty()) {
         const Mesh mesh = divide_scene(read.scene, settings.scene);
-        std::cout << "patches             " << mesh.patches().size() << " (as divided)\n";
+        if (settings.scene.mesh.max_edge > 0 || settings.scene.mesh.two_sided)
+            std::cout << "patches             " << mesh.patches().size() << " (as divided)\n";
+        std::cout << describe(left_out(find_needs(mesh)));
     }
     std::cout.flush();
     if (!std::cout)

@@ -87,6 +87,10 @@ Mesh divide_scene(Scene scene, const SceneSettings& settings) {
     }
 }
 
+Needs needs_of(const Mesh& mesh, const SolveOptions& options) {
+    return options.keep_all ? everything_needed : find_needs(mesh);
+}
+
 LoadedMesh load_mesh(const SceneSettings& settings, Talk talk) {
     const Stopwatch reading;
     ReadResult read = load_scene(settings);

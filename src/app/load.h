@@ -21,6 +21,9 @@ struct LoadedMesh {
 /// All of this together, with what there is to say about it.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, Talk talk);
 
+/// What the scene needs, or everything with --keep-all.
+[[nodiscard]] Needs needs_of(const Mesh& mesh, const SolveOptions& options);
+
 /// Divides the faces; throws UsageError where --max-edge would give too many patches.
 [[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings);
 

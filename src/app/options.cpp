@@ -70,6 +70,9 @@ void add_method_options(CLI::App& app, SolveOptions& options) {
     add_division_options(app, options);
     app.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased")
         ->group("Method");
+    app.add_flag("--keep-all", options.keep_all,
+                 "leave out nothing that the scene does not need (see hemilux info)")
+        ->group("Method");
     add_random_options(app, options);
 }
 
@@ -220,8 +223,8 @@ CLI::App* add_compare_command(CLI::App& program, CompareSettings& settings) {
 }
 
 CLI::App* add_info_command(CLI::App& program, InfoSettings& settings) {
-    CLI::App* const app =
-        program.add_subcommand("info", "what was read from a scene and what is doubtful in it");
+    CLI::App* const app = program.add_subcommand(
+        "info", "what was read from a scene, what is doubtful in it, what it does not need");
     add_scene_options(*app, settings.scene);
     add_talk_options(*app, settings.talk);
     app->footer(std::string(info_examples) + exit_codes);

@@ -13,8 +13,8 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "app/text.h"
-#include "bvh/bvh.h"
 #include "radiosity/hemisphere.h"
+#include "radiosity/make_tracer.h"
 #include "radiosity/workers.h"
 
 #include <algorithm>
@@ -103,17 +103,18 @@ int solve(const SolveSettings& settings) {
     if (!settings.reference.empty())
         reference = read_reference(settings.reference, mesh, std::move(detail));
     const Stopwatch building;
-    const Bvh bvh(mesh.soup());
+    const Needs needs = needs_of(mesh, settings.options);
+    const auto [tracer, tree] = make_tracer(mesh, needs);
     statistics.seconds_bvh = building.seconds();
-    say(settings.talk, Talk::verbose, bvh_text(bvh.quality(), statistics.seconds_bvh));
+    say(settings.talk, Talk::verbose, tracer_text(tree, statistics.seconds_bvh));
 
     Progress progress(monitor, share_of(stop),
                       settings.talk != Talk::quiet && stderr_is_terminal());
     const Stopwatch solving;
-    const SolverInput input{mesh, bvh, settings.options, monitor};
+    const SolverInput input{mesh, *tracer, settings.options, monitor, needs};
     const std::unique_ptr<Solver> solver = settings.method->make(input);
     std::vector<StepRow> rows;
-    StepPictures step_pictures(settings, mesh, bvh);
+    StepPictures step_pictures(settings, mesh, *tracer);
     const bool completed =
         run(*solver, input, stop, [&](const StepRecord& record, const Solution& solution) {
             rows.push_back({std::string(settings.method->name), 0, record, std::nullopt});
@@ -129,8 +130,9 @@ int solve(const SolveSettings& settings) {
     progress.close();
 
     fill(statistics, settings, mesh, solver->solution(), seconds_solver);
+    statistics.left_out = left_out(needs, *settings.method, solver->solution());
     statistics.bytes_peak = peak_memory_bytes();
-    return finish(settings, {mesh, bvh, solver->solution(), statistics, rows},
+    return finish(settings, {mesh, *tracer, solver->solution(), statistics, rows},
                   step_pictures.report(), reference, !completed);
 }
 

@@ -29,10 +29,12 @@ std::string mesh_text(const Mesh& mesh) {
            counted(scene.groups.size(), "group", "groups");
 }
 
-std::string bvh_text(const BvhQuality& quality, double seconds) {
-    return "BVH: " + counted(quality.nodes, "node", "nodes") +
-           formatted(", depth %d, SAH cost %.1f, ", quality.depth, quality.sah_cost) +
-           byte_size(quality.bytes) + ", built in " + duration(seconds);
+std::string tracer_text(const std::optional<BvhQuality>& tree, double seconds) {
+    if (!tree)
+        return "BVH: none, so few faces there are";
+    return "BVH: " + counted(tree->nodes, "node", "nodes") +
+           formatted(", depth %d, SAH cost %.1f, ", tree->depth, tree->sah_cost) +
+           byte_size(tree->bytes) + ", built in " + duration(seconds);
 }
 
 std::string step_text(const StepRow& row) {

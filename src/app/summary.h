@@ -6,13 +6,14 @@
 #include "io/tables.h"
 #include "radiosity/mesh.h"
 
+#include <optional>
 #include <string>
 
 namespace hemilux {
 
 /// What was prepared before solving (-v).
 [[nodiscard]] std::string mesh_text(const Mesh& mesh);
-[[nodiscard]] std::string bvh_text(const BvhQuality& quality, double seconds);
+[[nodiscard]] std::string tracer_text(const std::optional<BvhQuality>& tree, double seconds);
 /// One step (-v).
 [[nodiscard]] std::string step_text(const StepRow& row);
 

@@ -152,4 +152,12 @@ std::string describe(const SceneInfo& info) {
     return text;
 }
 
+std::string describe(std::span<const LeftOut> left_out) {
+    std::string text;
+    for (const LeftOut& item : left_out)
+        add_line(text, text.empty() ? "not needed" : "",
+                 item.what + ": " + item.why + "; saves " + item.saved);
+    return text;
+}
+
 } // namespace hemilux

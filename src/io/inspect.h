@@ -3,8 +3,10 @@
 
 #include "geometry/box.h"
 #include "io/obj.h"
+#include "radiosity/needs.h"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,5 +37,7 @@ struct SceneInfo {
 
 /// Lines of text: names on the left, figures on the right.
 [[nodiscard]] std::string describe(const SceneInfo& info);
+/// The same of what the scene does not need, a line each; empty if it needs everything.
+[[nodiscard]] std::string describe(std::span<const LeftOut> left_out);
 
 } // namespace hemilux

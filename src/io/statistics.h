@@ -1,6 +1,7 @@
 #pragma once
 // The figures of a run, as the JSON object that other tools read (docs: the program's outputs).
 
+#include "radiosity/needs.h"
 #include "radiosity/solution.h"
 
 #include <cstdint>
@@ -9,11 +10,6 @@
 #include <vector>
 
 namespace hemilux {
-
-/// Something that a scene did not need and that was therefore not done.
-struct LeftOut {
-    std::string what, why, saved;
-};
 
 struct Statistics {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); ///< JSON: null

@@ -64,6 +64,9 @@ void walk_tree(const Hemisphere& hemisphere, double threshold, CountAt&& count_a
     TreeWalk(hemisphere, threshold, count_at, leaf).run();
 }
 
+/// Below any mean: all triangles are divided.
+constexpr double divide_all = -1;
+
 } // namespace
 
 Vec3 density_direction(const Vec3& vertex) {
@@ -72,16 +75,21 @@ Vec3 density_direction(const Vec3& vertex) {
 }
 
 DensityMap::DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere& hemisphere,
-                       double threshold, const Workers& workers, Monitor& monitor)
-    : hemisphere_(hemisphere), threshold_(threshold) {
+                       double threshold, const Workers& workers, Monitor& monitor,
+                       const Needs& needs, DensityStore kept)
+    : hemisphere_(hemisphere), threshold_(threshold), needs_(needs), kept_(kept) {
     const std::size_t patches = mesh.patches().size();
     std::vector<Vec3> directions;
     for (const Vec3& v : hemisphere.vertices())
         directions.push_back(density_direction(v));
+    const double counted_above = kept == DensityStore::everything ? divide_all : threshold;
     Blocks blocks((patches + block_size - 1) / block_size);
     workers.for_chunks(patches, block_size, [&](std::size_t begin, std::size_t end) {
         Block& block = blocks[begin / block_size];
+        block.lengths.assign(end - begin, 0);
         for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
+            if (!needs.power(static_cast<std::uint32_t>(i)))
+                continue;
             const Patch& patch = mesh.patches()[i];
             const Frame frame = mesh.hemisphere_frame(static_cast<std::uint32_t>(i));
             const std::size_t start = block.counts.size();
@@ -92,8 +100,8 @@ DensityMap::DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere&
                 block.counts.push_back(count);
                 return static_cast<std::int16_t>(count);
             };
-            walk_tree(hemisphere, threshold, count_at, [](std::uint16_t, double) {});
-            block.lengths.push_back(static_cast<std::uint16_t>(block.counts.size() - start));
+            walk_tree(hemisphere, counted_above, count_at, [](std::uint16_t, double) {});
+            block.lengths[i - begin] = static_cast<std::uint16_t>(block.counts.size() - start);
         }
         monitor.rays += block.counts.size();
     });
@@ -104,8 +112,10 @@ void DensityMap::store(const Blocks& blocks, std::size_t patches) {
     std::size_t longest = 0;
     for (const Block& block : blocks) {
         rays_ += block.counts.size();
-        for (const std::uint16_t length : block.lengths)
+        for (const std::uint16_t length : block.lengths) {
             longest = std::max<std::size_t>(longest, length);
+            rays_spared_ += length > 0 ? hemisphere_.vertices().size() - length : 0;
+        }
     }
     // Patches one after the other with an index, or all as long as the longest: whichever is
     // smaller.
@@ -130,22 +140,47 @@ void DensityMap::store(const Blocks& blocks, std::size_t patches) {
     }
 }
 
+template <class CountRead, class Leaf>
+const std::uint8_t* DensityMap::walk(const std::uint8_t* bytes, CountRead&& count_read,
+                                     Leaf&& leaf) const {
+    const auto next = [&](std::uint16_t vertex) {
+        count_read(vertex, *bytes);
+        return std::int16_t{*bytes++};
+    };
+    if (kept_ == DensityStore::divided_only) {
+        walk_tree(hemisphere_, threshold_, next, leaf);
+        return bytes;
+    }
+    std::vector<std::uint8_t> all(hemisphere_.vertices().size());
+    const auto keep = [&](std::uint16_t vertex) {
+        all[vertex] = *bytes++;
+        return std::int16_t{all[vertex]};
+    };
+    walk_tree(hemisphere_, divide_all, keep, [](std::uint16_t, double) {});
+    const auto kept = [&](std::uint16_t vertex) {
+        count_read(vertex, all[vertex]);
+        return std::int16_t{all[vertex]};
+    };
+    walk_tree(hemisphere_, threshold_, kept, leaf);
+    return bytes;
+}
+
 const std::uint8_t* DensityMap::counts_of(std::uint32_t patch) const {
     if (stride_ > 0)
         return counts_.data() + patch * stride_;
     const std::uint8_t* at = counts_.data() + block_start_[patch / block_size];
-    for (std::size_t i = patch % block_size; i > 0; --i)
-        walk_tree(
-            hemisphere_, threshold_, [&](std::uint16_t) { return std::int16_t{*at++}; },
-            [](std::uint16_t, double) {});
+    const std::uint32_t first = patch - patch % static_cast<std::uint32_t>(block_size);
+    for (std::uint32_t before = first; before < patch; ++before)
+        if (needs_.power(before))
+            at = walk(
+                at, [](std::uint16_t, std::uint8_t) {}, [](std::uint16_t, double) {});
     return at;
 }
 
 void DensityMap::leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) const {
     result.clear();
-    const std::uint8_t* at = counts_of(patch);
-    walk_tree(
-        hemisphere_, threshold_, [&](std::uint16_t) { return std::int16_t{*at++}; },
+    walk(
+        counts_of(patch), [](std::uint16_t, std::uint8_t) {},
         [&](std::uint16_t cell, double mean) {
             result.push_back({cell, static_cast<float>(mean)});
         });
@@ -153,12 +188,12 @@ void DensityMap::leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) c
 
 void DensityMap::counts(std::uint32_t patch, std::vector<DensityCount>& result) const {
     result.clear();
-    const std::uint8_t* at = counts_of(patch);
-    const auto next = [&](std::uint16_t vertex) {
-        result.push_back({vertex, *at});
-        return std::int16_t{*at++};
-    };
-    walk_tree(hemisphere_, threshold_, next, [](std::uint16_t, double) {});
+    walk(
+        counts_of(patch),
+        [&](std::uint16_t vertex, std::uint8_t count) {
+            result.push_back({vertex, count});
+        },
+        [](std::uint16_t, double) {});
 }
 
 } // namespace hemilux

@@ -9,6 +9,7 @@
 
 #include "bvh/tracer.h"
 #include "radiosity/hemisphere.h"
+#include "radiosity/needs.h"
 
 #include <cstdint>
 #include <vector>
@@ -18,6 +19,9 @@ namespace hemilux {
 class Mesh;
 class Workers;
 struct Monitor;
+
+/// What is counted and kept: the vertices of triangles that exist, or those of a full tree.
+enum class DensityStore { divided_only, everything };
 
 /// A triangle that is not divided, with the mean of its three vertex counts [surfaces per ray].
 struct DensityLeaf {
@@ -38,9 +42,12 @@ struct DensityCount {
 class DensityMap {
   public:
     /// Shoots the density rays from every patch centre; a triangle whose mean exceeds the threshold
-    /// is divided, down to the hemisphere's depth. Counts saturate at 255.
+    /// is divided, down to the hemisphere's depth. Counts saturate at 255. Patches that never hold
+    /// power have no hemisphere: they must not be asked for.
     DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere& hemisphere,
-               double threshold, const Workers& workers, Monitor& monitor);
+               double threshold, const Workers& workers, Monitor& monitor,
+               const Needs& needs = everything_needed,
+               DensityStore kept = DensityStore::divided_only);
 
     /// The leaves of a patch's tree, in the table's depth-first order.
     void leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) const;
@@ -48,6 +55,8 @@ class DensityMap {
     void counts(std::uint32_t patch, std::vector<DensityCount>& result) const;
 
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
+    /// Rays more that there would be if all triangles were divided.
+    [[nodiscard]] std::uint64_t rays_spared() const { return rays_spared_; }
     /// Everything that is kept: counts and the index to find them.
     [[nodiscard]] std::uint64_t bytes() const {
         return counts_.size() + block_start_.size() * sizeof(block_start_[0]);
@@ -66,14 +75,19 @@ class DensityMap {
     using Blocks = std::vector<Block>;
 
     void store(const Blocks& blocks, std::size_t patches);
+    /// Walks a patch's tree through its bytes: count_read(vertex, count), leaf(cell, mean).
+    template <class CountRead, class Leaf>
+    const std::uint8_t* walk(const std::uint8_t* bytes, CountRead&& count_read, Leaf&& leaf) const;
     [[nodiscard]] const std::uint8_t* counts_of(std::uint32_t patch) const;
 
     const Hemisphere& hemisphere_;
     double threshold_;
+    const Needs& needs_;
+    DensityStore kept_;
     std::vector<std::uint8_t> counts_;
     std::vector<std::uint64_t> block_start_; ///< empty where stride_ is used
     std::size_t stride_ = 0;                 ///< bytes of each patch; 0 where the index is used
-    std::uint64_t rays_ = 0;
+    std::uint64_t rays_ = 0, rays_spared_ = 0;
 };
 
 } // namespace hemilux

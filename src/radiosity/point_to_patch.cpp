@@ -6,7 +6,7 @@
 namespace hemilux {
 
 double point_to_patch(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
-                      const std::array<double, 4>& u, std::uint64_t& rays) {
+                      const std::array<double, 4>& u, std::uint64_t& rays, bool visibility) {
     const Patch& source = mesh.patches()[from];
     const Patch& target = mesh.patches()[to];
     if (target.facet == source.facet)
@@ -18,6 +18,8 @@ double point_to_patch(const Mesh& mesh, const Tracer& tracer, std::uint32_t from
     const ProjectedPolygon seen(point, Frame::from_normal(source.normal), target.shape);
     if (!(seen.factor() > 0))
         return 0;
+    if (!visibility)
+        return seen.factor();
     ++rays;
     Ray ray{point, seen.sample({u[2], u[3]})};
     ray.from = source.facet;

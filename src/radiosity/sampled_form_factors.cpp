@@ -30,9 +30,10 @@ void SparseMatrix::multiply(std::span<const double> x, std::span<double> y,
 }
 
 SampledFormFactors::SampledFormFactors(const Mesh& mesh, const Tracer& tracer,
-                                       std::vector<std::uint32_t> emitters, std::uint64_t seed)
+                                       std::vector<std::uint32_t> emitters, std::uint64_t seed,
+                                       const Needs& needs)
     : mesh_(mesh), tracer_(tracer), emitters_(std::move(emitters)),
-      is_emitter_(mesh.patches().size()), seed_(seed), rows_(mesh.patches().size()),
+      is_emitter_(mesh.patches().size()), seed_(seed), needs_(needs), rows_(mesh.patches().size()),
       emitter_sum_(mesh.patches().size() * emitters_.size()) {
     for (const std::uint32_t e : emitters_)
         is_emitter_[e] = true;
@@ -52,6 +53,8 @@ std::uint64_t SampledFormFactors::trace_up_to(std::uint32_t rays, const Workers&
         std::uint64_t count = 0;
         for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
             const auto patch = static_cast<std::uint32_t>(i);
+            if (!needs_.power(patch))
+                continue;
             trace_row(patch, rays_, rays);
             count += rays - rays_;
             count += trace_emitters(patch, emitter_samples(rays_), emitter_samples(rays));
@@ -108,7 +111,8 @@ std::uint64_t SampledFormFactors::trace_emitters(std::uint32_t patch, std::uint3
         const std::uint64_t seed = hash_words({seed_, patch, emitters_[e], 1});
         double& sum = emitter_sum_[patch * emitters_.size() + e];
         for (std::uint32_t k = begin; k < end; ++k)
-            sum += point_to_patch(mesh_, tracer_, patch, emitters_[e], sobol4(k, seed), rays);
+            sum += point_to_patch(mesh_, tracer_, patch, emitters_[e], sobol4(k, seed), rays,
+                                  needs_.visibility);
     }
     return rays;
 }
@@ -140,10 +144,18 @@ std::vector<std::vector<SampledFormFactors::Count>> SampledFormFactors::merged_c
     return merged;
 }
 
+/// F_ij for each hit by the rays of both, or of the one that shoots.
+double SampledFormFactors::factor_per_hit(std::uint32_t i, std::uint32_t j) const {
+    const double a_i = mesh_.patches()[i].area, a_j = mesh_.patches()[j].area, n = rays_;
+    if (!needs_.power(j))
+        return 1 / n;
+    return needs_.power(i) ? a_j / (n * (a_i + a_j)) : a_j / (n * a_i);
+}
+
 SparseMatrix SampledFormFactors::matrix() const {
     SparseMatrix f;
     f.row_begin.push_back(0);
-    const double n = rays_, samples = emitter_samples(rays_);
+    const double samples = emitter_samples(rays_);
     const auto merged = merged_counts();
     for (std::uint32_t i = 0; i < rows_.size(); ++i) {
         const LostShare lost_share = lost(i);
@@ -159,15 +171,14 @@ SparseMatrix SampledFormFactors::matrix() const {
         }
         const std::size_t first = f.value.size();
         double sum = 0;
-        const double a_i = mesh_.patches()[i].area;
+        const bool shoots = needs_.power(i);
         for (const Count& c : merged[i])
-            if (!is_emitter_[c.patch]) {
-                const double a_j = mesh_.patches()[c.patch].area;
+            if (!shoots || !is_emitter_[c.patch]) {
                 f.column.push_back(c.patch);
-                f.value.push_back(a_j / (n * (a_i + a_j)) * c.hits);
+                f.value.push_back(factor_per_hit(i, c.patch) * c.hits);
                 sum += f.value.back();
             }
-        const double closing = sum > 0 ? std::max(rest, 0.0) / sum : 0;
+        const double closing = !shoots ? 1 : sum > 0 ? std::max(rest, 0.0) / sum : 0;
         for (std::size_t k = first; k < f.value.size(); ++k)
             f.value[k] *= closing;
         f.row_begin.push_back(f.value.size());

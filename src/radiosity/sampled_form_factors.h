@@ -10,6 +10,7 @@
 // closed: they sum to 1 minus the share of the row's own rays that met no patch.
 
 #include "bvh/tracer.h"
+#include "radiosity/needs.h"
 #include "radiosity/workers.h"
 
 #include <atomic>
@@ -43,9 +44,10 @@ struct LostShare {
 class SampledFormFactors {
   public:
     /// `emitters`: the patches whose columns are computed in closed form; may be empty. All
-    /// referred things must outlive this.
+    /// referred things must outlive this. Patches that never hold power shoot no rays; their rows
+    /// come from the rays of others and are not closed.
     SampledFormFactors(const Mesh& mesh, const Tracer& tracer, std::vector<std::uint32_t> emitters,
-                       std::uint64_t seed);
+                       std::uint64_t seed, const Needs& needs = everything_needed);
 
     /// Goes on until `rays` rays per patch are traced (and about as many to the emitters). Returns
     /// the number of rays traced now; the factors are void if the monitor was interrupted
@@ -70,12 +72,14 @@ class SampledFormFactors {
     std::uint64_t trace_emitters(std::uint32_t patch, std::uint32_t begin, std::uint32_t end);
     [[nodiscard]] std::vector<std::vector<Count>> merged_counts() const;
     [[nodiscard]] std::uint32_t emitter_samples(std::uint32_t rays) const;
+    [[nodiscard]] double factor_per_hit(std::uint32_t i, std::uint32_t j) const;
 
     const Mesh& mesh_;
     const Tracer& tracer_;
     std::vector<std::uint32_t> emitters_;
     std::vector<bool> is_emitter_;
     std::uint64_t seed_;
+    const Needs& needs_;
     std::uint32_t rays_ = 0; ///< per patch, so far
     std::vector<Row> rows_;
     std::vector<double> emitter_sum_; ///< per patch and emitter: sum of the samples

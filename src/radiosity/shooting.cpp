@@ -32,6 +32,7 @@ ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strat
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     solution_.seconds_density = elapsed.count();
     solution_.rays_density = strategy_->density_rays();
+    solution_.rays_density_spared = strategy_->density_rays_spared();
     solution_.bytes_density = strategy_->density_bytes();
 }
 

@@ -26,8 +26,9 @@ struct Solution {
     std::uint32_t steps = 0;
     std::uint64_t rays_energy = 0;
     std::uint64_t rays_density = 0;
-    std::uint64_t bytes_density = 0; ///< of the density store; 0 where a method keeps none
-    double seconds_density = 0;      ///< spent before the first step
+    std::uint64_t rays_density_spared = 0; ///< below triangles that were not divided
+    std::uint64_t bytes_density = 0;       ///< of the density store; 0 where a method keeps none
+    double seconds_density = 0;            ///< spent before the first step
 };
 
 /// Errors relative to the reflected radiosity (RMS over area and channels, see docs): either over

@@ -3,6 +3,7 @@
 // improves the solution.
 
 #include "bvh/tracer.h"
+#include "radiosity/needs.h"
 #include "radiosity/solution.h"
 
 #include <atomic>
@@ -44,6 +45,8 @@ struct SolveOptions {
     std::uint64_t seed = 1;
     /// 0: one per core. The result does not depend on it.
     unsigned threads = 0;
+    /// Leaves out nothing that the scene does not need (needs.h): for comparison.
+    bool keep_all = false;
 };
 
 /// The first that is met ends the run. With none given, `default_steps`.
@@ -79,6 +82,7 @@ struct SolverInput {
     const Tracer& tracer;
     const SolveOptions& options;
     Monitor& monitor;
+    const Needs& needs = everything_needed; ///< of this mesh: what is not needed may be left out
 };
 
 class Strategy;
@@ -97,6 +101,7 @@ struct Method {
     StopRule default_stop;    ///< where the user gives none
     std::unique_ptr<Solver> (*make)(const SolverInput&);
     MakeStrategy strategy = nullptr; ///< what it shoots with; nullptr if it is no shooting method
+    MethodWork work = {};            ///< what it does that a scene may not need
 };
 
 /// All methods, one per file of strategies/ and solvers/, in alphabetical order.

@@ -11,7 +11,8 @@ namespace hemilux {
 StepwiseSolver::StepwiseSolver(const SolverInput& input, bool equal_rays)
     : input_(input), equal_rays_(equal_rays) {
     const auto patches = input_.mesh.patches();
-    solution_.standard_error.assign(patches.size(), Vec3(std::numeric_limits<double>::quiet_NaN()));
+    const double unknown = input.needs.bounces ? std::numeric_limits<double>::quiet_NaN() : 0;
+    solution_.standard_error.assign(patches.size(), Vec3(unknown));
     solution_.hits.assign(patches.size(), 0);
     squares_.assign(patches.size(), Vec3(0.0));
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
@@ -58,8 +59,14 @@ bool StepwiseSolver::find_ray_power() {
         ray_power_ = std::numeric_limits<double>::infinity();
         return true;
     }
-    ray_power_ = emitted() / (1 - mean_reflectance(input_.mesh)) / pilot_rays;
     StepResult pilot = fresh_result();
+    if (!input_.needs.bounces) { // all that a step shoots is known
+        for (std::uint32_t i = 0; i < input_.mesh.patches().size(); ++i)
+            pilot.shot += mean_of_channels(pilot.radiosity[i] * input_.mesh.patches()[i].area);
+        ray_power_ = pilot.shot / rays;
+        return true;
+    }
+    ray_power_ = emitted() / (1 - mean_reflectance(input_.mesh)) / pilot_rays;
     if (!solve_once(pilot_stream, pilot)) {
         ray_power_ = 0;
         return false;

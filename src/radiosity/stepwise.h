@@ -23,6 +23,10 @@ class StepwiseSolver : public Solver {
   public:
     bool step() final;
     [[nodiscard]] const Solution& solution() const final { return solution_; }
+    /// Where nothing reflects, radiosity is emission: no step improves it.
+    [[nodiscard]] bool finished() const final {
+        return !input_.needs.bounces && solution_.steps > 0;
+    }
 
   protected:
     /// Without equal rays there is no power per ray: each patch shoots as many rays as any other.

@@ -47,6 +47,8 @@ class Strategy {
     }
 
     [[nodiscard]] virtual std::uint64_t density_rays() const { return 0; }
+    /// Those that would have been shot if all triangles were divided.
+    [[nodiscard]] virtual std::uint64_t density_rays_spared() const { return 0; }
     [[nodiscard]] virtual std::uint64_t density_bytes() const { return 0; }
 };
 

@@ -107,7 +107,7 @@ TEST_CASE("a comparison leaves a log, charts, pictures and a table") {
     CHECK(table.at("progressive-monte-carlo")[8] == "1.00");
     CHECK(table.at("progressive-monte-carlo")[9] == "1.00");
     CHECK(table.at("progressive-monte-carlo")[10] == "-");
-    CHECK_THAT(table.at("hemisphere")[10], Contains("bytes") || Contains("B"));
+    CHECK(table.at("hemisphere")[10] == "-"); // a convex room needs no densities
     // 2000 rays per patch on 24 patches.
     for (const char* method : {"hemisphere", "progressive-monte-carlo"})
         CHECK(std::stod(table.at(method)[3]) < 6);

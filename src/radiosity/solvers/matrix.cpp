@@ -54,9 +54,11 @@ class MatrixSolver final : public Solver {
             exact_.emplace(input.mesh, workers_, input.monitor);
         else
             emitters = few_emitters(input.mesh);
+        // Exact factors are put together with those of all patches.
+        const Needs& needs = exact_ ? everything_needed : input.needs;
         for (std::uint64_t r = 0; r < replicates; ++r)
             factors_.emplace_back(input.mesh, input.tracer, emitters,
-                                  hash_words({input.options.seed, r}));
+                                  hash_words({input.options.seed, r}), needs);
         solution_.standard_error.resize(patches.size());
         solution_.hits.resize(patches.size());
         for (std::uint32_t i = 0; i < patches.size(); ++i) {
@@ -88,7 +90,9 @@ class MatrixSolver final : public Solver {
         return true;
     }
 
-    [[nodiscard]] bool finished() const override { return rays_ >= most_rays; }
+    [[nodiscard]] bool finished() const override {
+        return rays_ >= most_rays || (rays_ > 0 && !input_.needs.bounces);
+    }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
   private:
@@ -104,7 +108,8 @@ class MatrixSolver final : public Solver {
         const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
         const std::size_t n = radiosity.size();
         std::vector<double> emission(n), rho(n), x(n), incident(n);
-        for (int c = 0; c < 3; ++c) {
+        const int channels = input_.needs.colours ? 3 : 1;
+        for (int c = 0; c < channels; ++c) {
             for (std::uint32_t i = 0; i < n; ++i) {
                 emission[i] = input_.mesh.material(i).emission[c];
                 rho[i] = input_.mesh.material(i).reflectance[c];
@@ -127,6 +132,12 @@ class MatrixSolver final : public Solver {
                 energy.escaped[c] += area * lost.escaped * x[i] / replicates;
                 radiosity[i][c] = x[i];
             }
+        }
+        if (channels == 1) {
+            energy.absorbed = Vec3(energy.absorbed.r);
+            energy.escaped = Vec3(energy.escaped.r);
+            for (Vec3& b : radiosity)
+                b = Vec3(b.r);
         }
     }
 
@@ -173,6 +184,7 @@ const Method matrix_method{
     .default_stop = {.steps = {}, .seconds = {}, .error = .002},
     .make = make_matrix,
     .strategy = nullptr,
+    .work = {.pairs = true, .linear_systems = true, .passes = true},
 };
 
 } // namespace hemilux

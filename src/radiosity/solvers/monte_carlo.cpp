@@ -130,6 +130,7 @@ const Method monte_carlo_method{
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = make_monte_carlo,
     .strategy = nullptr,
+    .work = {.passes = true},
 };
 
 } // namespace hemilux

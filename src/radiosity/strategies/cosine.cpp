@@ -32,6 +32,7 @@ const Method cosine_method{
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_cosine>,
     .strategy = make_cosine,
+    .work = {.passes = true},
 };
 
 } // namespace hemilux

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
 namespace hemilux {
 namespace {
@@ -26,13 +27,48 @@ class HemisphereStrategy final : public Strategy {
   public:
     HemisphereStrategy(const SolverInput& input, const Hemisphere& hemisphere,
                        const Workers& workers)
-        : hemisphere_(hemisphere), literal_(input.options.literal),
-          density_(input.mesh, input.tracer, hemisphere, input.options.threshold, workers,
-                   input.monitor) {}
+        : hemisphere_(hemisphere), literal_(input.options.literal) {
+        if (input.needs.densities)
+            density_.emplace(input.mesh, input.tracer, hemisphere, input.options.threshold, workers,
+                             input.monitor, input.needs,
+                             input.options.keep_all ? DensityStore::everything
+                                                    : DensityStore::divided_only);
+        else
+            deal_leaves(leaves_of_one_surface(input.options.threshold), shares_of_one_surface_);
+    }
 
     void deal(std::uint32_t patch, std::vector<CellShare>& shares) const override {
+        if (!density_) {
+            shares = shares_of_one_surface_;
+            return;
+        }
         thread_local std::vector<DensityLeaf> leaves;
-        density_.leaves(patch, leaves);
+        density_->leaves(patch, leaves);
+        deal_leaves(leaves, shares);
+    }
+
+    [[nodiscard]] std::uint64_t density_rays() const override {
+        return density_ ? density_->rays() : 0;
+    }
+    [[nodiscard]] std::uint64_t density_rays_spared() const override {
+        return density_ ? density_->rays_spared() : 0;
+    }
+    [[nodiscard]] std::uint64_t density_bytes() const override {
+        return density_ ? density_->bytes() : 0;
+    }
+
+  private:
+    /// What a patch of a convex enclosure would count: one surface in each direction.
+    [[nodiscard]] std::vector<DensityLeaf> leaves_of_one_surface(double threshold) const {
+        const int level = threshold < 1 ? hemisphere_.depth() : 0;
+        std::vector<DensityLeaf> leaves;
+        for (std::size_t c = 0; c < hemisphere_.cells().size(); ++c)
+            if (hemisphere_.cells()[c].level == level)
+                leaves.push_back({static_cast<std::uint16_t>(c), 1});
+        return leaves;
+    }
+
+    void deal_leaves(const std::vector<DensityLeaf>& leaves, std::vector<CellShare>& shares) const {
         shares.clear();
         double average = 0; // D_average
         for (const DensityLeaf& leaf : leaves) {
@@ -42,10 +78,6 @@ class HemisphereStrategy final : public Strategy {
         deal_rays(leaves, average, shares);
     }
 
-    [[nodiscard]] std::uint64_t density_rays() const override { return density_.rays(); }
-    [[nodiscard]] std::uint64_t density_bytes() const override { return density_.bytes(); }
-
-  private:
     /// A triangle whose three vertices saw nothing may still hold something: it counts as one
     /// surface, and as a share of the average, so that no ray carries more than five times the
     /// mean. Where nothing is seen anywhere, rays then follow the power (D5).
@@ -75,7 +107,8 @@ class HemisphereStrategy final : public Strategy {
 
     const Hemisphere& hemisphere_;
     bool literal_;
-    DensityMap density_;
+    std::optional<DensityMap> density_;
+    std::vector<CellShare> shares_of_one_surface_; ///< of all patches, where there is no density_
 };
 
 std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisphere& hemisphere,
@@ -94,6 +127,7 @@ const Method hemisphere_method{
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_hemisphere>,
     .strategy = make_hemisphere,
+    .work = {.densities = true, .passes = true},
 };
 
 } // namespace hemilux

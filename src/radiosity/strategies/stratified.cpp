@@ -42,6 +42,7 @@ const Method stratified_method{
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_stratified>,
     .strategy = make_stratified,
+    .work = {.passes = true},
 };
 
 } // namespace hemilux

@@ -1,0 +1,59 @@
+#pragma once
+// What a scene needs: work that would not change its solution is left out.
+//
+// A small analysis of the mesh, made once. Methods and tracers ask it before they do their work;
+// docs/decisions.md tells which omission keeps every byte and which the result within its error.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+struct Method;
+struct Solution;
+
+struct Needs {
+    bool colours = true;    ///< false: all is grey, one channel stands for three
+    bool densities = true;  ///< false: a convex enclosure, one surface in each direction
+    bool visibility = true; ///< false: the same, nothing stands between two patches
+    bool bounces = true;    ///< false: nothing reflects
+    bool tree = true;       ///< false: so few facets that a ray tests them all sooner
+    bool quads = true;      ///< false: all facets are triangles
+
+    /// Whether a patch may ever hold power to be shot. If not it needs no rays and no hemisphere.
+    [[nodiscard]] bool power(std::uint32_t patch) const { return idle.empty() || !idle[patch]; }
+
+    std::vector<bool> idle;           ///< by patch; empty where none is
+    std::size_t black = 0, unlit = 0; ///< idle because it reflects nothing; because no light comes
+};
+
+/// Work of a method that a scene may not need.
+struct MethodWork {
+    bool densities = false;      ///< counts surfaces before it solves
+    bool pairs = false;          ///< looks from patches to patches
+    bool linear_systems = false; ///< solves one for each channel
+    bool passes = false;         ///< solves again and again, to take the mean or with more rays
+};
+
+/// Nothing is left out.
+inline const Needs everything_needed;
+
+/// O(facets), but for scenes made to be difficult, where less is found out. Conservative: what
+/// cannot be told is needed.
+[[nodiscard]] Needs find_needs(const Mesh& mesh);
+
+/// Something that a scene did not need and that was therefore not done.
+struct LeftOut {
+    std::string what, why, saved;
+};
+
+/// In words: by any method.
+[[nodiscard]] std::vector<LeftOut> left_out(const Needs& needs);
+/// By this one, in a run that came to this solution.
+[[nodiscard]] std::vector<LeftOut> left_out(const Needs& needs, const Method& method,
+                                            const Solution& solution);
+
+} // namespace hemilux
