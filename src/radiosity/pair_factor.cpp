@@ -35,12 +35,12 @@ std::uint32_t points_per_set(double rays, std::uint32_t sets) {
 
 } // namespace
 
-void PairFactor::average(std::span<const double> sums, double points) {
+void PairFactor::average(std::span<const double> sums, double points_each) {
     const auto sets = static_cast<double>(sums.size());
-    factor = std::accumulate(sums.begin(), sums.end(), 0.0) / (sets * points);
+    factor = std::accumulate(sums.begin(), sums.end(), 0.0) / (sets * points_each);
     double squares = 0;
     for (const double sum : sums)
-        squares += (sum / points - factor) * (sum / points - factor);
+        squares += (sum / points_each - factor) * (sum / points_each - factor);
     variance = squares / (sets * (sets - 1));
 }
 
@@ -67,7 +67,7 @@ double rough_factor(const Patch& from, const Patch& to) {
 }
 
 PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
-                       double worth, std::uint64_t seed) {
+                       double worth, std::uint64_t seed, bool visibility) {
     const bool adaptive = worth >= least_worth_to_adapt;
     const std::uint32_t sets = adaptive ? adaptive_sets : 2;
     const std::uint32_t most = points_per_set(adaptive ? most_share * worth : worth, sets);
@@ -77,9 +77,10 @@ PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t fro
     for (;; begin = end, end *= 2) {
         for (std::uint32_t set = 0; set < sets; ++set) {
             const std::uint64_t set_seed = hash_words({seed, from, set});
+            result.points += end - begin;
             for (std::uint32_t k = begin; k < end; ++k) {
-                const double f =
-                    point_to_patch(mesh, tracer, from, to, sobol4(k, set_seed), result.rays);
+                const double f = point_to_patch(mesh, tracer, from, to, sobol4(k, set_seed),
+                                                result.rays, visibility);
                 sum[set] += f;
                 result.hits += f > 0;
             }

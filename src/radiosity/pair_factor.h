@@ -18,10 +18,10 @@ struct Patch;
 struct PairFactor {
     double factor = 0;   ///< F_from,to [-]
     double variance = 0; ///< of the factor
-    std::uint64_t rays = 0, hits = 0;
+    std::uint64_t points = 0, rays = 0, hits = 0; ///< not each point needs a ray
 
     /// Mean and spread of sets of so many points.
-    void average(std::span<const double> sums, double points);
+    void average(std::span<const double> sums, double points_each);
 };
 
 /// Whether each has a corner in front of the other.
@@ -32,8 +32,10 @@ struct PairFactor {
 [[nodiscard]] double rough_factor(const Patch& from, const Patch& to);
 
 /// `worth`: about how many rays are to be spent, more on pairs that see each other in part and
-/// fewer on those that see each other well; two at least.
+/// fewer on those that see each other well; two at least. `visibility`: false where nothing can
+/// stand between two patches.
 [[nodiscard]] PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t from,
-                                     std::uint32_t to, double worth, std::uint64_t seed);
+                                     std::uint32_t to, double worth, std::uint64_t seed,
+                                     bool visibility = true);
 
 } // namespace hemilux

@@ -43,9 +43,11 @@ double estimated_error(const Mesh& mesh, const Solution& solution) {
         const double area = mesh.patches()[i].area;
         const double error = area * squared(solution.standard_error[i]);
         all.error += error;
-        // The square of an estimate is too large by its variance.
-        all.value += area * squared(solution.radiosity[i] - mesh.material(i).emission) - error;
+        all.value += area * squared(solution.radiosity[i] - mesh.material(i).emission);
     }
+    if (solution.variance)
+        all.error = *solution.variance;
+    all.value -= all.error; // the square of an estimate is too large by its variance
     return all.error == 0 ? 0 : all.root();
 }
 

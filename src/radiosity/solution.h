@@ -4,6 +4,7 @@
 #include "geometry/vector.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct Solution {
     std::vector<Vec3> radiosity;      ///< B per patch [W/m2 leaving], own emission included
     std::vector<Vec3> standard_error; ///< of B, from the spread of the steps; NaN before two steps
     std::vector<std::uint64_t> hits;  ///< energy rays that struck each patch
+    /// Sum over patches and channels of area times the variance of B, where that is known better
+    /// than from standard_error, which is on the safe side where few rays arrive.
+    std::optional<double> variance;
     EnergyBalance energy;
     std::uint32_t steps = 0;
     std::uint64_t rays_energy = 0;
@@ -44,7 +48,7 @@ struct RelativeError {
                                        std::span<const Vec3> reference,
                                        const std::vector<bool>& detail = {});
 
-/// The same from the solution's own standard errors; NaN before two steps.
+/// The same from the solution's own variance; NaN before two steps.
 [[nodiscard]] double estimated_error(const Mesh& mesh, const Solution& solution);
 
 /// Standardised differences z = (B - B*) / sigma over patches with at least `min_hits` and all

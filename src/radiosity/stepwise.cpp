@@ -87,20 +87,25 @@ Vec3 StepwiseSolver::one_ray(std::uint32_t patch) const {
 }
 
 /// Mean and spread of the steps. A patch that no ray has struck shows no spread, though one ray
-/// more might have struck it: a standard error is never below what one ray brings.
+/// more might have struck it: a standard error is never below what one ray brings. Summed over all
+/// patches that would be too much; the variances themselves are right on average.
 void StepwiseSolver::combine(const StepResult& result) {
     const std::vector<Vec3>& radiosity = result.radiosity;
     const double n = ++solution_.steps;
+    double variance = 0;
     for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
         const Vec3 before = n > 1 ? solution_.radiosity[i] : Vec3(0.0);
         solution_.radiosity[i] = before + (radiosity[i] - before) / n;
         solution_.hits[i] += result.hits[i];
         if (n > 1) {
             squares_[i] += (radiosity[i] - before) * (radiosity[i] - solution_.radiosity[i]);
-            solution_.standard_error[i] =
-                glm::max(glm::sqrt(squares_[i] / (n * (n - 1))), one_ray(i));
+            const Vec3 of_mean = squares_[i] / (n * (n - 1));
+            variance += input_.mesh.patches()[i].area * (of_mean.x + of_mean.y + of_mean.z);
+            solution_.standard_error[i] = glm::max(glm::sqrt(of_mean), one_ray(i));
         }
     }
+    if (n > 1)
+        solution_.variance = variance;
     solution_.rays_energy += result.rays;
     power_absorbed_ += result.absorbed;
     power_escaped_ += result.escaped;

@@ -50,6 +50,46 @@ TEST_CASE("Deviations from matrix are those of the reported standard errors", "[
     }
 }
 
+TEST_CASE("The estimated error is the true one, from the fourth step on", "[slow]") {
+    constexpr int runs = 6;
+    for (const std::string scene :
+         {"cornell_box", "room_1002", "open_scene", "wall_before_crowd"}) {
+        const Model model(example(scene));
+        const Solution exact = test::reference(model, .004);
+        for (const Method* method : methods()) {
+            if (!method->unbiased)
+                continue;
+            // Both are random, so one run's ratio may be off by a fifth where few patches hold most
+            // of the error.
+            double early = 0, late = 0;
+            for (int run = 0; run < runs; ++run) {
+                SolveOptions options;
+                options.seed = 131 + std::uint64_t(run);
+                Monitor monitor;
+                const SolverInput input{model.mesh, model.bvh, options, monitor};
+                const auto solver = method->make(input);
+                const auto ratio = [&](const Solution& s) {
+                    return std::log(estimated_error(model.mesh, s) /
+                                    true_error(model.mesh, s.radiosity, exact.radiosity).all) /
+                           runs;
+                };
+                hemilux::run(*solver, input, test::steps(8),
+                             [&](const StepRecord& record, const Solution& s) {
+                                 if (record.step == 4)
+                                     early += ratio(s);
+                                 if (record.step == 8)
+                                     late += ratio(s);
+                             });
+            }
+            CAPTURE(scene, method->name, std::exp(early), std::exp(late));
+            CHECK(std::exp(early) > .8);
+            CHECK(std::exp(early) < 1.25);
+            CHECK(std::exp(late) > .85);
+            CHECK(std::exp(late) < 1.15);
+        }
+    }
+}
+
 TEST_CASE("The error falls as one over the root of the rays, over three decades", "[slow]") {
     const Model model(test::room_with_block());
     const Solution exact = test::reference(model, .0006);

@@ -10,7 +10,7 @@
 // visibility along a ray to the shooter, with more points where more light may come
 // (pair_factor.h). Each shot draws new ones.
 //
-// Parameter: --rays. A step is as many shots as use up so many rays per patch, one at least; and
+// Parameter: --rays. A step is as many shots as use up so many points per patch, one at least; and
 // the form factors are the more accurate the more rays are asked for. With 64 the end is within
 // .2 % of the exact solution. The run ends by itself when hardly any power is left unshot.
 // --one-shot makes a step of each shot, --ambient shows what is still unshot, --overshoot shoots
@@ -98,9 +98,9 @@ class ProgressiveSolver final : public Solver {
     bool step() override {
         input_.monitor.phase = "shooting";
         const double wanted = input_.options.rays * static_cast<double>(sights_.size());
-        const std::uint64_t before = rays_;
+        const std::uint64_t before = points_;
         while (!finished()) {
-            const double used = static_cast<double>(rays_ - before);
+            const double used = static_cast<double>(points_ - before);
             input_.monitor.step_share = std::min(1.0, used / wanted);
             if (used >= wanted)
                 break;
@@ -173,11 +173,14 @@ class ProgressiveSolver final : public Solver {
         const auto patches = input_.mesh.patches();
         if (receiver == shooter || !may_see(patches[receiver], patches[shooter]))
             return {};
+        if (!input_.needs.power(receiver)) // what it absorbs is accounted for by lose()
+            return {};
         const double rays = worth(receiver, shooter, shot);
         const double chance = std::min(rays / least_worth, 1.0);
         if (chance < 1 && !(Rng(hash_words({seed, receiver})).uniform() < chance))
             return {};
-        PairFactor f = pair_factor(input_.mesh, input_.tracer, receiver, shooter, rays, seed);
+        PairFactor f = pair_factor(input_.mesh, input_.tracer, receiver, shooter, rays, seed,
+                                   input_.needs.visibility);
         f.variance = f.variance / chance + (1 - chance) * (f.factor / chance) * (f.factor / chance);
         f.factor /= chance;
         return f;
@@ -212,6 +215,7 @@ class ProgressiveSolver final : public Solver {
             variance_[i] += rho * shot * rho * shot * seen.variance;
             tally_.absorbed += (1.0 - rho) * incident * input_.mesh.patches()[i].area;
             hits_[i] += seen.hits;
+            points_ += seen.points;
             rays_ += seen.rays;
         }
     }
@@ -232,9 +236,10 @@ class ProgressiveSolver final : public Solver {
             const std::uint32_t receiver = receiver_of(ray, input_.mesh, input_.tracer);
             if (receiver == escaped)
                 tally_.escaped += each;
-            else if (receiver == absorbed)
+            else if (receiver == absorbed || !input_.needs.power(receiver))
                 tally_.absorbed += each;
         }
+        points_ += count;
         rays_ += count;
         input_.monitor.rays += count;
     }
@@ -287,7 +292,7 @@ class ProgressiveSolver final : public Solver {
     std::vector<Vec3> variance_;           ///< of B by sampling
     std::vector<std::uint64_t> hits_;
     EnergyBalance tally_; ///< local units
-    std::uint64_t rays_ = 0, shots_ = 0;
+    std::uint64_t points_ = 0, rays_ = 0, shots_ = 0;
     Solution solution_;
 };
 
@@ -306,6 +311,7 @@ const Method progressive_method{
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
     .make = make_progressive,
     .strategy = nullptr,
+    .work = {.pairs = true},
 };
 
 } // namespace hemilux

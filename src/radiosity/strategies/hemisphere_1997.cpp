@@ -28,6 +28,7 @@
 #include "radiosity/shooting.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -62,16 +63,21 @@ std::array<Polygon, sub_patches> divide(const Polygon& shape) {
 class Hemisphere1997 final : public Strategy {
   public:
     Hemisphere1997(const SolverInput& input, const Workers& workers)
-        : mesh_(input.mesh), options_(input.options), topology_(stored_steps) {
-        const std::size_t places = mesh_.patches().size() * sub_patches * vertices();
+        : mesh_(input.mesh), options_(input.options), needs_(input.needs), topology_(stored_steps) {
+        const std::size_t looking = needs_.densities ? mesh_.patches().size() : 1;
+        const std::size_t places = looking * sub_patches * vertices();
         direction_.resize(places);
         count_.resize(places);
-        workers.for_chunks(mesh_.patches().size(), 16, [&](std::size_t begin, std::size_t end) {
+        workers.for_chunks(looking, 16, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end && !input.monitor.interrupted; ++i) {
+                if (needs_.densities && !needs_.power(static_cast<std::uint32_t>(i)))
+                    continue;
                 look(static_cast<std::uint32_t>(i), input.tracer);
-                input.monitor.rays += sub_patches * vertices();
+                if (needs_.densities)
+                    rays_ += sub_patches * vertices();
             }
         });
+        input.monitor.rays += rays_;
         begin_step(0);
     }
 
@@ -110,7 +116,7 @@ class Hemisphere1997 final : public Strategy {
         return result;
     }
 
-    [[nodiscard]] std::uint64_t density_rays() const override { return count_.size(); }
+    [[nodiscard]] std::uint64_t density_rays() const override { return rays_; }
     [[nodiscard]] std::uint64_t density_bytes() const override {
         return direction_.size() * sizeof(direction_[0]) + count_.size();
     }
@@ -119,9 +125,9 @@ class Hemisphere1997 final : public Strategy {
     /// Of the stored triangles of one hemisphere.
     [[nodiscard]] std::size_t vertices() const { return topology_.vertices().size(); }
 
-    /// Where the vertices of a sub-patch begin.
+    /// Where the vertices of a sub-patch begin. Without densities all patches are alike.
     [[nodiscard]] std::size_t place(std::uint32_t patch, std::size_t piece) const {
-        return (patch * sub_patches + piece) * vertices();
+        return ((needs_.densities ? patch : 0) * sub_patches + piece) * vertices();
     }
 
     [[nodiscard]] CountedDirection stored(std::size_t at) const {
@@ -142,8 +148,8 @@ class Hemisphere1997 final : public Strategy {
                 ray.from = mesh_.patches()[patch].facet;
                 direction_[begin + vertex] = {static_cast<float>(v.x), static_cast<float>(v.y),
                                               static_cast<float>(v.z)};
-                count_[begin + vertex] =
-                    static_cast<std::uint8_t>(std::min(tracer.count(ray), 255u));
+                count_[begin + vertex] = static_cast<std::uint8_t>(
+                    needs_.densities ? std::min(tracer.count(ray), 255u) : 1u);
             };
             std::size_t known = 0; // vertices are numbered in the order in which cells need them
             for (; known < first_vertices; ++known)
@@ -180,7 +186,9 @@ class Hemisphere1997 final : public Strategy {
 
     const Mesh& mesh_;
     const SolveOptions& options_;
+    const Needs& needs_;
     Hemisphere topology_;
+    std::atomic<std::uint64_t> rays_{0};
     // By patch, sub-patch and vertex of the topology, in the patch's own frame.
     std::vector<std::array<float, 3>> direction_;
     std::vector<std::uint8_t> count_;
@@ -204,6 +212,7 @@ const Method hemisphere_1997_method{
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_hemisphere_1997>,
     .strategy = make_hemisphere_1997,
+    .work = {.densities = true, .passes = true},
 };
 
 } // namespace hemilux
