@@ -32,11 +32,11 @@ SolveOptions with_seed(std::uint64_t seed, double rays = 64) {
     return options;
 }
 
-/// Enough for the tests below. `progressive`, whose steps are shots, goes on until nothing is left
-/// to shoot; what it calls rays is an accuracy of form factors, and an eighth will do.
+/// Enough for the tests below. `progressive` makes one pass, whose accuracy is what it calls rays.
 Solution solve(const Model& model, const Method& method, SolveOptions options, std::uint32_t n) {
     if (method.name == "progressive") {
-        options.rays /= 8;
+        options.rays *= 16;
+        options.progressive.one_shot = true;
         return test::solve(model, method, options, test::steps(1'000'000));
     }
     return test::solve(model, method, options, test::steps(method.default_stop.error ? 2 : n));

@@ -11,10 +11,11 @@
 // (pair_factor.h). Each shot draws new ones.
 //
 // Parameter: --rays. A step is as many shots as use up so many points per patch, one at least; and
-// the form factors are the more accurate the more rays are asked for. With 64 the end is within
-// .2 % of the exact solution. The run ends by itself when hardly any power is left unshot.
-// --one-shot makes a step of each shot, --ambient shows what is still unshot, --overshoot shoots
-// ahead (ProgressiveOptions in solver.h).
+// the form factors are the more accurate the more rays are asked for. When hardly any power is left
+// unshot, a pass is done: with 64 rays it is within 1 or 2 % of the exact solution. The next one
+// begins again, four times as accurate, and the result is the mean of the passes by what they are
+// worth. --one-shot makes a step of each shot and ends with the first pass, --ambient shows what is
+// still unshot, --overshoot shoots ahead (ProgressiveOptions in solver.h).
 //
 // The standard error holds that of the sampling at each patch; the light that its errors bring into
 // the room or take from it, and the light that is still missing, both spread evenly.
@@ -24,6 +25,7 @@
 // ray or two for each patch that faces the shooter, and each patch shoots many times. No memory to
 // speak of. Not unbiased: after a finite number of shots some light is missing.
 
+#include "radiosity/estimate.h"
 #include "radiosity/largest_first.h"
 #include "radiosity/mesh.h"
 #include "radiosity/pair_factor.h"
@@ -42,16 +44,15 @@
 namespace hemilux {
 namespace {
 
-constexpr std::size_t receivers_per_chunk = 64;
 /// Fewer pairs are done sooner than other threads would be started.
-constexpr std::size_t receivers_for_one_thread = 256;
+constexpr std::size_t receivers_per_chunk = 256;
 
 /// For each of --rays, shadow rays in a shot that gives a receiver as much light as the mean patch
-/// reflects in the end; other shots get them in proportion. Four times as many about halve the
-/// error.
-constexpr double rays_per_light_unit = 512;
+/// reflects in the end; other shots get them in proportion. This many in the first pass; four times
+/// as many in the next, which about halves the error.
+constexpr double rays_per_light_unit = 2, growth_of_passes = 4;
 
-/// The run ends when the light that is still to come is less than this share of the light reflected
+/// A pass ends when the light that is still to come is less than this share of the light reflected
 /// so far, and hardly any emitted power is left to account for. Over all, far more would do; but
 /// small patches hold little power to the end, and it is what lights their small neighbours.
 constexpr double finished_share = 2e-5, finished_share_of_emitted = 5e-3;
@@ -73,16 +74,10 @@ class ProgressiveSolver final : public Solver {
   public:
     explicit ProgressiveSolver(const SolverInput& input)
         : input_(input), options_(input.options.progressive), workers_(input.options.threads),
-          sights_(input.mesh.patches().size()), brightest_(sights_.size()),
-          variance_(sights_.size(), Vec3(0.0)), hits_(sights_.size()) {
-        solution_.standard_error.assign(sights_.size(), Vec3(0.0));
-        solution_.hits.assign(sights_.size(), 0);
+          sights_(input.mesh.patches().size()), brightest_(sights_.size()), hits_(sights_.size()) {
         for (std::uint32_t i = 0; i < sights_.size(); ++i) {
             const Vec3& emission = input.mesh.material(i).emission;
             const double area = input.mesh.patches()[i].area;
-            radiosity_.push_back(emission);
-            unshot_.push_back(emission);
-            brightest_.set(i, unshot_power(i));
             emitted_ += emission * area;
             total_area_ += area;
             mean_reflectance_ += area * input.mesh.material(i).reflectance;
@@ -90,8 +85,8 @@ class ProgressiveSolver final : public Solver {
         mean_reflectance_ = glm::min(mean_reflectance_ / total_area_, Vec3(.999));
         const Vec3 rho = glm::max(mean_reflectance_, least_reflectance);
         mean_reflected_ = mean_of_channels(emitted_ * rho / (1.0 - rho)) / total_area_;
-        tally_.emitted = emitted_;
-        publish();
+        begin_pass();
+        publish(estimate());
         solution_.steps = 0;
     }
 
@@ -100,6 +95,10 @@ class ProgressiveSolver final : public Solver {
         const double wanted = input_.options.rays * static_cast<double>(sights_.size());
         const std::uint64_t before = points_;
         while (!finished()) {
+            if (pass_is_done()) {
+                end_pass();
+                continue;
+            }
             const double used = static_cast<double>(points_ - before);
             input_.monitor.step_share = std::min(1.0, used / wanted);
             if (used >= wanted)
@@ -110,11 +109,42 @@ class ProgressiveSolver final : public Solver {
             if (options_.one_shot)
                 break;
         }
-        publish();
+        publish(passes_ > 0 ? mean_ : estimate());
         return true;
     }
 
     [[nodiscard]] bool finished() const override {
+        const bool sure =
+            std::ranges::all_of(mean_.variance, [](const Vec3& v) { return v == Vec3(0.0); });
+        return (passes_ > 0 && (options_.one_shot || sure)) || emitted_ == Vec3(0.0);
+    }
+    [[nodiscard]] const Solution& solution() const override { return solution_; }
+
+  private:
+    void begin_pass() {
+        radiosity_.clear();
+        for (std::uint32_t i = 0; i < sights_.size(); ++i)
+            radiosity_.push_back(input_.mesh.material(i).emission);
+        unshot_ = radiosity_;
+        for (std::uint32_t i = 0; i < sights_.size(); ++i)
+            brightest_.set(i, unshot_power(i));
+        variance_.assign(sights_.size(), Vec3(0.0));
+        tally_ = {emitted_, Vec3(0.0), Vec3(0.0)};
+        rays_per_light_ =
+            rays_per_light_unit * input_.options.rays * std::pow(growth_of_passes, double(passes_));
+    }
+
+    /// A pass is worth as much as it has rays.
+    void end_pass() {
+        worth_ += rays_per_light_;
+        if (passes_++ == 0)
+            mean_ = estimate();
+        else
+            mean_.join(estimate(), rays_per_light_ / worth_);
+        begin_pass();
+    }
+
+    [[nodiscard]] bool pass_is_done() const {
         double left = 0, reflected = 0;
         for (std::uint32_t i = 0; i < unshot_.size(); ++i) {
             left += unshot_power(i);
@@ -126,9 +156,7 @@ class ProgressiveSolver final : public Solver {
         return !(missing > finished_share * reflected) &&
                !(left > finished_share_of_emitted * mean_of_channels(emitted_));
     }
-    [[nodiscard]] const Solution& solution() const override { return solution_; }
 
-  private:
     /// Mean of channels. Overshooting leaves negative light, which counts alike.
     [[nodiscard]] double unshot_power(std::uint32_t patch) const {
         return input_.mesh.patches()[patch].area * mean_of_channels(glm::abs(unshot_[patch]));
@@ -156,8 +184,7 @@ class ProgressiveSolver final : public Solver {
     /// Form factors of all receivers to the shooter.
     void look_from_all(std::uint32_t shooter, const Vec3& shot) {
         const std::uint64_t seed = hash_words({input_.options.seed, shots_, shooter});
-        const Workers workers = sights_.size() < receivers_for_one_thread ? Workers(1) : workers_;
-        workers.for_chunks(
+        workers_.for_chunks(
             sights_.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
                 std::uint64_t rays = 0;
                 for (std::size_t i = begin; i < end && !input_.monitor.interrupted; ++i) {
@@ -186,10 +213,6 @@ class ProgressiveSolver final : public Solver {
         return f;
     }
 
-    [[nodiscard]] double rays_per_light() const {
-        return rays_per_light_unit * input_.options.rays;
-    }
-
     /// How many rays a pair is worth. The error of a sum is least with rays in proportion to what
     /// each term contributes; an error counts by the root of the area.
     [[nodiscard]] double worth(std::uint32_t receiver, std::uint32_t shooter,
@@ -199,7 +222,7 @@ class ProgressiveSolver final : public Solver {
         const double light = mean_of_channels(rho * glm::abs(shot)) *
                              rough_factor(i, input_.mesh.patches()[shooter]);
         const double mean_area = total_area_ / static_cast<double>(sights_.size());
-        return rays_per_light() * light / mean_reflected_ * std::sqrt(i.area / mean_area);
+        return rays_per_light_ * light / mean_reflected_ * std::sqrt(i.area / mean_area);
     }
 
     /// In the order of the patches, whatever thread has looked.
@@ -224,7 +247,7 @@ class ProgressiveSolver final : public Solver {
     void lose(std::uint32_t shooter, const Vec3& shot) {
         const Patch& s = input_.mesh.patches()[shooter];
         const double share = mean_of_channels(glm::abs(shot)) * s.area / mean_of_channels(emitted_);
-        const double wanted = std::clamp(rays_per_light() * share, least_lost_rays, most_lost_rays);
+        const double wanted = std::clamp(rays_per_light_ * share, least_lost_rays, most_lost_rays);
         const auto count = std::bit_ceil(static_cast<std::uint32_t>(wanted));
         const std::uint64_t seed = hash_words({input_.options.seed, shots_, shooter, 1});
         const Frame frame = Frame::from_normal(s.normal);
@@ -253,7 +276,8 @@ class ProgressiveSolver final : public Solver {
         return unshot / (1.0 - mean_reflectance_) / total_area_;
     }
 
-    void publish() {
+    /// After the last shot of this pass.
+    [[nodiscard]] Estimate estimate() const {
         const Vec3 missing = ambient();
         Vec3 power_variance(0.0);
         for (std::uint32_t i = 0; i < sights_.size(); ++i) {
@@ -262,17 +286,25 @@ class ProgressiveSolver final : public Solver {
         }
         const Vec3 gain = 1.0 / ((1.0 - mean_reflectance_) * total_area_);
         const Vec3 shared = missing * missing + gain * gain * power_variance;
-        solution_.radiosity = radiosity_;
+        Estimate result{radiosity_, variance_, tally_};
         for (std::uint32_t i = 0; i < sights_.size(); ++i) {
             const Vec3& rho = input_.mesh.material(i).reflectance;
-            solution_.standard_error[i] = glm::sqrt(variance_[i] + rho * rho * shared);
+            result.variance[i] += rho * rho * shared;
             if (options_.ambient)
-                solution_.radiosity[i] += rho * missing;
+                result.radiosity[i] += rho * missing;
         }
+        return result;
+    }
+
+    void publish(const Estimate& estimate) {
+        solution_.radiosity = estimate.radiosity;
+        solution_.standard_error.clear();
+        for (const Vec3& variance : estimate.variance)
+            solution_.standard_error.push_back(glm::sqrt(variance));
         solution_.hits = hits_;
         const double to_world = input_.mesh.frame().area_to_world(1.0);
-        solution_.energy = {to_world * tally_.emitted, to_world * tally_.absorbed,
-                            to_world * tally_.escaped};
+        solution_.energy = {to_world * emitted_, to_world * estimate.energy.absorbed,
+                            to_world * estimate.energy.escaped};
         solution_.rays_energy = rays_;
         ++solution_.steps;
     }
@@ -285,13 +317,18 @@ class ProgressiveSolver final : public Solver {
     /// Radiosity that the mean patch will reflect in the end, as the ambient term has it.
     double mean_reflected_ = 0;
     Vec3 emitted_{0.0};
-    // The state after the last shot; solution_ is that after the last step.
+    // The present pass after its last shot; solution_ is that after the last step.
     std::vector<Vec3> radiosity_, unshot_; ///< B and dB
     std::vector<PairFactor> sights_;       ///< of the present shot
     LargestFirst brightest_;               ///< unshot power
     std::vector<Vec3> variance_;           ///< of B by sampling
+    EnergyBalance tally_;                  ///< local units
+    double rays_per_light_ = 0;
+    // All passes before.
+    Estimate mean_;
+    double worth_ = 0;
+    std::uint32_t passes_ = 0;
     std::vector<std::uint64_t> hits_;
-    EnergyBalance tally_; ///< local units
     std::uint64_t points_ = 0, rays_ = 0, shots_ = 0;
     Solution solution_;
 };
