@@ -20,10 +20,9 @@
 // The standard error holds that of the sampling at each patch; the light that its errors bring into
 // the room or take from it, and the light that is still missing, both spread evenly.
 //
-// Good for a first picture after few shots, in rooms with few lamps, and for shadows of small
-// lamps, which rays meet only by luck. Bad with many patches and high reflectances: a shot costs a
-// ray or two for each patch that faces the shooter, and each patch shoots many times. No memory to
-// speak of. Not unbiased: after a finite number of shots some light is missing.
+// Good for a first picture after few shots, and for the shadows of few small lamps. Bad with many
+// patches and high reflectances, as each patch shoots many times. No memory to speak of. Not
+// unbiased: after a finite number of shots some light is missing.
 
 #include "radiosity/estimate.h"
 #include "radiosity/largest_first.h"
@@ -280,10 +279,8 @@ class ProgressiveSolver final : public Solver {
     [[nodiscard]] Estimate estimate() const {
         const Vec3 missing = ambient();
         Vec3 power_variance(0.0);
-        for (std::uint32_t i = 0; i < sights_.size(); ++i) {
-            const double area = input_.mesh.patches()[i].area;
-            power_variance += area * area * variance_[i];
-        }
+        for (std::uint32_t i = 0; i < sights_.size(); ++i)
+            power_variance += std::pow(input_.mesh.patches()[i].area, 2.0) * variance_[i];
         const Vec3 gain = 1.0 / ((1.0 - mean_reflectance_) * total_area_);
         const Vec3 shared = missing * missing + gain * gain * power_variance;
         Estimate result{radiosity_, variance_, tally_};
