@@ -5,7 +5,8 @@
 namespace hemilux {
 namespace {
 
-using Words = std::array<std::uint32_t, 4>; // one per dimension
+constexpr std::size_t dimensions = 5;
+using Words = std::array<std::uint32_t, dimensions>; // one per dimension
 
 constexpr std::uint32_t reverse_bits(std::uint32_t x) {
     x = (x >> 16) | (x << 16);
@@ -21,7 +22,8 @@ struct Polynomial {
     unsigned degree, inner;
     std::array<std::uint32_t, 3> m;
 };
-constexpr std::array<Polynomial, 3> polynomials{{{1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}}};
+constexpr std::array<Polynomial, dimensions - 1> polynomials{
+    {{1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}, {3, 2, {1, 1, 1}}}};
 
 /// Direction number j of a dimension, the binary point before the highest bit.
 constexpr std::array<std::uint32_t, 32> direction_numbers(std::size_t dimension) {
@@ -49,7 +51,7 @@ constexpr std::array<std::uint32_t, 32> direction_numbers(std::size_t dimension)
 using Table = std::array<std::array<Words, 16>, 8>;
 constexpr Table make_table() {
     Table table{};
-    for (std::size_t d = 0; d < 4; ++d) {
+    for (std::size_t d = 0; d < dimensions; ++d) {
         const auto v = direction_numbers(d);
         for (std::size_t group = 0; group < 8; ++group)
             for (std::size_t value = 0; value < 16; ++value)
@@ -72,26 +74,36 @@ constexpr std::uint32_t permute(std::uint32_t x, std::uint32_t seed) {
     return x;
 }
 
-} // namespace
-
-std::array<double, 4> sobol4(std::uint32_t index, std::uint64_t seed) {
+template <std::size_t n>
+std::array<double, n> sobol(std::uint32_t index, std::uint64_t seed) {
     const std::uint64_t a = mix_bits(seed + 0x9e3779b97f4a7c15u);
     const std::uint64_t b = mix_bits(a + 0x632be59bd9b4e019u);
     const std::uint64_t c = mix_bits(b + 0x632be59bd9b4e019u);
     const Words seeds{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a >> 32),
-                      static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(b >> 32)};
+                      static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(b >> 32),
+                      static_cast<std::uint32_t>(c >> 32)};
     index = reverse_bits(permute(reverse_bits(index), static_cast<std::uint32_t>(c)));
 
-    Words word{};
+    std::array<std::uint32_t, n> word{};
     for (std::size_t group = 0; group < 8; ++group) {
         const Words& part = table[group][(index >> (4 * group)) & 15u];
-        for (std::size_t d = 0; d < 4; ++d)
+        for (std::size_t d = 0; d < n; ++d)
             word[d] ^= part[d];
     }
-    std::array<double, 4> point{};
-    for (std::size_t d = 0; d < 4; ++d)
+    std::array<double, n> point{};
+    for (std::size_t d = 0; d < n; ++d)
         point[d] = (static_cast<double>(reverse_bits(permute(word[d], seeds[d]))) + 0.5) * 0x1p-32;
     return point;
+}
+
+} // namespace
+
+std::array<double, 4> sobol4(std::uint32_t index, std::uint64_t seed) {
+    return sobol<4>(index, seed);
+}
+
+std::array<double, 5> sobol5(std::uint32_t index, std::uint64_t seed) {
+    return sobol<5>(index, seed);
 }
 
 } // namespace hemilux

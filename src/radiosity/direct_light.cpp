@@ -1,0 +1,127 @@
+#include "radiosity/direct_light.h"
+
+#include "radiosity/mesh.h"
+#include "radiosity/pair_factor.h"
+#include "radiosity/point_to_patch.h"
+#include "radiosity/rng.h"
+#include "radiosity/shot.h"
+#include "radiosity/sobol.h"
+#include "radiosity/solver.h"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+constexpr std::size_t patches_per_chunk = 16;
+
+/// Emitters that together are more than this share of all surface are found by rays at random.
+constexpr double largest_share = .1;
+
+/// More emitters are drawn by their power, wherever the receiver is.
+constexpr std::size_t most_weighed = 4096;
+
+double power_of(const Mesh& mesh, std::uint32_t patch) {
+    return mesh.patches()[patch].area * mean_of_channels(mesh.material(patch).emission);
+}
+
+} // namespace
+
+std::vector<std::uint32_t> small_emitters(const Mesh& mesh) {
+    std::vector<std::uint32_t> emitters;
+    double total = 0;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        total += mesh.patches()[i].area;
+        if (power_of(mesh, i) > 0)
+            emitters.push_back(i);
+    }
+    // The brightest are worth most as long as all stay small.
+    std::ranges::stable_sort(emitters, std::ranges::greater{}, [&](std::uint32_t i) {
+        return mean_of_channels(mesh.material(i).emission);
+    });
+    double area = 0;
+    std::size_t kept = 0;
+    while (kept < emitters.size() &&
+           (area += mesh.patches()[emitters[kept]].area) <= largest_share * total)
+        ++kept;
+    // Patches of one brightness are all in or all out, whatever their order.
+    if (kept < emitters.size()) {
+        const auto brightness = [&](std::size_t k) {
+            return mean_of_channels(mesh.material(emitters[k]).emission);
+        };
+        while (kept > 0 && brightness(kept - 1) == brightness(kept))
+            --kept;
+        emitters.resize(kept);
+    }
+    std::ranges::sort(emitters);
+    return emitters;
+}
+
+DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
+                         std::span<const std::uint32_t> emitters, std::uint64_t seed)
+    : mesh_(mesh), tracer_(tracer), needs_(needs), emitters_(emitters), seed_(seed),
+      sum_(mesh.patches().size(), Vec3(0.0)), samples_(mesh.patches().size()),
+      hits_(mesh.patches().size()) {
+    if (emitters_.size() <= most_weighed)
+        return;
+    double sum = 0;
+    for (const std::uint32_t e : emitters_)
+        powers_.push_back(sum += power_of(mesh, e));
+}
+
+std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
+                                        const Workers& workers, Monitor& monitor) {
+    std::atomic<std::uint64_t> traced{0};
+    if (!emitters_.empty())
+        workers.for_chunks(sum_.size(), patches_per_chunk, [&](std::size_t begin, std::size_t end) {
+            std::vector<double> sent;
+            std::uint64_t rays = 0;
+            for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
+                if (samples[i] > samples_[i])
+                    rays += sample(static_cast<std::uint32_t>(i), samples[i], sent);
+            traced += rays;
+            monitor.rays += rays;
+        });
+    return traced;
+}
+
+void DirectLight::unobstructed(std::uint32_t patch, std::vector<double>& sums) const {
+    const Patch& receiver = mesh_.patches()[patch];
+    double sum = 0;
+    sums.clear();
+    for (const std::uint32_t e : emitters_) {
+        const Patch& emitter = mesh_.patches()[e];
+        if (e != patch && may_see(receiver, emitter))
+            sum += mean_of_channels(mesh_.material(e).emission) * rough_factor(receiver, emitter);
+        sums.push_back(sum);
+    }
+}
+
+std::uint64_t DirectLight::sample(std::uint32_t patch, std::uint32_t end,
+                                  std::vector<double>& sent) {
+    const std::uint32_t begin = std::exchange(samples_[patch], end);
+    if (powers_.empty())
+        unobstructed(patch, sent);
+    const std::vector<double>& sums = powers_.empty() ? sent : powers_;
+    if (!(sums.back() > 0))
+        return 0;
+    std::uint64_t rays = 0;
+    const std::uint64_t seed = hash_words({seed_, patch});
+    for (std::uint32_t k = begin; k < end; ++k) {
+        const auto u = sobol5(k, seed);
+        const auto drawn = std::ranges::upper_bound(sums, u[4] * sums.back());
+        const auto e = std::min(static_cast<std::size_t>(drawn - sums.begin()), sums.size() - 1);
+        const double chance = (sums[e] - (e > 0 ? sums[e - 1] : 0.0)) / sums.back();
+        const double factor = point_to_patch(mesh_, tracer_, patch, emitters_[e],
+                                             {u[0], u[1], u[2], u[3]}, rays, needs_.visibility);
+        if (factor > 0) {
+            sum_[patch] += factor / chance * mesh_.material(emitters_[e]).emission;
+            ++hits_[patch];
+        }
+    }
+    return rays;
+}
+
+} // namespace hemilux

@@ -1,0 +1,65 @@
+#pragma once
+// The light that comes straight from small emitters, by shadow rays.
+//
+// Rays at random find a small lamp by luck. Here a sample is a point of the receiver, an emitter,
+// and a point of that: well-distributed in five dimensions (sobol.h). The emitter is drawn by the
+// light that it would send without obstacles; its contribution is the closed form of point and
+// polygon times the visibility along one ray inside it (point_to_patch.h).
+
+#include "bvh/tracer.h"
+#include "geometry/vector.h"
+#include "radiosity/needs.h"
+#include "radiosity/workers.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+struct Monitor;
+
+/// Patches that emit and are better reached by shadow rays than by rays at random: those that are
+/// few or small, so that they fill little of what others see. The rest is left to rays at random.
+[[nodiscard]] std::vector<std::uint32_t> small_emitters(const Mesh& mesh);
+
+class DirectLight {
+  public:
+    /// Different seeds: independent estimates. What is referred to outlives this.
+    DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
+                std::span<const std::uint32_t> emitters, std::uint64_t seed);
+
+    /// Goes on until each patch has so many samples. Returns the number of rays
+    /// traced now; void if the monitor was interrupted meanwhile.
+    std::uint64_t sample_up_to(std::span<const std::uint32_t> samples, const Workers& workers,
+                               Monitor& monitor);
+
+    /// Mean over the samples [W/m2 arriving].
+    [[nodiscard]] Vec3 irradiance(std::uint32_t patch) const {
+        const std::uint32_t n = samples_[patch];
+        return n > 0 ? sum_[patch] / static_cast<double>(n) : Vec3(0.0);
+    }
+    [[nodiscard]] std::uint32_t samples(std::uint32_t patch) const { return samples_[patch]; }
+    /// Samples of this patch that brought light.
+    [[nodiscard]] std::uint32_t hits(std::uint32_t patch) const { return hits_[patch]; }
+    [[nodiscard]] std::uint64_t bytes() const {
+        return sum_.size() * (sizeof(Vec3) + 2 * sizeof(std::uint32_t));
+    }
+
+  private:
+    std::uint64_t sample(std::uint32_t patch, std::uint32_t end, std::vector<double>& sent);
+    /// Running sums of the light that the emitters would send to this patch.
+    void unobstructed(std::uint32_t patch, std::vector<double>& sums) const;
+
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    const Needs& needs_;
+    std::span<const std::uint32_t> emitters_;
+    std::uint64_t seed_;
+    std::vector<Vec3> sum_;
+    std::vector<std::uint32_t> samples_, hits_;
+    std::vector<double> powers_; ///< running sums, for emitters too many to weigh one by one
+};
+
+} // namespace hemilux

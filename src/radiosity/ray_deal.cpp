@@ -1,0 +1,47 @@
+#include "radiosity/ray_deal.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+constexpr double least_share = 1.0 / 8, most_share = 8;
+
+/// The power of two nearest to a number, in logarithms.
+std::uint32_t power_of_two(double rays) {
+    return rays <= 1 ? 1 : std::uint32_t{1} << std::min(std::lround(std::log2(rays)), 31L);
+}
+
+} // namespace
+
+std::vector<std::uint32_t> deal_rays(std::span<const double> weights, double mean,
+                                     std::span<const std::uint32_t> already) {
+    std::vector<std::uint32_t> rays(weights.size());
+    const auto deal = [&](double per_weight) {
+        double sum = 0, count = 0;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            if (!(weights[i] > 0))
+                continue;
+            const double share =
+                std::clamp(per_weight * weights[i], least_share * mean, most_share * mean);
+            rays[i] = std::max(power_of_two(share), already[i]);
+            sum += rays[i];
+            ++count;
+        }
+        return sum <= mean * count;
+    };
+    const double largest = weights.empty() ? 0 : *std::ranges::max_element(weights);
+    if (!(largest > 0))
+        return rays;
+    // The number of rays per weight that deals out what there is, by bisection of its logarithm.
+    double low = std::log(least_share * mean / largest), high = low + 80;
+    for (int k = 0; k < 50; ++k) {
+        const double middle = (low + high) / 2;
+        (deal(std::exp(middle)) ? low : high) = middle;
+    }
+    deal(std::exp(low));
+    return rays;
+}
+
+} // namespace hemilux

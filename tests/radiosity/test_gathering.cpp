@@ -1,0 +1,215 @@
+// Gathering on stored transport: its parts against what they must obey, the whole against the
+// reference.
+#include "radiosity/conjugate_gradients.h"
+#include "radiosity/direct_light.h"
+#include "radiosity/exchange_matrix.h"
+#include "radiosity/ray_counts.h"
+#include "radiosity/ray_deal.h"
+#include "support/scenes.h"
+#include "support/solve.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+using namespace hemilux;
+using test::Model;
+
+namespace {
+
+const Method& gathering() { return *find_method("gathering"); }
+
+/// Sets of rays of all patches, more from some than from others.
+std::vector<RayCounts> traced(const Model& model, std::size_t sets, std::uint32_t rays) {
+    Monitor monitor;
+    std::vector<std::uint32_t> all(model.mesh.patches().size(), rays);
+    for (std::size_t i = 0; i < all.size(); i += 3)
+        all[i] *= 4;
+    std::vector<RayCounts> result;
+    for (std::uint64_t s = 0; s < sets; ++s) {
+        result.emplace_back(model.mesh, model.bvh, s + 1);
+        result.back().trace_up_to(all, Workers(2), monitor);
+    }
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("Exchange between patches is symmetric, and each row closed") {
+    // Under the open sky no symmetric matrix may agree with all that was lost.
+    for (const auto& [scene, off] :
+         {std::pair(test::room_with_block(), 1e-5), std::pair(test::open_scene(), .02)}) {
+        const Model model(scene);
+        const std::size_t n = model.mesh.patches().size();
+        const std::vector<RayCounts> sets = traced(model, 2, 32);
+        const Workers workers(2);
+        const ExchangeMatrix f(model.mesh, sets, workers);
+        std::vector<Vec3> x(n, Vec3(1.0)), y(n);
+        f.multiply(x, y, workers);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const LostShare lost = f.lost(i);
+            CHECK(y[i].x == Approx(1 - lost.escaped - lost.absorbed).margin(off));
+        }
+        // x^T A F y = y^T A F x for any two vectors.
+        std::vector<Vec3> a(n), b(n), fa(n), fb(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            a[i] = Vec3(std::sin(double(i)), 1, 0);
+            b[i] = Vec3(std::cos(2.0 * double(i)), double(i), 1);
+        }
+        f.multiply(a, fa, workers);
+        f.multiply(b, fb, workers);
+        Vec3 left(0.0), right(0.0);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            left += model.mesh.patches()[i].area * a[i] * fb[i];
+            right += model.mesh.patches()[i].area * b[i] * fa[i];
+        }
+        for (int c = 0; c < 3; ++c)
+            CHECK(left[c] == Approx(right[c]).epsilon(1e-6).margin(1e-12));
+    }
+}
+
+TEST_CASE("Rays are the same whether traced at once or in parts") {
+    const Model model(test::room_with_block());
+    Monitor monitor;
+    const std::vector<std::uint32_t> few(model.mesh.patches().size(), 16);
+    const std::vector<std::uint32_t> many(few.size(), 64);
+    RayCounts once(model.mesh, model.bvh, 3), parts(model.mesh, model.bvh, 3);
+    CHECK(once.trace_up_to(many, Workers(1), monitor) == 64 * few.size());
+    parts.trace_up_to(few, Workers(2), monitor);
+    CHECK(parts.trace_up_to(many, Workers(2), monitor) == 48 * few.size());
+    for (std::uint32_t i = 0; i < few.size(); ++i) {
+        CHECK(once.escaped(i) == parts.escaped(i));
+        CHECK(std::ranges::equal(once.row(i), parts.row(i), [](const auto& a, const auto& b) {
+            return a.patch == b.patch && a.hits == b.hits;
+        }));
+    }
+}
+
+TEST_CASE("Rays are dealt by weight, in powers of two, and none is taken back") {
+    std::vector<double> weights;
+    for (int i = 0; i < 1000; ++i)
+        weights.push_back(i % 10 == 0 ? 0 : 1e-9 * std::exp(std::sin(7.0 * i)));
+    const std::vector<std::uint32_t> none_yet(weights.size(), 0);
+    const std::vector<std::uint32_t> rays = deal_rays(weights, 64, none_yet);
+    double sum = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        sum += rays[i];
+        CHECK((rays[i] == 0) == (weights[i] == 0));
+        CHECK((rays[i] == 0 || std::has_single_bit(rays[i])));
+    }
+    CHECK(sum / 900 > 48);
+    CHECK(sum / 900 <= 64);
+    std::vector<double> turned(weights.rbegin(), weights.rend());
+    const auto more = deal_rays(turned, 128, rays);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        CHECK((turned[i] == 0 || more[i] >= rays[i]));
+    // One that outweighs all others is held back, and so are the others.
+    weights.assign(100, 1e-12);
+    weights[7] = 1;
+    const auto uneven = deal_rays(weights, 64, std::vector<std::uint32_t>(100, 0));
+    CHECK(uneven[7] == 512);
+    CHECK(uneven[8] >= 8);
+}
+
+TEST_CASE("Conjugate gradients solve what was stored, however reflective") {
+    const Model model(test::cube_with_lit_floor(4, .5));
+    const std::size_t n = model.mesh.patches().size();
+    const Workers workers(1);
+    const std::vector<RayCounts> sets = traced(model, 1, 64);
+    const ExchangeMatrix f(model.mesh, sets, workers);
+    std::vector<double> area;
+    std::vector<Vec3> d(n);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        area.push_back(model.mesh.patches()[i].area);
+        d[i] = i < 16 ? Vec3(1, 0, 1e-20) : Vec3(0.0);
+    }
+    for (const double rho : {0.0, .5, .99, .9999}) {
+        const std::vector<Vec3> reflectance(n, Vec3(rho, .3, rho));
+        std::vector<Vec3> h(n), reflected(n), fh(n);
+        const GradientResult result =
+            solve_by_gradients(f, area, reflectance, d, h, workers, {.tolerance = 1e-11});
+        CAPTURE(rho, result.iterations);
+        CHECK(result.iterations < 60);
+        for (std::size_t i = 0; i < n; ++i)
+            reflected[i] = reflectance[i] * h[i];
+        f.multiply(reflected, fh, workers);
+        double sum = 0, most = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            sum += h[i].x * area[i] * (1 - rho);
+            most = std::max(most, std::abs(h[i].x - d[i].x - fh[i].x));
+            CHECK(h[i].y == 0);
+            CHECK(h[i].z == Approx(1e-20 * h[i].x));
+        }
+        CHECK(most < 1e-8 * h[0].x);
+        // What is absorbed is what came in: the room is closed.
+        CHECK(sum == Approx(16 * area[0]).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("Direct light is unbiased: many emitters, some hidden") {
+    Scene scene = test::room_with_block();
+    const Model model(scene);
+    const std::vector<std::uint32_t> emitters = small_emitters(model.mesh);
+    REQUIRE_FALSE(emitters.empty());
+    const std::size_t n = model.mesh.patches().size();
+    const Workers workers(2);
+    Monitor monitor;
+    // Against rays at random, which know nothing of emitters.
+    std::vector<Vec3> emission(n), seen(n);
+    for (std::uint32_t i = 0; i < n; ++i)
+        emission[i] = model.mesh.material(i).emission;
+    std::vector<RayCounts> rays;
+    rays.emplace_back(model.mesh, model.bvh, 99);
+    rays.back().trace_up_to(std::vector<std::uint32_t>(n, 1u << 14), workers, monitor);
+    ExchangeMatrix(model.mesh, rays, workers).multiply(emission, seen, workers);
+    DirectLight light(model.mesh, model.bvh, everything_needed, emitters, 5);
+    light.sample_up_to(std::vector<std::uint32_t>(n, 1024), workers, monitor);
+    double error = 0, value = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const double area = model.mesh.patches()[i].area;
+        error += area * std::pow(light.irradiance(i).x - seen[i].x, 2);
+        value += area * std::pow(seen[i].x, 2);
+    }
+    CHECK(std::sqrt(error / value) < .03);
+}
+
+TEST_CASE("Emitters are small until they are a tenth of all surface") {
+    CHECK(small_emitters(Mesh(test::furnace_box(2, .5))).empty());
+    CHECK(small_emitters(Mesh(test::cube_with_lit_floor(2, .5))).empty());
+    CHECK_FALSE(small_emitters(Mesh(test::room_with_block())).empty());
+}
+
+TEST_CASE("Gathering agrees with the matrix and knows its error", "[slow]") {
+    for (const Scene& scene : {test::room_with_block(), test::open_scene(),
+                               test::cube_with_lit_floor(4, .9), test::furnace_l_shape(.8)}) {
+        const Model model(scene);
+        const Solution exact = test::reference(model, .0015);
+        double log_ratio = 0;
+        constexpr int runs = 6;
+        for (int run = 0; run < runs; ++run) {
+            SolveOptions options;
+            options.seed = 70 + std::uint64_t(run);
+            const Solution s = test::solve(model, gathering(), options, test::steps(5));
+            const double off = true_error(model.mesh, s.radiosity, exact.radiosity).all;
+            CHECK(off < .02);
+            log_ratio += std::log(std::hypot(estimated_error(model.mesh, s), .0015) /
+                                  std::hypot(off, 1e-9)) /
+                         runs;
+        }
+        CAPTURE(std::exp(log_ratio));
+        CHECK(std::exp(log_ratio) > .8);
+    }
+}
+
+TEST_CASE("Gathering closes the balance of energy of closed rooms") {
+    for (const Scene& scene : {test::room_with_block(), test::cube_with_lit_floor(3, .99)}) {
+        const Model model(scene);
+        const Solution s = test::solve(model, gathering(), {}, test::steps(3));
+        for (int c = 0; c < 3; ++c)
+            CHECK(s.energy.absorbed[c] + s.energy.escaped[c] ==
+                  Approx(s.energy.emitted[c]).epsilon(.01));
+    }
+}
