@@ -1,0 +1,196 @@
+// One ray at a time: eight boxes against the ray, eight triangles against the ray.
+// No #pragma once: see simd.h.
+
+namespace hemilux::wide::HEMILUX_KERNELS {
+
+/// What remains to be visited.
+struct Pending {
+    std::uint32_t child;
+    float enter;
+};
+
+/// Covers the relative rounding errors of a slab test.
+inline constexpr float slab_slack = 1 + 0x1p-20f;
+
+/// The ray as the box tests take it.
+struct SlabRay {
+    F8 origin[3], inverse[3];
+    unsigned near[3]; ///< which plane of an axis is met first
+
+    explicit SlabRay(const FloatRay& ray) {
+        for (unsigned i = 0; i < 3; ++i) {
+            origin[i] = F8::splat(ray.origin[i]);
+            inverse[i] = F8::splat(ray.inverse[i]);
+            near[i] = 2 * i + (ray.inverse[i] < 0);
+        }
+    }
+};
+
+/// The children met before t_max; where, in `enter`.
+inline Bits meet(const Node& node, const SlabRay& ray, float t_max, F8& enter) {
+    const auto plane = [&](unsigned axis, unsigned p) {
+        return (F8::load(node.plane[p]) - ray.origin[axis]) * ray.inverse[axis];
+    };
+    const unsigned* n = ray.near;
+    enter = max(max(plane(0, n[0]), plane(1, n[1])), max(plane(2, n[2]), F8::splat(0)));
+    const F8 leave =
+        min(min(plane(0, n[0] ^ 1), plane(1, n[1] ^ 1)), min(plane(2, n[2] ^ 1), F8::splat(t_max)));
+    return less_equal(enter, leave * F8::splat(slab_slack));
+}
+
+inline unsigned lowest(Bits bits) { return static_cast<unsigned>(__builtin_ctz(bits)); }
+
+/// Puts the children met on the stack, the nearest on top.
+inline unsigned push(const Node& node, Bits met, F8 enter, Pending* stack, unsigned top) {
+    alignas(64) float at[width];
+    enter.store(at);
+    const unsigned bottom = top;
+    for (; met; met &= met - 1) {
+        const unsigned c = lowest(met);
+        unsigned place = top++;
+        for (; place > bottom && stack[place - 1].enter < at[c]; --place)
+            stack[place] = stack[place - 1];
+        stack[place] = {node.child[c], at[c]};
+    }
+    return top;
+}
+
+/// Depth-first from `root`; leaf(const Leaf&) returns true to stop; t_max may shrink meanwhile.
+template <class OnLeaf>
+inline void walk(const Tree& tree, std::uint32_t root, const SlabRay& ray, const float& t_max,
+                 OnLeaf&& on_leaf) {
+    Pending stack[stack_size];
+    stack[0] = {root, 0};
+    for (unsigned top = 1; top > 0;) {
+        const Pending now = stack[--top];
+        if (now.enter > t_max * slab_slack)
+            continue;
+        if (now.child & flag) {
+            if (on_leaf(tree.leaves[now.child & ~flag]))
+                return;
+            continue;
+        }
+        const Node& node = tree.nodes[now.child];
+        F8 enter;
+        const Bits met = meet(node, ray, t_max, enter);
+        top = push(node, met, enter, stack, top);
+    }
+}
+
+inline V3<F8> load3(const float (&p)[3][width]) {
+    return {F8::load(p[0]), F8::load(p[1]), F8::load(p[2])};
+}
+
+/// A leaf's triangles against one ray.
+struct LeafTest {
+    V3<F8> a, e1, e2;
+    F8 e;
+    Sifted<F8> sifted;
+
+    LeafTest(const Leaf& leaf, const FloatRay& ray)
+        : a(load3(leaf.corner) - V3<F8>::splat(ray.origin)), e1(load3(leaf.edge1)),
+          e2(load3(leaf.edge2)), e(max(max_abs(e1), max_abs(e2))), sifted(sift(ray)) {}
+
+    [[nodiscard]] Interval<F8> interval() const { return {sifted, dot(a, cross(e1, e2)), e}; }
+
+  private:
+    [[nodiscard]] Sifted<F8> sift(const FloatRay& ray) const {
+        const V3<F8> d = V3<F8>::splat(ray.direction);
+        const V3<F8> q = cross(a, d); // U = e2.(A x d), W = -e1.(A x d)
+        return {dot(e2, q), F8::splat(0) - dot(e1, q), dot(d, cross(e1, e2)), error_bound(a, e)};
+    }
+};
+
+/// The slots that a ray may strike, one by one: visit(slot, low, high, known, inside, front).
+/// `known`: low and high bound t; `inside`: the ray surely passes within the edges.
+template <class Visit>
+inline void sift_leaf(const Leaf& leaf, const FloatRay& ray, Visit&& visit) {
+    const LeafTest test(leaf, ray);
+    Bits maybe = test.sifted.maybe();
+    if (!maybe)
+        return;
+    const Interval<F8> t = test.interval();
+    const Bits inside = test.sifted.inside(), front = test.sifted.front();
+    alignas(64) float low[width], high[width];
+    t.low.store(low);
+    t.high.store(high);
+    for (; maybe; maybe &= maybe - 1) {
+        const unsigned k = lowest(maybe);
+        const Bits bit = Bits{1} << k;
+        if ((leaf.slot[k] & ~flag) != ray.from)
+            if (visit(leaf.slot[k], low[k], high[k], (t.known & bit) != 0, (inside & bit) != 0,
+                      (front & bit) != 0))
+                return;
+    }
+}
+
+/// A slot that may be struck against the nearest so far.
+inline void consider(std::uint32_t slot, float low, float high, bool known, bool inside, bool front,
+                     const FloatRay& ray, unsigned index, Nearest& nearest, const Judge& judge) {
+    if (known && (low > nearest.high || high < ray.t_min_low))
+        return;
+    if (inside && known && low > ray.t_min_high && high < nearest.low)
+        nearest = {low, high, slot, front};
+    else if (nearest.slot == no_facet || ((slot ^ nearest.slot) & ~flag) != 0)
+        judge.closer(judge.query, index, slot, nearest);
+}
+
+inline void closest_from(const Tree& tree, std::uint32_t root, const FloatRay& ray, unsigned index,
+                         Nearest& nearest, const Judge& judge) {
+    walk(tree, root, SlabRay(ray), nearest.high, [&](const Leaf& leaf) {
+        sift_leaf(
+            leaf, ray,
+            [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool front) {
+                consider(slot, low, high, known, inside, front, ray, index, nearest, judge);
+                return false;
+            });
+        return false;
+    });
+}
+
+inline void closest(const Tree& tree, const FloatRay& ray, unsigned index, Nearest& nearest,
+                    const Judge& judge) {
+    closest_from(tree, 0, ray, index, nearest, judge);
+}
+
+inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
+                     float t_high, std::uint32_t target, const Judge& judge) {
+    bool blocked = false;
+    walk(tree, 0, SlabRay(ray), t_high, [&](const Leaf& leaf) {
+        sift_leaf(leaf, ray,
+                  [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool) {
+                      if ((slot & ~flag) == target ||
+                          (known && (low > t_high || high < ray.t_min_low)))
+                          return false;
+                      blocked = (inside && known && low > ray.t_min_high && high < t_low) ||
+                                judge.struck(judge.query, index, slot);
+                      return blocked;
+                  });
+        return blocked;
+    });
+    return blocked;
+}
+
+inline std::uint32_t count_from(const Tree& tree, std::uint32_t root, const FloatRay& ray,
+                                unsigned index, float t_low, float t_high, const Judge& judge) {
+    std::uint32_t pierced = 0;
+    walk(tree, root, SlabRay(ray), t_high, [&](const Leaf& leaf) {
+        sift_leaf(leaf, ray,
+                  [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool) {
+                      if (known && (low > t_high || high < ray.t_min_low))
+                          return false;
+                      pierced += (inside && known && low > ray.t_min_high && high < t_low) ||
+                                 judge.counts(judge.query, index, slot);
+                      return false;
+                  });
+        return false;
+    });
+    return pierced;
+}
+
+inline std::uint32_t count(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
+                           float t_high, const Judge& judge) {
+    return count_from(tree, 0, ray, index, t_low, t_high, judge);
+}
+
+} // namespace hemilux::wide::HEMILUX_KERNELS

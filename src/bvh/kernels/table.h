@@ -1,0 +1,15 @@
+// All kernels of one instruction set, gathered for the choice at run time. The file that includes
+// this names the set in HEMILUX_KERNELS.
+
+#include "bvh/kernels/simd.h"
+
+#include "bvh/kernels/sieve.h"
+
+#include "bvh/kernels/single.h"
+
+namespace hemilux::wide::HEMILUX_KERNELS {
+
+extern const Kernels kernels;
+const Kernels kernels{HEMILUX_KERNELS_NAME, closest, occluded, count};
+
+} // namespace hemilux::wide::HEMILUX_KERNELS

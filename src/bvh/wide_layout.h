@@ -1,0 +1,75 @@
+#pragma once
+// How the wide tree lies in memory, and what its kernels are told. Plain data only: this header is
+// compiled with several instruction sets, so it may define no function that the linker could merge.
+//
+// The kernels see the scene in floats, scaled into [-1,1]^3, and only *sift*: with bounds on every
+// rounding error they say "surely missed", "surely struck" or "unsure". What is unsure is decided
+// in doubles by the same code as in the scalar BVH. So all engines, instruction sets and forms of a
+// question give the same answers to the last bit, and the arithmetic of the sieve is free.
+
+#include <cstdint>
+
+namespace hemilux::wide {
+
+inline constexpr unsigned width = 8;
+inline constexpr std::uint32_t no_facet = 0xffffffffu;
+inline constexpr std::uint32_t flag = 0x80000000u; ///< child: a leaf; slot: second half of a quad
+
+/// Planes are ordered low x, high x, low y, high y, low z, high z. An absent child's box is
+/// inverted, so that nothing meets it.
+struct alignas(64) Node {
+    float plane[6][width];
+    std::uint32_t child[width]; ///< index of a node, or of a leaf with `flag`
+};
+
+/// Up to eight triangles: one corner and the two edges from it. Unused slots have edges of zero,
+/// which no ray strikes; slots with edges of NaN are always unsure.
+struct alignas(64) Leaf {
+    float corner[3][width], edge1[3][width], edge2[3][width];
+    std::uint32_t slot[width]; ///< facet, with `flag` for the second half of a quad
+};
+
+struct Tree {
+    const Node* nodes; ///< null: nothing to strike
+    const Leaf* leaves;
+};
+
+/// The deepest tree that the builder makes, and what a depth-first walk through it can pile up.
+inline constexpr unsigned max_depth = 40;
+inline constexpr unsigned stack_size = (width - 1) * max_depth + 1;
+
+/// A ray as the kernels see it: |component of direction| <= 1 and the largest at least 1/2.
+struct FloatRay {
+    float origin[3], direction[3], inverse[3];
+    float t_min_low, t_min_high; ///< sure bounds
+    std::uint32_t from;
+};
+
+/// Sure bounds of the nearest distance so far, and which slot it belongs to.
+struct Nearest {
+    float low, high;
+    std::uint32_t slot;
+    std::uint32_t front;
+};
+
+/// Decides in doubles what the kernels are unsure of. `ray` counts within the query.
+struct Judge {
+    void* query;
+    /// A slot that may be struck: updates `nearest`.
+    void (*closer)(void* query, unsigned ray, std::uint32_t slot, Nearest& nearest);
+    /// Whether a slot is struck (inclusive edges), and counts (half-open edges).
+    bool (*struck)(void* query, unsigned ray, std::uint32_t slot);
+    bool (*counts)(void* query, unsigned ray, std::uint32_t slot);
+};
+
+/// The kernels of one instruction set.
+struct Kernels {
+    const char* name;
+    void (*closest)(const Tree&, const FloatRay&, unsigned ray, Nearest&, const Judge&);
+    bool (*occluded)(const Tree&, const FloatRay&, unsigned ray, float t_low, float t_high,
+                     std::uint32_t target, const Judge&);
+    std::uint32_t (*count)(const Tree&, const FloatRay&, unsigned ray, float t_low, float t_high,
+                           const Judge&);
+};
+
+} // namespace hemilux::wide
