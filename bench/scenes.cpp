@@ -90,7 +90,7 @@ Scene cluttered_room(std::uint32_t n) {
         const double x = rng.uniform(), y = rng.uniform(), turn = rng.uniform();
         const double a = rng.uniform(), b = rng.uniform(), c = rng.uniform();
         const Vec3 half(.04 + .3 * a * a, .04 + .2 * b * b, .03 + .5 * c * c);
-        m.box(Vec3(3.2 * x - 1.6, 2.2 * y - 1.1, half.z + .001), standing(6 * turn), half,
+        m.box(Vec3(3.2 * x - 1.6, 2.2 * y - 1.1, half.z + .001 * (k + 1)), standing(6 * turn), half,
               std::max(1u, n / 4), false);
     }
     for (int k = 0; k < 24; ++k) {

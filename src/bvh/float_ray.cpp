@@ -35,18 +35,14 @@ bool enter_box(const Ray& ray, const Space& space, double& enter) {
 
 } // namespace
 
-ScaledRay::ScaledRay(const Ray& given, const Space& space) : ray{} {
+Fit scale_ray(const Ray& given, const Space& space, FloatRay& ray) {
     const double longest = max_abs(given.direction);
     const double distance = max_abs(given.origin) / space.size;
     const double sum = given.direction.x + given.direction.y + given.direction.z + distance;
-    if (!(longest > 0 && longest < infinity && distance < infinity) || std::isnan(sum)) {
-        fit = Fit::misses;
-        return;
-    }
-    if (distance > too_far) {
-        fit = Fit::too_far;
-        return;
-    }
+    if (!(longest > 0 && longest < infinity && distance < infinity) || std::isnan(sum))
+        return Fit::misses;
+    if (distance > too_far)
+        return Fit::too_far;
     // A power of two, so that scaling rounds nothing; most directions are of unit length already.
     double shorten = 1;
     if (!(longest >= 0.5 && longest <= 1)) {
@@ -54,34 +50,35 @@ ScaledRay::ScaledRay(const Ray& given, const Space& space) : ray{} {
         std::frexp(longest, &exponent);
         shorten = std::ldexp(1.0, -std::clamp(exponent, -1000, 1000));
     }
-    if (distance > 1 && !enter_box(given, space, skipped)) {
-        fit = Fit::misses;
-        return;
-    }
+    double skipped = 0;
+    if (distance > 1 && !enter_box(given, space, skipped))
+        return Fit::misses;
+    ray.skipped = skipped;
+    ray.unit = space.size * shorten;
+    ray.from = given.from;
     const double shrink = 1 / space.size;
-    unit = space.size * shorten;
     for (int i = 0; i < 3; ++i) {
         const double d = given.direction[i] * shorten;
-        const double slope = std::abs(d) < least_slope ? std::copysign(least_slope, d) : d;
-        ray.origin[i] =
-            static_cast<float>((given.origin[i] + skipped * given.direction[i]) * shrink);
+        const auto slope =
+            static_cast<float>(std::abs(d) < least_slope ? std::copysign(least_slope, d) : d);
+        const double start = given.origin[i] + skipped * given.direction[i];
+        ray.origin[i] = static_cast<float>(start * shrink);
         ray.direction[i] = static_cast<float>(d);
-        ray.inverse[i] = 1.0f / static_cast<float>(slope);
+        ray.inverse[i] = 1.0f / slope;
     }
-    ray.t_min_low = below(given.t_min);
-    ray.t_min_high = above(given.t_min);
-    ray.from = given.from;
+    ray.t_min_low = below(ray, given.t_min);
+    ray.t_min_high = above(ray, given.t_min);
+    return Fit::good;
 }
 
-float ScaledRay::below(double t) const {
-    const double scaled = (t - skipped) / unit;
-    return static_cast<float>(scaled == infinity ? scaled
-                                                 : scaled - std::abs(scaled) * 0x1p-22 - slack);
+float below(const FloatRay& scaled, double t) {
+    const double at = (t - scaled.skipped) / scaled.unit;
+    return static_cast<float>(at == infinity ? at : at - std::abs(at) * 0x1p-22 - slack);
 }
 
-float ScaledRay::above(double t) const {
-    const double scaled = (t - skipped) / unit;
-    return static_cast<float>(scaled + std::abs(scaled) * 0x1p-22 + slack);
+float above(const FloatRay& scaled, double t) {
+    const double at = (t - scaled.skipped) / scaled.unit;
+    return static_cast<float>(at + std::abs(at) * 0x1p-22 + slack);
 }
 
 } // namespace hemilux::wide

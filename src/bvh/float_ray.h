@@ -12,23 +12,22 @@ struct Space {
     double size;
 };
 
-/// Why a ray needs no kernel, or cannot use one.
+/// Whether the kernels are to be asked.
 enum class Fit {
     good,
     misses, ///< surely, or it is no ray at all
     too_far ///< from so far away that even doubles round coarsely: every facet is tried
 };
 
-struct ScaledRay {
-    FloatRay ray;
-    double skipped = 0; ///< t of the ray at which the scaled one starts
-    double unit = 1;    ///< t for a scaled t of one
-    Fit fit = Fit::good;
+[[nodiscard]] Fit scale_ray(const Ray& ray, const Space& space, FloatRay& scaled);
 
-    ScaledRay(const Ray& ray, const Space& space);
-    /// Sure bounds of a distance in scaled units.
-    [[nodiscard]] float below(double t) const;
-    [[nodiscard]] float above(double t) const;
-};
+/// Sure bounds of a distance in scaled units.
+[[nodiscard]] float below(const FloatRay& scaled, double t);
+[[nodiscard]] float above(const FloatRay& scaled, double t);
+
+/// Of a ray that has met nothing yet.
+[[nodiscard]] inline Nearest nothing_before(const FloatRay& scaled, double t_max) {
+    return {below(scaled, t_max), above(scaled, t_max), no_facet, 0};
+}
 
 } // namespace hemilux::wide

@@ -4,19 +4,22 @@
 #include "bvh/float_ray.h"
 #include "bvh/kernel_choice.h"
 
+#include <algorithm>
+#include <array>
+
 namespace hemilux {
 namespace {
 
 using wide::Fit;
 using wide::flag;
+using wide::FloatRay;
 using wide::Nearest;
-using wide::ScaledRay;
 
 /// What the judge needs to decide in doubles.
 struct Query {
     const FacetSoup& soup;
     std::span<const Ray> rays;
-    std::span<const ScaledRay> scaled;
+    std::span<const FloatRay> scaled;
 
     template <EdgeRule rule>
     bool hit(unsigned k, std::uint32_t facet, double t_max, Hit& hit) const {
@@ -38,7 +41,7 @@ void closer(void* context, unsigned k, std::uint32_t slot, Nearest& nearest) {
         comes_before(hit.t, hit.facet, best))
         best = hit;
     if (best.facet != none)
-        nearest = {query.scaled[k].below(best.t), query.scaled[k].above(best.t), best.facet,
+        nearest = {below(query.scaled[k], best.t), above(query.scaled[k], best.t), best.facet,
                    best.front};
 }
 
@@ -56,6 +59,12 @@ bool counts(void* context, unsigned k, std::uint32_t slot) {
            hit.second_half == ((slot & flag) != 0);
 }
 
+Struck struck_at(const Nearest& nearest) {
+    if (nearest.slot == wide::no_facet)
+        return {};
+    return {nearest.slot & ~flag, nearest.front != 0};
+}
+
 wide::Judge judge(Query& query) { return {&query, closer, struck, counts}; }
 
 } // namespace
@@ -67,37 +76,40 @@ WideBvh::WideBvh(const FacetSoup& soup, const WideBvhOptions& options)
 }
 
 std::optional<Hit> WideBvh::closest(const Ray& ray) const {
-    const ScaledRay scaled(ray, space_);
-    if (scaled.fit == Fit::too_far)
+    FloatRay scaled;
+    const Fit fit = fit_ray(ray, scaled);
+    if (fit == Fit::too_far)
         return BruteForce(soup_).closest(ray);
-    if (scaled.fit == Fit::misses || empty())
+    if (fit == Fit::misses)
         return std::nullopt;
     Query query{soup_, {&ray, 1}, {&scaled, 1}};
-    Nearest nearest{scaled.below(ray.t_max), scaled.above(ray.t_max), wide::no_facet, 0};
-    kernels_->closest(tree(), scaled.ray, 0, nearest, judge(query));
+    Nearest nearest = nothing_before(scaled, ray.t_max);
+    kernels_->closest(tree(), scaled, 0, nearest, judge(query));
     return nearest.slot == wide::no_facet ? std::nullopt
                                           : std::optional(locate(ray, nearest.slot & ~flag));
 }
 
 bool WideBvh::occluded(const Ray& ray, std::uint32_t target) const {
-    const ScaledRay scaled(ray, space_);
-    if (scaled.fit == Fit::too_far)
+    FloatRay scaled;
+    const Fit fit = fit_ray(ray, scaled);
+    if (fit == Fit::too_far)
         return BruteForce(soup_).occluded(ray, target);
-    if (scaled.fit == Fit::misses || empty())
+    if (fit == Fit::misses)
         return false;
     Query query{soup_, {&ray, 1}, {&scaled, 1}};
-    return kernels_->occluded(tree(), scaled.ray, 0, scaled.below(ray.t_max),
-                              scaled.above(ray.t_max), target, judge(query));
+    return kernels_->occluded(tree(), scaled, 0, below(scaled, ray.t_max), above(scaled, ray.t_max),
+                              target, judge(query));
 }
 
 std::uint32_t WideBvh::count(const Ray& ray) const {
-    const ScaledRay scaled(ray, space_);
-    if (scaled.fit == Fit::too_far)
+    FloatRay scaled;
+    const Fit fit = fit_ray(ray, scaled);
+    if (fit == Fit::too_far)
         return BruteForce(soup_).count(ray);
-    if (scaled.fit == Fit::misses || empty())
+    if (fit == Fit::misses)
         return 0;
     Query query{soup_, {&ray, 1}, {&scaled, 1}};
-    return kernels_->count(tree(), scaled.ray, 0, scaled.below(ray.t_max), scaled.above(ray.t_max),
+    return kernels_->count(tree(), scaled, 0, below(scaled, ray.t_max), above(scaled, ray.t_max),
                            judge(query));
 }
 
@@ -108,6 +120,72 @@ Hit WideBvh::locate(const Ray& ray, std::uint32_t facet) const {
                                          ray.t_max, hit);
     hit.facet = facet;
     return hit;
+}
+
+Fit WideBvh::fit_ray(const Ray& ray, FloatRay& scaled) const {
+    return built_.nodes.size() == 0 ? Fit::misses : scale_ray(ray, space_, scaled);
+}
+
+/// Some rays of a stream, ready for the kernels. Those that they cannot take end before they begin.
+struct WideBvh::Block {
+    static constexpr std::size_t size = 256;
+
+    std::array<FloatRay, size> scaled;
+    std::array<Nearest, size> nearest;
+    std::array<Fit, size> fit;
+
+    Block(const WideBvh& bvh, std::span<const Ray> rays) {
+        for (std::size_t k = 0; k < rays.size(); ++k) {
+            fit[k] = bvh.fit_ray(rays[k], scaled[k]);
+            if (fit[k] == Fit::good) {
+                nearest[k] = nothing_before(scaled[k], rays[k].t_max);
+            } else {
+                scaled[k] = {};
+                nearest[k] = {-1, -1, wide::no_facet, 0};
+            }
+        }
+    }
+};
+
+void WideBvh::closest_stream(std::span<const Ray> rays, std::span<Struck> out) const {
+    if (built_.nodes.size() == 0) {
+        std::fill_n(out.begin(), rays.size(), Struck{});
+        return;
+    }
+    for (; !rays.empty(); rays = rays.subspan(std::min(rays.size(), Block::size))) {
+        const auto now = rays.first(std::min(rays.size(), Block::size));
+        Block block(*this, now);
+        Query query{soup_, now, block.scaled};
+        kernels_->closest_stream(tree(), block.scaled.data(), static_cast<unsigned>(now.size()),
+                                 block.nearest.data(), judge(query));
+        for (std::size_t k = 0; k < now.size(); ++k) {
+            if (block.fit[k] != Fit::too_far)
+                out[k] = struck_at(block.nearest[k]);
+            else if (const auto hit = closest(now[k]))
+                out[k] = {hit->facet, hit->front};
+            else
+                out[k] = {};
+        }
+        out = out.subspan(now.size());
+    }
+}
+
+void WideBvh::occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
+                              std::span<std::uint8_t> out) const {
+    if (built_.nodes.size() == 0) {
+        std::fill_n(out.begin(), rays.size(), std::uint8_t{0});
+        return;
+    }
+    for (std::size_t begin = 0; begin < rays.size(); begin += Block::size) {
+        const auto now = rays.subspan(begin, std::min(rays.size() - begin, Block::size));
+        Block block(*this, now);
+        Query query{soup_, now, block.scaled};
+        kernels_->occluded_stream(tree(), block.scaled.data(), static_cast<unsigned>(now.size()),
+                                  block.nearest.data(), &targets[begin], &out[begin], judge(query));
+        for (std::size_t k = 0; k < now.size(); ++k)
+            if (block.fit[k] == Fit::too_far)
+                out[begin + k] = occluded(now[k], targets[begin + k]);
+    }
 }
 
 } // namespace hemilux

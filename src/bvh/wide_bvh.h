@@ -24,6 +24,9 @@ class WideBvh final : public Tracer {
     [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override;
     [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target = none) const override;
     [[nodiscard]] std::uint32_t count(const Ray& ray) const override;
+    void closest_stream(std::span<const Ray> rays, std::span<Struck> out) const override;
+    void occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
+                         std::span<std::uint8_t> out) const override;
     [[nodiscard]] Hit locate(const Ray& ray, std::uint32_t facet) const override;
 
     [[nodiscard]] const BvhQuality& quality() const { return built_.quality; }
@@ -31,7 +34,8 @@ class WideBvh final : public Tracer {
     [[nodiscard]] std::string_view kernels() const { return kernels_->name; }
 
   private:
-    [[nodiscard]] bool empty() const { return built_.nodes.size() == 0; }
+    struct Block;
+    [[nodiscard]] wide::Fit fit_ray(const Ray& ray, wide::FloatRay& scaled) const;
     [[nodiscard]] wide::Tree tree() const { return {built_.nodes.data(), built_.leaves.data()}; }
 
     FacetSoup soup_;

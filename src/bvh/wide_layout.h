@@ -43,6 +43,7 @@ struct FloatRay {
     float origin[3], direction[3], inverse[3];
     float t_min_low, t_min_high; ///< sure bounds
     std::uint32_t from;
+    double skipped, unit; ///< t = skipped + unit * the kernels' t
 };
 
 /// Sure bounds of the nearest distance so far, and which slot it belongs to.
@@ -62,7 +63,7 @@ struct Judge {
     bool (*counts)(void* query, unsigned ray, std::uint32_t slot);
 };
 
-/// The kernels of one instruction set.
+/// The kernels of one instruction set. In the streams the judge is told a ray by its place.
 struct Kernels {
     const char* name;
     void (*closest)(const Tree&, const FloatRay&, unsigned ray, Nearest&, const Judge&);
@@ -70,6 +71,11 @@ struct Kernels {
                      std::uint32_t target, const Judge&);
     std::uint32_t (*count)(const Tree&, const FloatRay&, unsigned ray, float t_low, float t_high,
                            const Judge&);
+    void (*closest_stream)(const Tree&, const FloatRay* rays, unsigned count, Nearest*,
+                           const Judge&);
+    /// t[k] bounds the farthest distance of ray k; blocked[k] becomes 0 or 1.
+    void (*occluded_stream)(const Tree&, const FloatRay* rays, unsigned count, const Nearest* t,
+                            const std::uint32_t* targets, std::uint8_t* blocked, const Judge&);
 };
 
 } // namespace hemilux::wide

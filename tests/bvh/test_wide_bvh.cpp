@@ -72,12 +72,38 @@ struct Differences {
     }
 };
 
+bool same(const std::optional<Hit>& a, const Struck& b) {
+    return a ? a->facet == b.facet && a->front == b.front : b.facet == none;
+}
+
+/// How many rays are answered differently when many are asked at once.
+void check_streams(const WideBvh& bvh, const std::vector<Ray>& rays) {
+    std::vector<Struck> struck(rays.size());
+    std::vector<std::uint8_t> occluded(rays.size());
+    std::vector<std::uint32_t> targets;
+    for (std::size_t k = 0; k < rays.size(); ++k)
+        targets.push_back(static_cast<std::uint32_t>(k % 7));
+    bvh.closest_stream(rays, struck);
+    bvh.occluded_stream(rays, targets, occluded);
+    int closest_differ = 0, occluded_differ = 0;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        const auto hit = bvh.closest(rays[k]);
+        closest_differ += !same(hit, struck[k]);
+        if (hit)
+            CHECK(bvh.locate(rays[k], struck[k].facet).t == hit->t);
+        occluded_differ += bvh.occluded(rays[k], targets[k]) != (occluded[k] != 0);
+    }
+    CHECK(closest_differ == 0);
+    CHECK(occluded_differ == 0);
+}
+
 void check_soup(const Soup& soup, std::size_t rays) {
     const BruteForce referee(soup.view());
     for (const wide::Kernels* kernels : wide::available_kernels()) {
         const WideBvh wide_bvh(soup.view(), {.kernels = kernels->name});
         CHECK(wide_bvh.kernels() == kernels->name);
         const Differences found(wide_bvh, referee, rays_for(soup, rays, 99));
+        check_streams(wide_bvh, rays_for(soup, rays / 2, 98));
         CAPTURE(kernels->name, soup.facets.size());
         CHECK(found.closest == 0);
         CHECK(found.count == 0);

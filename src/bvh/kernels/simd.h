@@ -13,6 +13,8 @@ namespace hemilux::wide::HEMILUX_KERNELS {
 
 using Bits = std::uint32_t;
 
+inline unsigned lowest(Bits bits) { return static_cast<unsigned>(__builtin_ctz(bits)); }
+
 /// Four lanes: what every compiler has.
 struct F4 {
     typedef float Vector __attribute__((vector_size(16)));

@@ -3,12 +3,6 @@
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-/// What remains to be visited.
-struct Pending {
-    std::uint32_t child;
-    float enter;
-};
-
 /// Covers the relative rounding errors of a slab test.
 inline constexpr float slab_slack = 1 + 0x1p-20f;
 
@@ -38,42 +32,27 @@ inline Bits meet(const Node& node, const SlabRay& ray, float t_max, F8& enter) {
     return less_equal(enter, leave * F8::splat(slab_slack));
 }
 
-inline unsigned lowest(Bits bits) { return static_cast<unsigned>(__builtin_ctz(bits)); }
-
-/// Puts the children met on the stack, the nearest on top.
-inline unsigned push(const Node& node, Bits met, F8 enter, Pending* stack, unsigned top) {
-    alignas(64) float at[width];
-    enter.store(at);
-    const unsigned bottom = top;
-    for (; met; met &= met - 1) {
-        const unsigned c = lowest(met);
-        unsigned place = top++;
-        for (; place > bottom && stack[place - 1].enter < at[c]; --place)
-            stack[place] = stack[place - 1];
-        stack[place] = {node.child[c], at[c]};
-    }
-    return top;
-}
-
 /// Depth-first from `root`; leaf(const Leaf&) returns true to stop; t_max may shrink meanwhile.
 template <class OnLeaf>
 inline void walk(const Tree& tree, std::uint32_t root, const SlabRay& ray, const float& t_max,
                  OnLeaf&& on_leaf) {
-    Pending stack[stack_size];
-    stack[0] = {root, 0};
+    std::uint32_t child[stack_size + width];
+    float enter[stack_size + width];
+    child[0] = root;
+    enter[0] = 0;
     for (unsigned top = 1; top > 0;) {
-        const Pending now = stack[--top];
-        if (now.enter > t_max * slab_slack)
+        if (enter[--top] > t_max * slab_slack)
             continue;
-        if (now.child & flag) {
-            if (on_leaf(tree.leaves[now.child & ~flag]))
+        const std::uint32_t now = child[top];
+        if (now & flag) {
+            if (on_leaf(tree.leaves[now & ~flag]))
                 return;
             continue;
         }
-        const Node& node = tree.nodes[now.child];
-        F8 enter;
-        const Bits met = meet(node, ray, t_max, enter);
-        top = push(node, met, enter, stack, top);
+        F8 at;
+        const Bits met = meet(tree.nodes[now], ray, t_max, at);
+        push_sorted(tree.nodes[now], met, at, child + top, enter + top);
+        top += static_cast<unsigned>(__builtin_popcount(met));
     }
 }
 
@@ -153,19 +132,26 @@ inline void closest(const Tree& tree, const FloatRay& ray, unsigned index, Neare
     closest_from(tree, 0, ray, index, nearest, judge);
 }
 
+/// Whether anything in a leaf but `target` is struck before t.
+inline bool blocks(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low, float t_high,
+                   std::uint32_t target, const Judge& judge) {
+    bool blocked = false;
+    sift_leaf(leaf, ray,
+              [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool) {
+                  if ((slot & ~flag) == target || (known && (low > t_high || high < ray.t_min_low)))
+                      return false;
+                  blocked = (inside && known && low > ray.t_min_high && high < t_low) ||
+                            judge.struck(judge.query, index, slot);
+                  return blocked;
+              });
+    return blocked;
+}
+
 inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
                      float t_high, std::uint32_t target, const Judge& judge) {
     bool blocked = false;
     walk(tree, 0, SlabRay(ray), t_high, [&](const Leaf& leaf) {
-        sift_leaf(leaf, ray,
-                  [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool) {
-                      if ((slot & ~flag) == target ||
-                          (known && (low > t_high || high < ray.t_min_low)))
-                          return false;
-                      blocked = (inside && known && low > ray.t_min_high && high < t_low) ||
-                                judge.struck(judge.query, index, slot);
-                      return blocked;
-                  });
+        blocked = blocks(leaf, ray, index, t_low, t_high, target, judge);
         return blocked;
     });
     return blocked;

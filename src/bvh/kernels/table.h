@@ -5,11 +5,16 @@
 
 #include "bvh/kernels/sieve.h"
 
+#include "bvh/kernels/sorted.h"
+
 #include "bvh/kernels/single.h"
+
+#include "bvh/kernels/wave.h"
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
 extern const Kernels kernels;
-const Kernels kernels{HEMILUX_KERNELS_NAME, closest, occluded, count};
+const Kernels kernels{HEMILUX_KERNELS_NAME, closest,        occluded, count,
+                      closest_stream,       occluded_stream};
 
 } // namespace hemilux::wide::HEMILUX_KERNELS
