@@ -54,7 +54,7 @@ Fit scale_ray(const Ray& given, const Space& space, FloatRay& ray) {
     if (distance > 1 && !enter_box(given, space, skipped))
         return Fit::misses;
     ray.skipped = skipped;
-    ray.unit = space.size * shorten;
+    ray.per_unit = 1 / (space.size * shorten); // exact
     ray.from = given.from;
     const double shrink = 1 / space.size;
     for (int i = 0; i < 3; ++i) {
@@ -72,12 +72,12 @@ Fit scale_ray(const Ray& given, const Space& space, FloatRay& ray) {
 }
 
 float below(const FloatRay& scaled, double t) {
-    const double at = (t - scaled.skipped) / scaled.unit;
+    const double at = (t - scaled.skipped) * scaled.per_unit;
     return static_cast<float>(at == infinity ? at : at - std::abs(at) * 0x1p-22 - slack);
 }
 
 float above(const FloatRay& scaled, double t) {
-    const double at = (t - scaled.skipped) / scaled.unit;
+    const double at = (t - scaled.skipped) * scaled.per_unit;
     return static_cast<float>(at + std::abs(at) * 0x1p-22 + slack);
 }
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace hemilux {
 namespace {
@@ -15,15 +17,20 @@ using wide::flag;
 using wide::FloatRay;
 using wide::Nearest;
 
-/// What the judge needs to decide in doubles.
+/// What the judge needs to decide in doubles: rays of a stream, or of a bundle from `first` on.
 struct Query {
     const FacetSoup& soup;
     std::span<const Ray> rays;
-    std::span<const FloatRay> scaled;
+    std::span<const FloatRay> scaled; ///< of a bundle: one for all
+    const Bundle* bundle = nullptr;
+    std::size_t first = 0;
+
+    [[nodiscard]] Ray ray(unsigned k) const { return bundle ? bundle->ray(first + k) : rays[k]; }
+    [[nodiscard]] const FloatRay& scale(unsigned k) const { return scaled[bundle ? 0 : k]; }
 
     template <EdgeRule rule>
     bool hit(unsigned k, std::uint32_t facet, double t_max, Hit& hit) const {
-        const Ray& ray = rays[k];
+        const Ray ray = this->ray(k);
         const ShearedRay sheared(ray.origin, ray.direction);
         hit.facet = facet;
         return hit_facet<rule>(soup.vertices, soup.facets[facet], sheared, ray.t_min, t_max, hit);
@@ -33,7 +40,7 @@ struct Query {
 /// The nearest so far is worked out again too: this happens so seldom that keeping it costs more.
 void closer(void* context, unsigned k, std::uint32_t slot, Nearest& nearest) {
     const Query& query = *static_cast<const Query*>(context);
-    Hit best{none, query.rays[k].t_max, 0, 0, false, false}, hit{};
+    Hit best{none, query.ray(k).t_max, 0, 0, false, false}, hit{};
     if (nearest.slot != wide::no_facet &&
         query.hit<EdgeRule::inclusive>(k, nearest.slot & ~flag, best.t, hit))
         best = hit;
@@ -41,21 +48,21 @@ void closer(void* context, unsigned k, std::uint32_t slot, Nearest& nearest) {
         comes_before(hit.t, hit.facet, best))
         best = hit;
     if (best.facet != none)
-        nearest = {below(query.scaled[k], best.t), above(query.scaled[k], best.t), best.facet,
+        nearest = {below(query.scale(k), best.t), above(query.scale(k), best.t), best.facet,
                    best.front};
 }
 
 bool struck(void* context, unsigned k, std::uint32_t slot) {
     const Query& query = *static_cast<const Query*>(context);
     Hit hit{};
-    return query.hit<EdgeRule::inclusive>(k, slot & ~flag, query.rays[k].t_max, hit);
+    return query.hit<EdgeRule::inclusive>(k, slot & ~flag, query.ray(k).t_max, hit);
 }
 
 /// The second half of a quad counts only where the first does not: then the quad counts once.
 bool counts(void* context, unsigned k, std::uint32_t slot) {
     const Query& query = *static_cast<const Query*>(context);
     Hit hit{};
-    return query.hit<EdgeRule::half_open>(k, slot & ~flag, query.rays[k].t_max, hit) &&
+    return query.hit<EdgeRule::half_open>(k, slot & ~flag, query.ray(k).t_max, hit) &&
            hit.second_half == ((slot & flag) != 0);
 }
 
@@ -63,6 +70,49 @@ Struck struck_at(const Nearest& nearest) {
     if (nearest.slot == wide::no_facet)
         return {};
     return {nearest.slot & ~flag, nearest.front != 0};
+}
+
+/// Whether a bundle is as the packets want it: directions of about unit length, an origin within
+/// the scene. Others are traced ray by ray.
+bool bundle_fits(const Bundle& bundle, const wide::Space& space) {
+    const auto longest = [](const Vec3& v) {
+        return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    };
+    bool fits = !bundle.directions.empty() && longest(bundle.origin) <= space.size;
+    for (const Vec3& d : bundle.directions) {
+        const double sum = d.x + d.y + d.z; // catches NaN
+        fits &= (longest(d) >= 0.25) & (longest(d) <= 1.001) & (sum == sum);
+    }
+    return fits;
+}
+
+wide::Packet packet_at(const FloatRay& shared) {
+    wide::Packet packet;
+    std::copy_n(shared.origin, 3, packet.origin);
+    packet.t_min_low = shared.t_min_low;
+    packet.t_min_high = shared.t_min_high;
+    packet.from = shared.from;
+    return packet;
+}
+
+/// Empty lanes repeat the first ray.
+void fill_packet(std::span<const Vec3> directions, unsigned n, const Nearest& start,
+                 wide::Packet& packet) {
+    constexpr float least_slope = 1e-18f;
+    packet.lanes = (1u << n) - 1;
+    for (unsigned lane = 0; lane < wide::packet_size; ++lane) {
+        const Vec3& direction = directions[lane < n ? lane : 0];
+        for (unsigned i = 0; i < 3; ++i) {
+            const auto d = static_cast<float>(direction[static_cast<int>(i)]);
+            packet.direction[i][lane] = d;
+            packet.inverse[i][lane] =
+                1.0f / (std::abs(d) < least_slope ? std::copysign(least_slope, d) : d);
+        }
+        packet.low[lane] = start.low;
+        packet.high[lane] = start.high;
+        packet.slot[lane] = start.slot;
+        packet.front[lane] = start.front;
+    }
 }
 
 wide::Judge judge(Query& query) { return {&query, closer, struck, counts}; }
@@ -186,6 +236,49 @@ void WideBvh::occluded_stream(std::span<const Ray> rays, std::span<const std::ui
             if (block.fit[k] == Fit::too_far)
                 out[begin + k] = occluded(now[k], targets[begin + k]);
     }
+}
+
+/// Asks the kernels about sixteen rays of a bundle after the other; false if they cannot take it.
+template <class Done>
+bool WideBvh::for_packets(const Bundle& bundle, PacketKernel kernel, const Nearest& start,
+                          const Done& done) const {
+    FloatRay shared;
+    if (!bundle_fits(bundle, space_) || fit_ray(bundle.ray(0), shared) != Fit::good)
+        return false;
+    shared.per_unit = 1 / space_.size;
+    wide::Packet packet = packet_at(shared);
+    Query query{soup_, {}, {&shared, 1}, &bundle, 0};
+    for (std::size_t& first = query.first; first < bundle.directions.size();
+         first += wide::packet_size) {
+        const auto rays = bundle.directions.subspan(first);
+        const auto n = static_cast<unsigned>(std::min<std::size_t>(rays.size(), wide::packet_size));
+        fill_packet(rays, n, start, packet);
+        kernel(tree(), packet, judge(query));
+        for (unsigned lane = 0; lane < n; ++lane)
+            done(first + lane, packet, lane);
+    }
+    return true;
+}
+
+void WideBvh::closest_bundle(const Bundle& bundle, std::span<Struck> out) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const auto done = [&](std::size_t k, const wide::Packet& packet, unsigned lane) {
+        out[k] = packet.slot[lane] == wide::no_facet
+                     ? Struck{}
+                     : Struck{packet.slot[lane] & ~flag, packet.front[lane] != 0};
+    };
+    if (!for_packets(bundle, kernels_->closest_packet, {infinity, infinity, wide::no_facet, 0},
+                     done))
+        Tracer::closest_bundle(bundle, out);
+}
+
+void WideBvh::count_bundle(const Bundle& bundle, std::span<std::uint32_t> out) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const auto done = [&](std::size_t k, const wide::Packet& packet, unsigned lane) {
+        out[k] = packet.slot[lane];
+    };
+    if (!for_packets(bundle, kernels_->count_packet, {infinity, infinity, 0, 0}, done))
+        Tracer::count_bundle(bundle, out);
 }
 
 } // namespace hemilux

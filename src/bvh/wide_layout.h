@@ -40,10 +40,11 @@ inline constexpr unsigned stack_size = (width - 1) * max_depth + 1;
 
 /// A ray as the kernels see it: |component of direction| <= 1 and the largest at least 1/2.
 struct FloatRay {
-    float origin[3], direction[3], inverse[3];
+    float origin[3], direction[3];
+    float inverse[3];            ///< of the direction, never infinite
     float t_min_low, t_min_high; ///< sure bounds
     std::uint32_t from;
-    double skipped, unit; ///< t = skipped + unit * the kernels' t
+    double skipped, per_unit; ///< the kernels' t is (t - skipped) * per_unit
 };
 
 /// Sure bounds of the nearest distance so far, and which slot it belongs to.
@@ -51,6 +52,19 @@ struct Nearest {
     float low, high;
     std::uint32_t slot;
     std::uint32_t front;
+};
+
+inline constexpr unsigned packet_size = 16;
+
+/// Rays that share their origin.
+struct alignas(64) Packet {
+    float direction[3][packet_size], inverse[3][packet_size];
+    float low[packet_size], high[packet_size];           ///< bounds of the nearest distance so far
+    std::uint32_t slot[packet_size], front[packet_size]; ///< of the nearest; slot: also the count
+    float origin[3];
+    float t_min_low, t_min_high;
+    std::uint32_t from;
+    std::uint32_t lanes; ///< those that are rays, a bit each; the others repeat one of them
 };
 
 /// Decides in doubles what the kernels are unsure of. `ray` counts within the query.
@@ -76,6 +90,8 @@ struct Kernels {
     /// t[k] bounds the farthest distance of ray k; blocked[k] becomes 0 or 1.
     void (*occluded_stream)(const Tree&, const FloatRay* rays, unsigned count, const Nearest* t,
                             const std::uint32_t* targets, std::uint8_t* blocked, const Judge&);
+    void (*closest_packet)(const Tree&, Packet&, const Judge&);
+    void (*count_packet)(const Tree&, Packet&, const Judge&);
 };
 
 } // namespace hemilux::wide

@@ -97,6 +97,43 @@ void check_streams(const WideBvh& bvh, const std::vector<Ray>& rays) {
     CHECK(occluded_differ == 0);
 }
 
+/// Bundles of the same rays ask the same as rays one by one.
+void check_bundles(const WideBvh& bvh, const Soup& soup, std::size_t bundles) {
+    Rng rng(5);
+    int closest_differ = 0, count_differ = 0;
+    for (std::size_t b = 0; b < bundles; ++b) {
+        // Wide and narrow bundles, full and rest packets, from vertices, from facets, from outside.
+        const std::size_t n = 1 + b * 7 % 70;
+        const double spread = std::pow(10.0, -double(b % 4));
+        const Vec3 axis = point_within(rng, 1);
+        std::vector<Vec3> directions;
+        for (std::size_t k = 0; k < n; ++k)
+            directions.push_back(glm::normalize(axis + point_within(rng, spread)));
+        Bundle bundle{point_within(rng, b % 5 == 0 ? 2 : .9), none, directions};
+        if (b % 3 == 0)
+            bundle.from = static_cast<std::uint32_t>(b % soup.facets.size());
+        if (b % 4 == 0) {
+            const auto v = soup.vertices[b % soup.vertices.size()];
+            directions[0] = glm::normalize(v - bundle.origin);
+            directions[n / 2] = {0, 0, 1};
+        }
+        if (b % 11 == 0)
+            directions[0] *= 100.0;
+        if (b % 13 == 0)
+            bundle.origin = soup.vertices[b % soup.vertices.size()];
+        std::vector<Struck> struck(n);
+        std::vector<std::uint32_t> counts(n);
+        bvh.closest_bundle(bundle, struck);
+        bvh.count_bundle(bundle, counts);
+        for (std::size_t k = 0; k < n; ++k) {
+            closest_differ += !same(bvh.closest(bundle.ray(k)), struck[k]);
+            count_differ += bvh.count(bundle.ray(k)) != counts[k];
+        }
+    }
+    CHECK(closest_differ == 0);
+    CHECK(count_differ == 0);
+}
+
 void check_soup(const Soup& soup, std::size_t rays) {
     const BruteForce referee(soup.view());
     for (const wide::Kernels* kernels : wide::available_kernels()) {
@@ -104,6 +141,7 @@ void check_soup(const Soup& soup, std::size_t rays) {
         CHECK(wide_bvh.kernels() == kernels->name);
         const Differences found(wide_bvh, referee, rays_for(soup, rays, 99));
         check_streams(wide_bvh, rays_for(soup, rays / 2, 98));
+        check_bundles(wide_bvh, soup, rays / 20);
         CAPTURE(kernels->name, soup.facets.size());
         CHECK(found.closest == 0);
         CHECK(found.count == 0);

@@ -48,6 +48,10 @@ struct F4 {
     }
 #endif
     friend F4 abs(F4 a) { return max(a, F4{-a.v}); }
+    friend F4 select(Bits bits, F4 a, F4 b) {
+        return {Vector{bits & 1 ? a.v[0] : b.v[0], bits & 2 ? a.v[1] : b.v[1],
+                       bits & 4 ? a.v[2] : b.v[2], bits & 8 ? a.v[3] : b.v[3]}};
+    }
 };
 
 /// Two halves side by side.
@@ -72,6 +76,9 @@ struct Pair {
     friend Bits less_equal(Pair x, Pair y) {
         return less_equal(x.a, y.a) | less_equal(x.b, y.b) << Half::lanes;
     }
+    friend Pair select(Bits bits, Pair x, Pair y) {
+        return {select(bits, x.a, y.a), select(bits >> Half::lanes, x.b, y.b)};
+    }
     friend Bits less(Pair x, Pair y) { return less(x.a, y.a) | less(x.b, y.b) << Half::lanes; }
 };
 
@@ -89,6 +96,12 @@ struct F8 {
     friend F8 operator/(F8 a, F8 b) { return {a.v / b.v}; }
     friend F8 min(F8 a, F8 b) { return {_mm256_min_ps(a.v, b.v)}; }
     friend F8 max(F8 a, F8 b) { return {_mm256_max_ps(a.v, b.v)}; }
+    friend F8 select(Bits bits, F8 a, F8 b) {
+        const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+        const __m256i mask = _mm256_cmpeq_epi32(
+            _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), bit), bit);
+        return {_mm256_blendv_ps(b.v, a.v, _mm256_castsi256_ps(mask))};
+    }
     friend F8 abs(F8 a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
     friend Bits less_equal(F8 a, F8 b) {
         return static_cast<Bits>(_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)));
@@ -115,6 +128,9 @@ struct F16 {
     friend F16 operator/(F16 a, F16 b) { return {a.v / b.v}; }
     friend F16 min(F16 a, F16 b) { return {_mm512_min_ps(a.v, b.v)}; }
     friend F16 max(F16 a, F16 b) { return {_mm512_max_ps(a.v, b.v)}; }
+    friend F16 select(Bits bits, F16 a, F16 b) {
+        return {_mm512_mask_blend_ps(static_cast<__mmask16>(bits), b.v, a.v)};
+    }
     friend F16 abs(F16 a) { return {_mm512_abs_ps(a.v)}; }
     friend Bits less_equal(F16 a, F16 b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ); }
     friend Bits less(F16 a, F16 b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ); }

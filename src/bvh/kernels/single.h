@@ -6,54 +6,46 @@ namespace hemilux::wide::HEMILUX_KERNELS {
 /// Covers the relative rounding errors of a slab test.
 inline constexpr float slab_slack = 1 + 0x1p-20f;
 
-/// The ray as the box tests take it.
+/// The ray as the box tests take it: a plane p is met at p * inverse + offset.
 struct SlabRay {
-    F8 origin[3], inverse[3];
+    float inverse[3], offset[3];
     unsigned near[3]; ///< which plane of an axis is met first
 
-    explicit SlabRay(const FloatRay& ray) {
+    void set(const FloatRay& ray) {
         for (unsigned i = 0; i < 3; ++i) {
-            origin[i] = F8::splat(ray.origin[i]);
-            inverse[i] = F8::splat(ray.inverse[i]);
+            inverse[i] = ray.inverse[i];
+            offset[i] = -ray.origin[i] * ray.inverse[i];
             near[i] = 2 * i + (ray.inverse[i] < 0);
         }
     }
 };
 
-/// The children met before t_max; where, in `enter`.
-inline Bits meet(const Node& node, const SlabRay& ray, float t_max, F8& enter) {
-    const auto plane = [&](unsigned axis, unsigned p) {
-        return (F8::load(node.plane[p]) - ray.origin[axis]) * ray.inverse[axis];
+/// Pushes the children met before t_max.
+inline void visit_node(const Node& node, const SlabRay& ray, float t_max, Stack& stack) {
+    const auto met_at = [&](unsigned axis, unsigned far) {
+        return F8::load(node.plane[ray.near[axis] ^ far]) * F8::splat(ray.inverse[axis]) +
+               F8::splat(ray.offset[axis]);
     };
-    const unsigned* n = ray.near;
-    enter = max(max(plane(0, n[0]), plane(1, n[1])), max(plane(2, n[2]), F8::splat(0)));
-    const F8 leave =
-        min(min(plane(0, n[0] ^ 1), plane(1, n[1] ^ 1)), min(plane(2, n[2] ^ 1), F8::splat(t_max)));
-    return less_equal(enter, leave * F8::splat(slab_slack));
+    const F8 enter = max(max(met_at(0, 0), met_at(1, 0)), max(met_at(2, 0), F8::splat(0)));
+    const F8 leave = min(min(met_at(0, 1), met_at(1, 1)), min(met_at(2, 1), F8::splat(t_max)));
+    stack.push(node, enter, leave * F8::splat(slab_slack));
 }
 
 /// Depth-first from `root`; leaf(const Leaf&) returns true to stop; t_max may shrink meanwhile.
 template <class OnLeaf>
-inline void walk(const Tree& tree, std::uint32_t root, const SlabRay& ray, const float& t_max,
+inline void walk(const Tree& tree, std::uint32_t root, const FloatRay& ray, const float& t_max,
                  OnLeaf&& on_leaf) {
-    std::uint32_t child[stack_size + width];
-    float enter[stack_size + width];
-    child[0] = root;
-    enter[0] = 0;
-    for (unsigned top = 1; top > 0;) {
-        if (enter[--top] > t_max * slab_slack)
-            continue;
-        const std::uint32_t now = child[top];
-        if (now & flag) {
-            if (on_leaf(tree.leaves[now & ~flag]))
-                return;
-            continue;
-        }
-        F8 at;
-        const Bits met = meet(tree.nodes[now], ray, t_max, at);
-        push_sorted(tree.nodes[now], met, at, child + top, enter + top);
-        top += static_cast<unsigned>(__builtin_popcount(met));
-    }
+    SlabRay slabs;
+    slabs.set(ray);
+    Stack stack;
+    stack.clear();
+    std::uint32_t now = root;
+    do {
+        if ((now & flag) == 0)
+            visit_node(tree.nodes[now], slabs, t_max, stack);
+        else if (on_leaf(tree.leaves[now & ~flag]))
+            return;
+    } while (stack.pop(t_max * slab_slack, now));
 }
 
 inline V3<F8> load3(const float (&p)[3][width]) {
@@ -116,7 +108,7 @@ inline void consider(std::uint32_t slot, float low, float high, bool known, bool
 
 inline void closest_from(const Tree& tree, std::uint32_t root, const FloatRay& ray, unsigned index,
                          Nearest& nearest, const Judge& judge) {
-    walk(tree, root, SlabRay(ray), nearest.high, [&](const Leaf& leaf) {
+    walk(tree, root, ray, nearest.high, [&](const Leaf& leaf) {
         sift_leaf(
             leaf, ray,
             [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool front) {
@@ -150,7 +142,7 @@ inline bool blocks(const Leaf& leaf, const FloatRay& ray, unsigned index, float 
 inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
                      float t_high, std::uint32_t target, const Judge& judge) {
     bool blocked = false;
-    walk(tree, 0, SlabRay(ray), t_high, [&](const Leaf& leaf) {
+    walk(tree, 0, ray, t_high, [&](const Leaf& leaf) {
         blocked = blocks(leaf, ray, index, t_low, t_high, target, judge);
         return blocked;
     });
@@ -160,7 +152,7 @@ inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, floa
 inline std::uint32_t count_from(const Tree& tree, std::uint32_t root, const FloatRay& ray,
                                 unsigned index, float t_low, float t_high, const Judge& judge) {
     std::uint32_t pierced = 0;
-    walk(tree, root, SlabRay(ray), t_high, [&](const Leaf& leaf) {
+    walk(tree, root, ray, t_high, [&](const Leaf& leaf) {
         sift_leaf(leaf, ray,
                   [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool) {
                       if (known && (low > t_high || high < ray.t_min_low))

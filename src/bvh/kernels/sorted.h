@@ -23,39 +23,70 @@ inline __m256i sort_descending(__m256i k) {
     return exchange<0b01010101>(k, _mm256_shuffle_epi32(k, _MM_SHUFFLE(2, 3, 0, 1)));
 }
 
-/// Writes the children met, farthest first. There must be room for eight.
-inline void push_sorted(const Node& node, Bits met, F8 enter, std::uint32_t* child, float* at) {
+/// Writes the names and distances of the lanes with low <= high, the farthest first, and returns
+/// how many. There must be room for eight.
+inline unsigned push_sorted(const std::uint32_t* names, F8 distances, F8 low, F8 high,
+                            std::uint32_t* name, float* distance) {
     const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
-    const __m256i is_met =
-        _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32(static_cast<int>(met)), bit), bit);
-    const __m256i distance =
-        _mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_castps_si256(enter.v));
-    const __m256i sorted =
-        sort_descending(_mm256_and_si256(_mm256_or_si256(distance, lane), is_met));
-    const __m256i children = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.child));
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(child),
-                        _mm256_permutevar8x32_epi32(children, sorted)); // takes the last three bits
-    _mm256_storeu_ps(at, _mm256_castsi256_ps(_mm256_andnot_si256(_mm256_set1_epi32(7), sorted)));
+    const __m256i cut = _mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_castps_si256(distances.v));
+#if defined(__AVX512VL__)
+    const __mmask8 met = _mm256_cmp_ps_mask(low.v, high.v, _CMP_LE_OQ);
+    const __m256i key = _mm256_maskz_or_epi32(met, cut, lane);
+#else
+    const __m256 is_met = _mm256_cmp_ps(low.v, high.v, _CMP_LE_OQ);
+    const auto met = static_cast<Bits>(_mm256_movemask_ps(is_met));
+    const __m256i key = _mm256_and_si256(_mm256_or_si256(cut, lane), _mm256_castps_si256(is_met));
+#endif
+    const __m256i sorted = sort_descending(key);
+    const __m256i given = _mm256_load_si256(reinterpret_cast<const __m256i*>(names));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(name),
+                        _mm256_permutevar8x32_epi32(given, sorted)); // takes the last three bits
+    _mm256_storeu_ps(distance,
+                     _mm256_castsi256_ps(_mm256_andnot_si256(_mm256_set1_epi32(7), sorted)));
+    return static_cast<unsigned>(__builtin_popcount(met));
 }
 
 #else
 
-inline void push_sorted(const Node& node, Bits met, F8 enter, std::uint32_t* child, float* at) {
-    alignas(64) float distance[width];
-    enter.store(distance);
-    for (unsigned count = 0; met; met &= met - 1, ++count) {
+inline unsigned push_sorted(const std::uint32_t* names, F8 distances, F8 low, F8 high,
+                            std::uint32_t* name, float* distance) {
+    alignas(64) float at[width];
+    distances.store(at);
+    unsigned count = 0;
+    for (Bits met = less_equal(low, high); met; met &= met - 1, ++count) {
         const unsigned c = lowest(met);
         unsigned place = count;
-        for (; place > 0 && at[place - 1] < distance[c]; --place) {
-            at[place] = at[place - 1];
-            child[place] = child[place - 1];
+        for (; place > 0 && distance[place - 1] < at[c]; --place) {
+            distance[place] = distance[place - 1];
+            name[place] = name[place - 1];
         }
-        at[place] = distance[c];
-        child[place] = node.child[c];
+        distance[place] = at[c];
+        name[place] = names[c];
     }
+    return count;
 }
 
 #endif
+
+/// What remains to be visited, the nearest on top.
+struct Stack {
+    std::uint32_t child[stack_size + width];
+    float enter[stack_size + width];
+    unsigned top;
+
+    void clear() { top = 0; }
+    void push(const Node& node, F8 from, F8 to) {
+        top += push_sorted(node.child, from, from, to, child + top, enter + top);
+    }
+    /// Takes the topmost entry that lies before `limit`; false: there is none.
+    bool pop(float limit, std::uint32_t& next) {
+        while (top > 0)
+            if (enter[--top] <= limit) {
+                next = child[top];
+                return true;
+            }
+        return false;
+    }
+};
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

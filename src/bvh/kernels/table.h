@@ -11,10 +11,12 @@
 
 #include "bvh/kernels/wave.h"
 
+#include "bvh/kernels/packet.h"
+
 namespace hemilux::wide::HEMILUX_KERNELS {
 
 extern const Kernels kernels;
-const Kernels kernels{HEMILUX_KERNELS_NAME, closest,        occluded, count,
-                      closest_stream,       occluded_stream};
+const Kernels kernels{HEMILUX_KERNELS_NAME, closest,         occluded,       count,
+                      closest_stream,       occluded_stream, closest_packet, count_packet};
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

@@ -8,31 +8,22 @@ inline constexpr unsigned wave_size = 32;
 
 /// A ray on its way.
 struct alignas(64) Walker {
+    SlabRay slabs;
     const FloatRay* ray;
     std::uint32_t index; ///< of the ray in the stream
     std::uint32_t next;  ///< node or leaf to be visited
-    unsigned top;        ///< of the stack
     float t_max;         ///< shrinks
-    std::uint32_t child[stack_size + width];
-    float enter[stack_size + width];
+    Stack stack;
 
     void start(const FloatRay& of, std::uint32_t index_, float t_max_) {
         ray = &of;
+        slabs.set(of);
         index = index_;
         next = 0;
-        top = 0;
         t_max = t_max_;
+        stack.clear();
     }
-    /// Takes what is to be visited next from the stack; false: nothing is left.
-    bool pop() {
-        const float limit = t_max * slab_slack;
-        while (top > 0)
-            if (enter[--top] <= limit) {
-                next = child[top];
-                return true;
-            }
-        return false;
-    }
+    bool pop() { return stack.pop(t_max * slab_slack, next); }
 };
 
 inline void prefetch(const Tree& tree, std::uint32_t child) {
@@ -40,14 +31,6 @@ inline void prefetch(const Tree& tree, std::uint32_t child) {
                                   : reinterpret_cast<const char*>(tree.nodes + child);
     for (unsigned line = 0; line < sizeof(Leaf); line += 64)
         __builtin_prefetch(at + line);
-}
-
-inline void visit_node(const Tree& tree, Walker& walker) {
-    const Node& node = tree.nodes[walker.next];
-    F8 enter;
-    const Bits met = meet(node, SlabRay(*walker.ray), walker.t_max, enter);
-    push_sorted(node, met, enter, walker.child + walker.top, walker.enter + walker.top);
-    walker.top += static_cast<unsigned>(__builtin_popcount(met));
 }
 
 /// Walkers by what they do next.
@@ -88,7 +71,7 @@ inline void wave(const Tree& tree, const FloatRay* rays, unsigned count, const T
         Queue again;
         for (unsigned i = 0; i < nodes.size; ++i) {
             Walker& walker = walkers[nodes.walker[i]];
-            visit_node(tree, walker);
+            visit_node(tree.nodes[walker.next], walker.slabs, walker.t_max, walker.stack);
             send_on(nodes.walker[i], walker.pop(), again);
         }
         nodes = again;
