@@ -86,21 +86,17 @@ bool bundle_fits(const Bundle& bundle, const wide::Space& space) {
     return fits;
 }
 
-wide::Packet packet_at(const FloatRay& shared) {
-    wide::Packet packet;
+/// The first sixteen of the directions. Empty lanes repeat the first.
+void fill_packet(const FloatRay& shared, std::span<const Vec3> directions, const Nearest& start,
+                 wide::Packet& packet) {
+    constexpr float least_slope = 1e-18f;
+    const std::size_t n = std::min<std::size_t>(directions.size(), wide::packet_size);
     std::copy_n(shared.origin, 3, packet.origin);
     packet.t_min_low = shared.t_min_low;
     packet.t_min_high = shared.t_min_high;
     packet.from = shared.from;
-    return packet;
-}
-
-/// Empty lanes repeat the first ray.
-void fill_packet(std::span<const Vec3> directions, unsigned n, const Nearest& start,
-                 wide::Packet& packet) {
-    constexpr float least_slope = 1e-18f;
     packet.lanes = (1u << n) - 1;
-    for (unsigned lane = 0; lane < wide::packet_size; ++lane) {
+    for (std::size_t lane = 0; lane < wide::packet_size; ++lane) {
         const Vec3& direction = directions[lane < n ? lane : 0];
         for (unsigned i = 0; i < 3; ++i) {
             const auto d = static_cast<float>(direction[static_cast<int>(i)]);
@@ -238,46 +234,45 @@ void WideBvh::occluded_stream(std::span<const Ray> rays, std::span<const std::ui
     }
 }
 
-/// Asks the kernels about sixteen rays of a bundle after the other; false if they cannot take it.
+/// Asks the kernels about a bundle, bundle_size rays at a time; false if they cannot take it.
 template <class Done>
-bool WideBvh::for_packets(const Bundle& bundle, PacketKernel kernel, const Nearest& start,
+bool WideBvh::for_packets(const Bundle& bundle, BundleKernel kernel, const Nearest& start,
                           const Done& done) const {
     FloatRay shared;
     if (!bundle_fits(bundle, space_) || fit_ray(bundle.ray(0), shared) != Fit::good)
         return false;
     shared.per_unit = 1 / space_.size;
-    wide::Packet packet = packet_at(shared);
+    std::array<wide::Packet, wide::bundle_size / wide::packet_size> packets;
     Query query{soup_, {}, {&shared, 1}, &bundle, 0};
     for (std::size_t& first = query.first; first < bundle.directions.size();
-         first += wide::packet_size) {
-        const auto rays = bundle.directions.subspan(first);
-        const auto n = static_cast<unsigned>(std::min<std::size_t>(rays.size(), wide::packet_size));
-        fill_packet(rays, n, start, packet);
-        kernel(tree(), packet, judge(query));
-        for (unsigned lane = 0; lane < n; ++lane)
-            done(first + lane, packet, lane);
+         first += wide::bundle_size) {
+        const auto rays = bundle.directions.subspan(
+            first, std::min<std::size_t>(bundle.directions.size() - first, wide::bundle_size));
+        for (std::size_t k = 0; k < rays.size(); k += wide::packet_size)
+            fill_packet(shared, rays.subspan(k), start, packets[k / wide::packet_size]);
+        kernel(tree(), packets.data(), static_cast<unsigned>(rays.size()), judge(query));
+        for (std::size_t k = 0; k < rays.size(); ++k)
+            done(first + k, packets[k / wide::packet_size], k % wide::packet_size);
     }
     return true;
 }
 
 void WideBvh::closest_bundle(const Bundle& bundle, std::span<Struck> out) const {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    const auto done = [&](std::size_t k, const wide::Packet& packet, unsigned lane) {
-        out[k] = packet.slot[lane] == wide::no_facet
-                     ? Struck{}
-                     : Struck{packet.slot[lane] & ~flag, packet.front[lane] != 0};
+    const auto done = [&](std::size_t k, const wide::Packet& packet, std::size_t lane) {
+        out[k] = struck_at({0, 0, packet.slot[lane], packet.front[lane]});
     };
-    if (!for_packets(bundle, kernels_->closest_packet, {infinity, infinity, wide::no_facet, 0},
+    if (!for_packets(bundle, kernels_->closest_bundle, {infinity, infinity, wide::no_facet, 0},
                      done))
         Tracer::closest_bundle(bundle, out);
 }
 
 void WideBvh::count_bundle(const Bundle& bundle, std::span<std::uint32_t> out) const {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    const auto done = [&](std::size_t k, const wide::Packet& packet, unsigned lane) {
+    const auto done = [&](std::size_t k, const wide::Packet& packet, std::size_t lane) {
         out[k] = packet.slot[lane];
     };
-    if (!for_packets(bundle, kernels_->count_packet, {infinity, infinity, 0, 0}, done))
+    if (!for_packets(bundle, kernels_->count_bundle, {infinity, infinity, 0, 0}, done))
         Tracer::count_bundle(bundle, out);
 }
 

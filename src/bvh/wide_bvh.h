@@ -37,9 +37,9 @@ class WideBvh final : public Tracer {
 
   private:
     struct Block;
-    using PacketKernel = void (*)(const wide::Tree&, wide::Packet&, const wide::Judge&);
+    using BundleKernel = void (*)(const wide::Tree&, wide::Packet*, unsigned, const wide::Judge&);
     template <class Done>
-    bool for_packets(const Bundle& bundle, PacketKernel kernel, const wide::Nearest& start,
+    bool for_packets(const Bundle& bundle, BundleKernel kernel, const wide::Nearest& start,
                      const Done& done) const;
     [[nodiscard]] wide::Fit fit_ray(const Ray& ray, wide::FloatRay& scaled) const;
     [[nodiscard]] wide::Tree tree() const { return {built_.nodes.data(), built_.leaves.data()}; }

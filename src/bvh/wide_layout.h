@@ -54,7 +54,7 @@ struct Nearest {
     std::uint32_t front;
 };
 
-inline constexpr unsigned packet_size = 16;
+inline constexpr unsigned packet_size = 16, bundle_size = 256;
 
 /// Rays that share their origin.
 struct alignas(64) Packet {
@@ -90,8 +90,9 @@ struct Kernels {
     /// t[k] bounds the farthest distance of ray k; blocked[k] becomes 0 or 1.
     void (*occluded_stream)(const Tree&, const FloatRay* rays, unsigned count, const Nearest* t,
                             const std::uint32_t* targets, std::uint8_t* blocked, const Judge&);
-    void (*closest_packet)(const Tree&, Packet&, const Judge&);
-    void (*count_packet)(const Tree&, Packet&, const Judge&);
+    /// Up to bundle_size rays in packets; the last may have empty lanes.
+    void (*closest_bundle)(const Tree&, Packet*, unsigned rays, const Judge&);
+    void (*count_bundle)(const Tree&, Packet*, unsigned rays, const Judge&);
 };
 
 } // namespace hemilux::wide

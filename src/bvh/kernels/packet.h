@@ -93,9 +93,10 @@ struct RelativeBoxes {
     }
 };
 
-/// The lanes that meet one child's box before they end.
-inline Bits meet_box(const Node& node, unsigned lane, const Packet& packet) {
-    F16 enter = F16::splat(0), leave = F16::load(packet.high);
+/// The lanes that meet one child's box before they end; where, in `enter`.
+inline Bits meet_box(const Node& node, unsigned lane, const Packet& packet, F16& enter) {
+    enter = F16::splat(0);
+    F16 leave = F16::load(packet.high);
     for (unsigned i = 0; i < 3; ++i) {
         const F16 inverse = F16::load(packet.inverse[i]);
         const F16 a = F16::splat(node.plane[2 * i][lane] - packet.origin[i]) * inverse;
@@ -180,27 +181,98 @@ struct PacketStack {
     }
 };
 
-/// Sends a packet through the tree: on_leaf(leaf, lanes); on_few(child, lanes) for subtrees.
+/// Subtrees that single rays have still to visit, for each ray in order of distance.
+struct Errands {
+    static constexpr unsigned most = 24;
+    std::uint32_t child[bundle_size][most];
+    float enter[bundle_size][most];
+    std::uint8_t count[bundle_size];
+    FloatRay ray[bundle_size];
+
+    explicit Errands(unsigned rays) {
+        for (unsigned k = 0; k < rays; ++k)
+            count[k] = 0;
+    }
+    /// false: there is no room.
+    bool add(unsigned k, std::uint32_t subtree, float at) {
+        if (count[k] == most)
+            return false;
+        child[k][count[k]] = subtree;
+        enter[k][count[k]++] = at;
+        return true;
+    }
+};
+
+/// Sends a packet through the tree: on_leaf(leaf, lanes); on_few(child, lanes, enter) for subtrees.
 template <class OnLeaf, class OnFew>
 inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf, OnFew&& on_few) {
     const Pyramid pyramid(packet);
     PacketStack stack;
+    Bits alone = 0; // lanes that have left the packet
     stack.push(0, RelativeBoxes(tree.nodes[0], packet.origin), pyramid, packet.lanes);
     while (stack.top > 0) {
         const std::uint32_t place = stack.place[--stack.top];
         const Node& node = tree.nodes[place / width];
-        const Bits lanes = stack.lanes[stack.top] & meet_box(node, place % width, packet);
+        F16 enter;
+        Bits lanes = stack.lanes[stack.top] & meet_box(node, place % width, packet, enter);
         if (!lanes)
             continue;
         const std::uint32_t child = node.child[place % width];
+        Bits leaving = lanes & alone;
+        if (!(child & flag) && count_bits(lanes & ~alone) <= few)
+            leaving = lanes;
+        if (leaving) {
+            on_few(child, leaving, enter);
+            alone |= leaving;
+            lanes &= ~leaving;
+            if (!lanes)
+                continue;
+        }
         if (child & flag)
             on_leaf(tree.leaves[child & ~flag], lanes);
-        else if (count_bits(lanes) <= few)
-            on_few(child, lanes);
         else
             stack.push(child, RelativeBoxes(tree.nodes[child], packet.origin), pyramid, lanes);
     }
 }
+
+/// Notes the subtree for each of the lanes; immediately(k, lane) where there is no room.
+template <class Immediately>
+inline void send_on_errand(Errands& errands, unsigned first, std::uint32_t child, Bits lanes,
+                           F16 enter, const Immediately& immediately) {
+    alignas(64) float at[packet_size];
+    enter.store(at);
+    for (; lanes; lanes &= lanes - 1) {
+        const unsigned lane = lowest(lanes);
+        if (!errands.add(first + lane, child, at[lane]))
+            immediately(lane);
+    }
+}
+
+/// Begins the rays that have errands, each with all of them on its stack.
+struct FromErrands {
+    Errands& errands;
+    const Packet* packets;
+    unsigned count;
+    unsigned& started;
+
+    bool operator()(Walker& walker) const {
+        for (; started < count; ++started) {
+            const unsigned k = started, n = errands.count[k];
+            if (n == 0)
+                continue;
+            const Packet& packet = packets[k / packet_size];
+            errands.ray[k] = lane_of(packet, k % packet_size);
+            walker.take(errands.ray[k], k, packet.high[k % packet_size]);
+            for (unsigned i = n; i-- > 0;)
+                walker.stack.push_one(errands.child[k][i], errands.enter[k][i]);
+            if (walker.pop()) {
+                ++started;
+                return true;
+            }
+        }
+        return false;
+    }
+};
 
 /// The triangles of a leaf, each with the lanes that may strike it: visit(k, sifted, lanes).
 template <class Visit>
@@ -238,7 +310,7 @@ struct LaneNearest {
 
 /// One triangle that some lanes may strike, against the nearest of each.
 inline void consider_lanes(const Leaf& leaf, const SharedLeaf& shared, unsigned k,
-                           const Sifted<F16>& sifted, Bits maybe, Packet& packet,
+                           const Sifted<F16>& sifted, Bits maybe, unsigned first, Packet& packet,
                            const Judge& judge) {
     const Interval<F16> t(sifted, F16::splat(shared.volume[k]), F16::splat(shared.size[k]));
     const F16 low = F16::load(packet.low), high = F16::load(packet.high);
@@ -257,56 +329,87 @@ inline void consider_lanes(const Leaf& leaf, const SharedLeaf& shared, unsigned 
     for (Bits left = maybe & ~sure & ~out; left; left &= left - 1) {
         LaneNearest own(packet, lowest(left));
         if (own.nearest.slot == no_facet || ((slot ^ own.nearest.slot) & ~flag) != 0)
-            judge.closer(judge.query, own.lane, slot, own.nearest);
+            judge.closer(judge.query, first + own.lane, slot, own.nearest);
     }
 }
 
-/// The nearest facet of each lane.
-inline void closest_packet(const Tree& tree, Packet& packet, const Judge& judge) {
-    walk_packet(
-        tree, packet,
-        [&](const Leaf& leaf, Bits lanes) {
-            const SharedLeaf shared(leaf, packet.origin);
-            sift_packet(leaf, shared, packet, lanes,
-                        [&](unsigned k, const Sifted<F16>& sifted, Bits maybe) {
-                            consider_lanes(leaf, shared, k, sifted, maybe, packet, judge);
-                        });
-        },
-        [&](std::uint32_t child, Bits lanes) {
-            for (; lanes; lanes &= lanes - 1) {
-                LaneNearest own(packet, lowest(lanes));
-                closest_from(tree, child, lane_of(packet, own.lane), own.lane, own.nearest, judge);
-            }
-        });
+/// One triangle that some lanes may strike: who pierces it.
+inline void count_lanes(const Leaf& leaf, const SharedLeaf& shared, unsigned k,
+                        const Sifted<F16>& sifted, Bits maybe, unsigned first, Packet& packet,
+                        const Judge& judge) {
+    const Interval<F16> t(sifted, F16::splat(shared.volume[k]), F16::splat(shared.size[k]));
+    const Bits sure =
+        maybe & t.known & sifted.inside() & less(F16::splat(packet.t_min_high), t.low);
+    const Bits out = t.known & less(t.high, F16::splat(packet.t_min_low));
+    for (Bits left = maybe & ~out; left; left &= left - 1) {
+        const unsigned lane = lowest(left);
+        packet.slot[lane] +=
+            (sure >> lane & 1) != 0 || judge.counts(judge.query, first + lane, leaf.slot[k]);
+    }
 }
 
-/// How many facets each lane pierces, added to packet.slot.
-inline void count_packet(const Tree& tree, Packet& packet, const Judge& judge) {
-    walk_packet(
-        tree, packet,
-        [&](const Leaf& leaf, Bits lanes) {
-            const SharedLeaf shared(leaf, packet.origin);
-            sift_packet(leaf, shared, packet, lanes,
-                        [&](unsigned k, const Sifted<F16>& sifted, Bits maybe) {
-                            const Interval<F16> t(sifted, F16::splat(shared.volume[k]),
-                                                  F16::splat(shared.size[k]));
-                            const Bits sure = maybe & t.known & sifted.inside() &
-                                              less(F16::splat(packet.t_min_high), t.low);
-                            const Bits out = t.known & less(t.high, F16::splat(packet.t_min_low));
-                            for (Bits left = maybe & ~out; left; left &= left - 1) {
-                                const unsigned lane = lowest(left);
-                                packet.slot[lane] += (sure >> lane & 1) != 0 ||
-                                                     judge.counts(judge.query, lane, leaf.slot[k]);
-                            }
-                        });
-        },
-        [&](std::uint32_t child, Bits lanes) {
-            for (; lanes; lanes &= lanes - 1) {
-                const unsigned lane = lowest(lanes);
-                packet.slot[lane] += count_from(tree, child, lane_of(packet, lane), lane,
-                                                packet.low[lane], packet.high[lane], judge);
-            }
-        });
+/// The nearest facet of each ray of up to bundle_size in packets.
+inline void closest_bundle(const Tree& tree, Packet* packets, unsigned rays, const Judge& judge) {
+    Errands errands(rays);
+    for (unsigned first = 0; first < rays; first += packet_size) {
+        Packet& packet = packets[first / packet_size];
+        walk_packet(
+            tree, packet,
+            [&](const Leaf& leaf, Bits lanes) {
+                const SharedLeaf shared(leaf, packet.origin);
+                sift_packet(leaf, shared, packet, lanes,
+                            [&](unsigned k, const Sifted<F16>& sifted, Bits maybe) {
+                                consider_lanes(leaf, shared, k, sifted, maybe, first, packet,
+                                               judge);
+                            });
+            },
+            [&](std::uint32_t child, Bits lanes, F16 enter) {
+                send_on_errand(errands, first, child, lanes, enter, [&](unsigned lane) {
+                    LaneNearest own(packet, lane);
+                    closest_from(tree, child, lane_of(packet, lane), first + lane, own.nearest,
+                                 judge);
+                });
+            });
+    }
+    unsigned started = 0;
+    wave(tree, FromErrands{errands, packets, rays, started}, [&](Walker& walker, const Leaf& leaf) {
+        const unsigned k = walker.index;
+        LaneNearest own(packets[k / packet_size], k % packet_size);
+        closest_in(leaf, *walker.ray, k, own.nearest, judge);
+        walker.t_max = own.nearest.high;
+        return false;
+    });
+}
+
+/// How many facets each ray pierces, added to Packet::slot.
+inline void count_bundle(const Tree& tree, Packet* packets, unsigned rays, const Judge& judge) {
+    constexpr float infinity = __builtin_inff();
+    Errands errands(rays);
+    for (unsigned first = 0; first < rays; first += packet_size) {
+        Packet& packet = packets[first / packet_size];
+        walk_packet(
+            tree, packet,
+            [&](const Leaf& leaf, Bits lanes) {
+                const SharedLeaf shared(leaf, packet.origin);
+                sift_packet(leaf, shared, packet, lanes,
+                            [&](unsigned k, const Sifted<F16>& sifted, Bits maybe) {
+                                count_lanes(leaf, shared, k, sifted, maybe, first, packet, judge);
+                            });
+            },
+            [&](std::uint32_t child, Bits lanes, F16 enter) {
+                send_on_errand(errands, first, child, lanes, enter, [&](unsigned lane) {
+                    packet.slot[lane] += count_from(tree, child, lane_of(packet, lane),
+                                                    first + lane, infinity, infinity, judge);
+                });
+            });
+    }
+    unsigned started = 0;
+    wave(tree, FromErrands{errands, packets, rays, started}, [&](Walker& walker, const Leaf& leaf) {
+        const unsigned k = walker.index;
+        packets[k / packet_size].slot[k % packet_size] +=
+            count_in(leaf, *walker.ray, k, infinity, infinity, judge);
+        return false;
+    });
 }
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

@@ -149,18 +149,26 @@ inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, floa
     return blocked;
 }
 
+/// How many facets of a leaf are pierced.
+inline std::uint32_t count_in(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low,
+                              float t_high, const Judge& judge) {
+    std::uint32_t pierced = 0;
+    sift_leaf(leaf, ray,
+              [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool) {
+                  if (known && (low > t_high || high < ray.t_min_low))
+                      return false;
+                  pierced += (inside && known && low > ray.t_min_high && high < t_low) ||
+                             judge.counts(judge.query, index, slot);
+                  return false;
+              });
+    return pierced;
+}
+
 inline std::uint32_t count_from(const Tree& tree, std::uint32_t root, const FloatRay& ray,
                                 unsigned index, float t_low, float t_high, const Judge& judge) {
     std::uint32_t pierced = 0;
     walk(tree, root, ray, t_high, [&](const Leaf& leaf) {
-        sift_leaf(leaf, ray,
-                  [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool) {
-                      if (known && (low > t_high || high < ray.t_min_low))
-                          return false;
-                      pierced += (inside && known && low > ray.t_min_high && high < t_low) ||
-                                 judge.counts(judge.query, index, slot);
-                      return false;
-                  });
+        pierced += count_in(leaf, ray, index, t_low, t_high, judge);
         return false;
     });
     return pierced;

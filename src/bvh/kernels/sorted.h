@@ -75,6 +75,10 @@ struct Stack {
     unsigned top;
 
     void clear() { top = 0; }
+    void push_one(std::uint32_t c, float at) {
+        child[top] = c;
+        enter[top++] = at;
+    }
     void push(const Node& node, F8 from, F8 to) {
         top += push_sorted(node.child, from, from, to, child + top, enter + top);
     }

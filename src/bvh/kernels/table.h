@@ -17,6 +17,6 @@ namespace hemilux::wide::HEMILUX_KERNELS {
 
 extern const Kernels kernels;
 const Kernels kernels{HEMILUX_KERNELS_NAME, closest,         occluded,       count,
-                      closest_stream,       occluded_stream, closest_packet, count_packet};
+                      closest_stream,       occluded_stream, closest_bundle, count_bundle};
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

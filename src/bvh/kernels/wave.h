@@ -15,7 +15,7 @@ struct alignas(64) Walker {
     float t_max;         ///< shrinks
     Stack stack;
 
-    void start(const FloatRay& of, std::uint32_t index_, float t_max_) {
+    void take(const FloatRay& of, std::uint32_t index_, float t_max_) {
         ray = &of;
         slabs.set(of);
         index = index_;
@@ -43,23 +43,17 @@ struct Queue {
     }
 };
 
-/// Sends all rays through the tree. t_max(k) is where ray k ends; on_leaf(walker, leaf) may shrink
-/// walker.t_max and returns true when the ray is done.
-template <class TMax, class OnLeaf>
-inline void wave(const Tree& tree, const FloatRay* rays, unsigned count, const TMax& t_max,
-                 const OnLeaf& on_leaf) {
+/// Sends rays through the tree. begin(walker) makes it the next ray and returns false when there is
+/// none; on_leaf(walker, leaf) may shrink walker.t_max and returns true when the ray is done.
+template <class Begin, class OnLeaf>
+inline void wave(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
     Walker walkers[wave_size];
     Queue nodes, leaves;
-    unsigned started = 0;
     // Puts a walker into the queue of its next visit, or lets it begin with the next ray.
     const auto send_on = [&](std::uint32_t w, bool more, Queue& to_nodes) {
         Walker& walker = walkers[w];
-        if (!more) {
-            if (started == count)
-                return;
-            walker.start(rays[started], started, t_max(started));
-            ++started;
-        }
+        if (!more && !begin(walker))
+            return;
         const bool leaf = (walker.next & flag) != 0;
         prefetch(tree, walker.next);
         to_nodes.add_if(!leaf, w);
@@ -87,22 +81,40 @@ inline void wave(const Tree& tree, const FloatRay* rays, unsigned count, const T
     }
 }
 
+/// Begins one ray of an array after the other, at the root.
+struct FromArray {
+    const FloatRay* rays;
+    unsigned count;
+    const Nearest* nearest;
+    unsigned& started;
+
+    bool operator()(Walker& walker) const {
+        if (started == count)
+            return false;
+        walker.take(rays[started], started, nearest[started].high);
+        ++started;
+        return true;
+    }
+};
+
+/// A leaf against one ray of many.
+inline void closest_in(const Leaf& leaf, const FloatRay& ray, unsigned index, Nearest& nearest,
+                       const Judge& judge) {
+    sift_leaf(leaf, ray,
+              [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool front) {
+                  consider(slot, low, high, known, inside, front, ray, index, nearest, judge);
+                  return false;
+              });
+}
+
 inline void closest_stream(const Tree& tree, const FloatRay* rays, unsigned count, Nearest* nearest,
                            const Judge& judge) {
-    wave(
-        tree, rays, count, [&](unsigned k) { return nearest[k].high; },
-        [&](Walker& walker, const Leaf& leaf) {
-            const unsigned k = walker.index;
-            sift_leaf(leaf, *walker.ray,
-                      [&](std::uint32_t slot, float low, float high, bool known, bool inside,
-                          bool front) {
-                          consider(slot, low, high, known, inside, front, *walker.ray, k,
-                                   nearest[k], judge);
-                          return false;
-                      });
-            walker.t_max = nearest[k].high;
-            return false;
-        });
+    unsigned started = 0;
+    wave(tree, FromArray{rays, count, nearest, started}, [&](Walker& walker, const Leaf& leaf) {
+        closest_in(leaf, *walker.ray, walker.index, nearest[walker.index], judge);
+        walker.t_max = nearest[walker.index].high;
+        return false;
+    });
 }
 
 inline void occluded_stream(const Tree& tree, const FloatRay* rays, unsigned count,
@@ -110,13 +122,12 @@ inline void occluded_stream(const Tree& tree, const FloatRay* rays, unsigned cou
                             const Judge& judge) {
     for (unsigned k = 0; k < count; ++k)
         blocked[k] = 0;
-    wave(
-        tree, rays, count, [&](unsigned k) { return t[k].high; },
-        [&](Walker& walker, const Leaf& leaf) {
-            const unsigned k = walker.index;
-            blocked[k] = blocks(leaf, *walker.ray, k, t[k].low, t[k].high, targets[k], judge);
-            return blocked[k] != 0;
-        });
+    unsigned started = 0;
+    wave(tree, FromArray{rays, count, t, started}, [&](Walker& walker, const Leaf& leaf) {
+        const unsigned k = walker.index;
+        blocked[k] = blocks(leaf, *walker.ray, k, t[k].low, t[k].high, targets[k], judge);
+        return blocked[k] != 0;
+    });
 }
 
 } // namespace hemilux::wide::HEMILUX_KERNELS
