@@ -103,6 +103,7 @@ void fill_packet(const FloatRay& shared, std::span<const Vec3> directions, const
             packet.direction[i][lane] = d;
             packet.inverse[i][lane] =
                 1.0f / (std::abs(d) < least_slope ? std::copysign(least_slope, d) : d);
+            packet.offset[i][lane] = -packet.origin[i] * packet.inverse[i][lane];
         }
         packet.low[lane] = start.low;
         packet.high[lane] = start.high;

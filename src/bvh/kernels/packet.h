@@ -5,53 +5,75 @@
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-inline constexpr unsigned few = 4; ///< rays that go on one by one
+inline constexpr unsigned few = 5; ///< rays that go on one by one
 
 inline unsigned count_bits(Bits bits) { return static_cast<unsigned>(__builtin_popcount(bits)); }
 
-/// Four planes through the origin that hold all rays between them, none if the rays do not all run
-/// forward along one axis.
+inline V3<F16> load16(const float (&p)[3][packet_size]) {
+    return {F16::load(p[0]), F16::load(p[1]), F16::load(p[2])};
+}
+
+/// Four planes through the origin that hold all rays between them; none if the rays go too far
+/// apart.
 struct Pyramid {
-    unsigned axis = 3, side[2];
-    float slope_low[2], slope_high[2]; ///< of the side axes over the main one
-    bool forward;
+    bool exists = false;
+    float normal[4][3];     ///< outward
+    unsigned nearest[4][3]; ///< which planes of a box meet in the corner that is farthest inward
 
     explicit Pyramid(const Packet& packet) {
-        V3<F16> d = load16(packet.direction);
-        const F16 component[3] = {d.x, d.y, d.z};
-        float best = 0.2f;
-        for (unsigned i = 0; i < 3; ++i) {
-            const float least = lowest_lane(component[i]), most = highest_lane(component[i]);
-            const float safe = least > 0 ? least : -most;
-            if (safe > best) {
-                best = safe;
-                axis = i;
-                forward = least > 0;
-            }
-        }
-        if (axis == 3)
+        const V3<F16> d = load16(packet.direction);
+        float axis[3], x[3], y[3];
+        axis[0] = total(d.x);
+        axis[1] = total(d.y);
+        axis[2] = total(d.z);
+        if (!(length(axis) > 1))
             return;
-        const F16 main = F16::splat(1) / component[axis];
-        for (unsigned s = 0; s < 2; ++s) {
-            side[s] = (axis + 1 + s) % 3;
-            const F16 slope = component[side[s]] * main;
-            slope_low[s] = lowest_lane(slope);
-            slope_high[s] = highest_lane(slope);
-        }
+        scale(axis, 1 / length(axis));
+        across(axis, x, y);
+        const F16 forward = dot(d, V3<F16>::splat(axis));
+        constexpr float least_forward = 0.15f;
+        if (!(lowest(forward) > least_forward))
+            return;
+        exists = true;
+        set_planes(0, axis, x, dot(d, V3<F16>::splat(x)) / forward);
+        set_planes(2, axis, y, dot(d, V3<F16>::splat(y)) / forward);
     }
 
-    static V3<F16> load16(const float (&p)[3][16]) {
-        return {F16::load(p[0]), F16::load(p[1]), F16::load(p[2])};
+  private:
+    /// slope_low <= p.side / p.axis <= slope_high, as two planes.
+    void set_planes(unsigned first, const float* axis, const float* side, F16 slope) {
+        const float low = lowest(slope), high = -lowest(F16::splat(0) - slope);
+        for (unsigned i = 0; i < 3; ++i) {
+            normal[first][i] = side[i] - high * axis[i];
+            normal[first + 1][i] = low * axis[i] - side[i];
+            nearest[first][i] = 2 * i + (normal[first][i] < 0);
+            nearest[first + 1][i] = 2 * i + (normal[first + 1][i] < 0);
+        }
     }
-    static float lowest_lane(F16 v) {
-        alignas(64) float lane[16];
+    /// Two directions that make a frame with the axis (Duff et al. 2017).
+    static void across(const float* n, float* x, float* y) {
+        const float sign = n[2] < 0 ? -1.0f : 1.0f, a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
+        x[0] = 1 + sign * n[0] * n[0] * a;
+        x[1] = sign * b;
+        x[2] = -sign * n[0];
+        y[0] = b;
+        y[1] = sign + n[1] * n[1] * a;
+        y[2] = -n[1];
+    }
+    static float total(F16 v) {
+        alignas(64) float lane[packet_size];
         v.store(lane);
-        float least = lane[0];
-        for (unsigned i = 1; i < 16; ++i)
-            least = lane[i] < least ? lane[i] : least;
-        return least;
+        const F4 sum =
+            F4::load(lane) + F4::load(lane + 4) + F4::load(lane + 8) + F4::load(lane + 12);
+        return (sum.v[0] + sum.v[1]) + (sum.v[2] + sum.v[3]);
     }
-    static float highest_lane(F16 v) { return -lowest_lane(F16::splat(0) - v); }
+    static float length(const float* v) {
+        return __builtin_sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    }
+    static void scale(float* v, float by) {
+        for (unsigned i = 0; i < 3; ++i)
+            v[i] *= by;
+    }
 };
 
 /// Boxes relative to the packet's origin.
@@ -65,22 +87,15 @@ struct RelativeBoxes {
     /// By how much each box lies outside the pyramid; absent boxes lie infinitely far outside.
     [[nodiscard]] F8 outside(const Pyramid& pyramid, F8 square_distance) const {
         const F8 absence = square_distance - F8::splat(1e30f);
-        if (pyramid.axis == 3)
+        if (!pyramid.exists)
             return absence;
-        const F8 low = plane[2 * pyramid.axis], high = plane[2 * pyramid.axis + 1];
-        const F8 zero = F8::splat(0);
-        F8 out = pyramid.forward ? zero - high : low;
-        for (unsigned s = 0; s < 2; ++s) {
-            const F8 l = plane[2 * pyramid.side[s]], h = plane[2 * pyramid.side[s] + 1];
-            const F8 slope_low = F8::splat(pyramid.slope_low[s]);
-            const F8 slope_high = F8::splat(pyramid.slope_high[s]);
-            // Inside, slope_low * main <= side <= slope_high * main, turned round when backward.
-            const F8 a = pyramid.forward ? slope_high : slope_low;
-            const F8 b = pyramid.forward ? slope_low : slope_high;
-            out = max(out, l - max(a * low, a * high));
-            out = max(out, min(b * low, b * high) - h);
-        }
-        return max(out, absence); // in this order: out is NaN for absent boxes
+        const auto beyond = [&](unsigned k) {
+            return plane[pyramid.nearest[k][0]] * F8::splat(pyramid.normal[k][0]) +
+                   plane[pyramid.nearest[k][1]] * F8::splat(pyramid.normal[k][1]) +
+                   plane[pyramid.nearest[k][2]] * F8::splat(pyramid.normal[k][2]);
+        };
+        const F8 out = max(max(beyond(0), beyond(1)), max(beyond(2), beyond(3)));
+        return max(out, absence); // in this order: out may be NaN for absent boxes
     }
     /// The square of each box's distance from the origin: absent boxes are infinitely far.
     [[nodiscard]] F8 distance() const {
@@ -98,9 +113,9 @@ inline Bits meet_box(const Node& node, unsigned lane, const Packet& packet, F16&
     enter = F16::splat(0);
     F16 leave = F16::load(packet.high);
     for (unsigned i = 0; i < 3; ++i) {
-        const F16 inverse = F16::load(packet.inverse[i]);
-        const F16 a = F16::splat(node.plane[2 * i][lane] - packet.origin[i]) * inverse;
-        const F16 b = F16::splat(node.plane[2 * i + 1][lane] - packet.origin[i]) * inverse;
+        const F16 inverse = F16::load(packet.inverse[i]), offset = F16::load(packet.offset[i]);
+        const F16 a = F16::splat(node.plane[2 * i][lane]) * inverse + offset;
+        const F16 b = F16::splat(node.plane[2 * i + 1][lane]) * inverse + offset;
         enter = max(enter, min(a, b));
         leave = min(leave, max(a, b));
     }
@@ -168,7 +183,7 @@ struct PacketStack {
 
     void push(std::uint32_t node, const RelativeBoxes& boxes, const Pyramid& pyramid, Bits lanes_) {
         // Covers the roundings of the pyramid; the boxes are widened for those of the rays.
-        constexpr float tolerance = 0x1p-18f;
+        constexpr float tolerance = 0x1p-17f;
         const F8 distance = boxes.distance();
         alignas(64) std::uint32_t names[width];
         for (unsigned c = 0; c < width; ++c)
@@ -242,7 +257,7 @@ inline void send_on_errand(Errands& errands, unsigned first, std::uint32_t child
     alignas(64) float at[packet_size];
     enter.store(at);
     for (; lanes; lanes &= lanes - 1) {
-        const unsigned lane = lowest(lanes);
+        const unsigned lane = first_of(lanes);
         if (!errands.add(first + lane, child, at[lane]))
             immediately(lane);
     }
@@ -278,14 +293,14 @@ struct FromErrands {
 template <class Visit>
 inline void sift_packet(const Leaf& leaf, const SharedLeaf& shared, const Packet& packet,
                         Bits lanes, Visit&& visit) {
-    const V3<F16> direction = Pyramid::load16(packet.direction);
+    const V3<F16> direction = load16(packet.direction);
     Bits maybe[width], hit = 0;
     for (unsigned k = 0; k < width; ++k) {
         maybe[k] = shared.sift(k, direction).maybe() & lanes;
         hit |= Bits{maybe[k] != 0} << k;
     }
     for (; hit; hit &= hit - 1) {
-        const unsigned k = lowest(hit);
+        const unsigned k = first_of(hit);
         if ((leaf.slot[k] & ~flag) != packet.from)
             visit(k, shared.sift(k, direction), maybe[k]);
     }
@@ -322,12 +337,12 @@ inline void consider_lanes(const Leaf& leaf, const SharedLeaf& shared, unsigned 
     const std::uint32_t slot = leaf.slot[k];
     const Bits front = sifted.front();
     for (Bits left = sure; left; left &= left - 1) {
-        const unsigned lane = lowest(left);
+        const unsigned lane = first_of(left);
         packet.slot[lane] = slot;
         packet.front[lane] = front >> lane & 1;
     }
     for (Bits left = maybe & ~sure & ~out; left; left &= left - 1) {
-        LaneNearest own(packet, lowest(left));
+        LaneNearest own(packet, first_of(left));
         if (own.nearest.slot == no_facet || ((slot ^ own.nearest.slot) & ~flag) != 0)
             judge.closer(judge.query, first + own.lane, slot, own.nearest);
     }
@@ -342,7 +357,7 @@ inline void count_lanes(const Leaf& leaf, const SharedLeaf& shared, unsigned k,
         maybe & t.known & sifted.inside() & less(F16::splat(packet.t_min_high), t.low);
     const Bits out = t.known & less(t.high, F16::splat(packet.t_min_low));
     for (Bits left = maybe & ~out; left; left &= left - 1) {
-        const unsigned lane = lowest(left);
+        const unsigned lane = first_of(left);
         packet.slot[lane] +=
             (sure >> lane & 1) != 0 || judge.counts(judge.query, first + lane, leaf.slot[k]);
     }

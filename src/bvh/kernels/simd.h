@@ -13,7 +13,7 @@ namespace hemilux::wide::HEMILUX_KERNELS {
 
 using Bits = std::uint32_t;
 
-inline unsigned lowest(Bits bits) { return static_cast<unsigned>(__builtin_ctz(bits)); }
+inline unsigned first_of(Bits bits) { return static_cast<unsigned>(__builtin_ctz(bits)); }
 
 /// Four lanes: what every compiler has.
 struct F4 {
@@ -48,6 +48,10 @@ struct F4 {
     }
 #endif
     friend F4 abs(F4 a) { return max(a, F4{-a.v}); }
+    friend float lowest(F4 a) {
+        const float x = a.v[0] < a.v[1] ? a.v[0] : a.v[1], y = a.v[2] < a.v[3] ? a.v[2] : a.v[3];
+        return x < y ? x : y;
+    }
     friend F4 select(Bits bits, F4 a, F4 b) {
         return {Vector{bits & 1 ? a.v[0] : b.v[0], bits & 2 ? a.v[1] : b.v[1],
                        bits & 4 ? a.v[2] : b.v[2], bits & 8 ? a.v[3] : b.v[3]}};
@@ -76,6 +80,7 @@ struct Pair {
     friend Bits less_equal(Pair x, Pair y) {
         return less_equal(x.a, y.a) | less_equal(x.b, y.b) << Half::lanes;
     }
+    friend float lowest(Pair x) { return lowest(min(x.a, x.b)); }
     friend Pair select(Bits bits, Pair x, Pair y) {
         return {select(bits, x.a, y.a), select(bits >> Half::lanes, x.b, y.b)};
     }
@@ -96,6 +101,10 @@ struct F8 {
     friend F8 operator/(F8 a, F8 b) { return {a.v / b.v}; }
     friend F8 min(F8 a, F8 b) { return {_mm256_min_ps(a.v, b.v)}; }
     friend F8 max(F8 a, F8 b) { return {_mm256_max_ps(a.v, b.v)}; }
+    friend float lowest(F8 a) {
+        const __m128 four = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
+        return lowest(F4{four});
+    }
     friend F8 select(Bits bits, F8 a, F8 b) {
         const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
         const __m256i mask = _mm256_cmpeq_epi32(
@@ -128,6 +137,9 @@ struct F16 {
     friend F16 operator/(F16 a, F16 b) { return {a.v / b.v}; }
     friend F16 min(F16 a, F16 b) { return {_mm512_min_ps(a.v, b.v)}; }
     friend F16 max(F16 a, F16 b) { return {_mm512_max_ps(a.v, b.v)}; }
+    friend float lowest(F16 a) {
+        return lowest(min(F8{_mm512_castps512_ps256(a.v)}, F8{_mm512_extractf32x8_ps(a.v, 1)}));
+    }
     friend F16 select(Bits bits, F16 a, F16 b) {
         return {_mm512_mask_blend_ps(static_cast<__mmask16>(bits), b.v, a.v)};
     }

@@ -86,7 +86,7 @@ inline void sift_leaf(const Leaf& leaf, const FloatRay& ray, Visit&& visit) {
     t.low.store(low);
     t.high.store(high);
     for (; maybe; maybe &= maybe - 1) {
-        const unsigned k = lowest(maybe);
+        const unsigned k = first_of(maybe);
         const Bits bit = Bits{1} << k;
         if ((leaf.slot[k] & ~flag) != ray.from)
             if (visit(leaf.slot[k], low[k], high[k], (t.known & bit) != 0, (inside & bit) != 0,

@@ -54,7 +54,7 @@ inline unsigned push_sorted(const std::uint32_t* names, F8 distances, F8 low, F8
     distances.store(at);
     unsigned count = 0;
     for (Bits met = less_equal(low, high); met; met &= met - 1, ++count) {
-        const unsigned c = lowest(met);
+        const unsigned c = first_of(met);
         unsigned place = count;
         for (; place > 0 && distance[place - 1] < at[c]; --place) {
             distance[place] = distance[place - 1];
