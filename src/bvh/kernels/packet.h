@@ -174,25 +174,37 @@ inline FloatRay lane_of(const Packet& packet, unsigned lane) {
     return ray;
 }
 
-/// Children on the stack: which of which node, and whom they concern.
+/// What remains to be visited by a packet, the nearest on top.
 struct PacketStack {
-    std::uint32_t place[stack_size + width]; ///< node * width + child
-    float unused[stack_size + width];
-    std::uint16_t lanes[stack_size + width];
+    struct alignas(64) Entry {
+        float enter[packet_size]; ///< of each lane
+        std::uint32_t child;
+        Bits lanes;
+    };
+    Entry entry[stack_size + 1];
     unsigned top = 0;
 
-    void push(std::uint32_t node, const RelativeBoxes& boxes, const Pyramid& pyramid, Bits lanes_) {
+    /// Adds the children of a node that some of the lanes meet.
+    void push(const Tree& tree, std::uint32_t index, const Packet& packet, const Pyramid& pyramid,
+              Bits lanes) {
         // Covers the roundings of the pyramid; the boxes are widened for those of the rays.
         constexpr float tolerance = 0x1p-17f;
+        static constexpr std::uint32_t names[width] alignas(64) = {0, 1, 2, 3, 4, 5, 6, 7};
+        const Node& node = tree.nodes[index];
+        const RelativeBoxes boxes(node, packet.origin);
         const F8 distance = boxes.distance();
-        alignas(64) std::uint32_t names[width];
-        for (unsigned c = 0; c < width; ++c)
-            names[c] = node * width + c;
-        const unsigned added = push_sorted(names, distance, boxes.outside(pyramid, distance),
-                                           F8::splat(tolerance), place + top, unused + top);
-        for (unsigned i = 0; i < width; ++i)
-            lanes[top + i] = static_cast<std::uint16_t>(lanes_);
-        top += added;
+        std::uint32_t child[width];
+        float unused[width];
+        const unsigned count = push_sorted(names, distance, boxes.outside(pyramid, distance),
+                                           F8::splat(tolerance), child, unused);
+        for (unsigned i = 0; i < count; ++i) {
+            Entry& to = entry[top];
+            F16 enter;
+            to.lanes = lanes & meet_box(node, child[i], packet, enter);
+            enter.store(to.enter);
+            to.child = node.child[child[i]];
+            top += to.lanes != 0;
+        }
     }
 };
 
@@ -224,15 +236,15 @@ inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf
     const Pyramid pyramid(packet);
     PacketStack stack;
     Bits alone = 0; // lanes that have left the packet
-    stack.push(0, RelativeBoxes(tree.nodes[0], packet.origin), pyramid, packet.lanes);
+    stack.push(tree, 0, packet, pyramid, packet.lanes);
     while (stack.top > 0) {
-        const std::uint32_t place = stack.place[--stack.top];
-        const Node& node = tree.nodes[place / width];
-        F16 enter;
-        Bits lanes = stack.lanes[stack.top] & meet_box(node, place % width, packet, enter);
+        const PacketStack::Entry& entry = stack.entry[--stack.top];
+        const F16 enter = F16::load(entry.enter);
+        const F16 limit = F16::load(packet.high) * F16::splat(slab_slack);
+        Bits lanes = entry.lanes & less_equal(enter, limit);
         if (!lanes)
             continue;
-        const std::uint32_t child = node.child[place % width];
+        const std::uint32_t child = entry.child;
         Bits leaving = lanes & alone;
         if (!(child & flag) && count_bits(lanes & ~alone) <= few)
             leaving = lanes;
@@ -246,7 +258,7 @@ inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf
         if (child & flag)
             on_leaf(tree.leaves[child & ~flag], lanes);
         else
-            stack.push(child, RelativeBoxes(tree.nodes[child], packet.origin), pyramid, lanes);
+            stack.push(tree, child, packet, pyramid, lanes);
     }
 }
 

@@ -68,13 +68,17 @@ inline unsigned push_sorted(const std::uint32_t* names, F8 distances, F8 low, F8
 
 #endif
 
-/// What remains to be visited, the nearest on top.
+/// What remains to be visited, the nearest on top. At the bottom lies an entry that says so.
 struct Stack {
-    std::uint32_t child[stack_size + width];
-    float enter[stack_size + width];
+    std::uint32_t child[stack_size + width + 1];
+    float enter[stack_size + width + 1];
     unsigned top;
 
-    void clear() { top = 0; }
+    void clear() {
+        child[0] = no_facet;
+        enter[0] = -__builtin_inff();
+        top = 1;
+    }
     void push_one(std::uint32_t c, float at) {
         child[top] = c;
         enter[top++] = at;
@@ -84,12 +88,14 @@ struct Stack {
     }
     /// Takes the topmost entry that lies before `limit`; false: there is none.
     bool pop(float limit, std::uint32_t& next) {
-        while (top > 0)
-            if (enter[--top] <= limit) {
-                next = child[top];
-                return true;
-            }
-        return false;
+        unsigned t = top - 1;
+        t -= enter[t] > limit; // how many there are is hard to foresee for the processor
+        t -= enter[t] > limit;
+        while (enter[t] > limit)
+            --t;
+        next = child[t];
+        top = t;
+        return next != no_facet;
     }
 };
 

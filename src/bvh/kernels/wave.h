@@ -26,9 +26,13 @@ struct alignas(64) Walker {
     bool pop() { return stack.pop(t_max * slab_slack, next); }
 };
 
+/// Asks for a node or leaf ahead of time, without a branch on which it is.
 inline void prefetch(const Tree& tree, std::uint32_t child) {
-    const char* at = child & flag ? reinterpret_cast<const char*>(tree.leaves + (child & ~flag))
-                                  : reinterpret_cast<const char*>(tree.nodes + child);
+    const char* const base[2] = {reinterpret_cast<const char*>(tree.nodes),
+                                 reinterpret_cast<const char*>(tree.leaves)};
+    constexpr unsigned long size[2] = {sizeof(Node), sizeof(Leaf)};
+    const unsigned is_leaf = child >> 31;
+    const char* at = base[is_leaf] + size[is_leaf] * (child & ~flag);
     for (unsigned line = 0; line < sizeof(Leaf); line += 64)
         __builtin_prefetch(at + line);
 }
