@@ -5,7 +5,8 @@
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-inline constexpr unsigned few = 5; ///< rays that go on one by one
+inline constexpr unsigned few = 5;         ///< rays that leave the packet
+inline constexpr unsigned few_in_leaf = 8; ///< rays that are held against eight triangles at once
 
 inline unsigned count_bits(Bits bits) { return static_cast<unsigned>(__builtin_popcount(bits)); }
 
@@ -231,7 +232,9 @@ struct Errands {
 };
 
 /// Sends a packet through the tree: on_leaf(leaf, lanes); on_few(child, lanes, enter) for subtrees.
-template <class OnLeaf, class OnFew>
+/// `culls`: hits shorten rays, so a ray that has left gets all that follows as errands, to be done
+/// when the hits of its first ones are known.
+template <bool culls, class OnLeaf, class OnFew>
 inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf, OnFew&& on_few) {
     const Pyramid pyramid(packet);
     PacketStack stack;
@@ -250,7 +253,8 @@ inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf
             leaving = lanes;
         if (leaving) {
             on_few(child, leaving, enter);
-            alone |= leaving;
+            if (culls)
+                alone |= leaving;
             lanes &= ~leaving;
             if (!lanes)
                 continue;
@@ -318,6 +322,22 @@ inline void sift_packet(const Leaf& leaf, const SharedLeaf& shared, const Packet
     }
 }
 
+/// The same where few lanes are left: visit(lane, slot, low, high, known, inside, front).
+template <class Visit>
+inline void sift_lanes(const Leaf& leaf, const SharedLeaf& shared, const Packet& packet, Bits lanes,
+                       Visit&& visit) {
+    for (; lanes; lanes &= lanes - 1) {
+        const unsigned lane = first_of(lanes);
+        const float direction[3] = {packet.direction[0][lane], packet.direction[1][lane],
+                                    packet.direction[2][lane]};
+        const Sifted<F8> sifted = shared.sift(direction);
+        if (const Bits maybe = sifted.maybe())
+            visit_slots(leaf, sifted,
+                        Interval<F8>(sifted, F8::load(shared.volume), F8::load(shared.size)), maybe,
+                        packet.from, [&](auto... told) { return visit(lane, told...); });
+    }
+}
+
 /// The nearest of the packet's lanes one by one, as the single kernels and the judge see them.
 struct LaneNearest {
     Packet& packet;
@@ -380,10 +400,18 @@ inline void closest_bundle(const Tree& tree, Packet* packets, unsigned rays, con
     Errands errands(rays);
     for (unsigned first = 0; first < rays; first += packet_size) {
         Packet& packet = packets[first / packet_size];
-        walk_packet(
+        walk_packet<true>(
             tree, packet,
             [&](const Leaf& leaf, Bits lanes) {
                 const SharedLeaf shared(leaf, packet.origin);
+                if (count_bits(lanes) <= few_in_leaf)
+                    return sift_lanes(leaf, shared, packet, lanes,
+                                      [&](unsigned lane, auto... told) {
+                                          LaneNearest own(packet, lane);
+                                          consider(told..., lane_of(packet, lane), first + lane,
+                                                   own.nearest, judge);
+                                          return false;
+                                      });
                 sift_packet(leaf, shared, packet, lanes,
                             [&](unsigned k, const Sifted<F16>& sifted, Bits maybe) {
                                 consider_lanes(leaf, shared, k, sifted, maybe, first, packet,
@@ -414,10 +442,17 @@ inline void count_bundle(const Tree& tree, Packet* packets, unsigned rays, const
     Errands errands(rays);
     for (unsigned first = 0; first < rays; first += packet_size) {
         Packet& packet = packets[first / packet_size];
-        walk_packet(
+        walk_packet<false>(
             tree, packet,
             [&](const Leaf& leaf, Bits lanes) {
                 const SharedLeaf shared(leaf, packet.origin);
+                if (count_bits(lanes) <= few_in_leaf)
+                    return sift_lanes(
+                        leaf, shared, packet, lanes, [&](unsigned lane, auto... told) {
+                            packet.slot[lane] += pierces(told..., lane_of(packet, lane),
+                                                         first + lane, infinity, infinity, judge);
+                            return false;
+                        });
                 sift_packet(leaf, shared, packet, lanes,
                             [&](unsigned k, const Sifted<F16>& sifted, Bits maybe) {
                                 count_lanes(leaf, shared, k, sifted, maybe, first, packet, judge);

@@ -9,25 +9,28 @@ inline constexpr float slab_slack = 1 + 0x1p-20f;
 /// The ray as the box tests take it: a plane p is met at p * inverse + offset.
 struct SlabRay {
     float inverse[3], offset[3];
-    unsigned near[3]; ///< which plane of an axis is met first
+    unsigned near[3], far[3]; ///< where in a node the planes lie that are met first and last
 
     void set(const FloatRay& ray) {
         for (unsigned i = 0; i < 3; ++i) {
             inverse[i] = ray.inverse[i];
             offset[i] = -ray.origin[i] * ray.inverse[i];
-            near[i] = 2 * i + (ray.inverse[i] < 0);
+            near[i] = width * (2 * i + (ray.inverse[i] < 0));
+            far[i] = near[i] ^ width;
         }
     }
 };
 
 /// Pushes the children met before t_max.
 inline void visit_node(const Node& node, const SlabRay& ray, float t_max, Stack& stack) {
-    const auto met_at = [&](unsigned axis, unsigned far) {
-        return F8::load(node.plane[ray.near[axis] ^ far]) * F8::splat(ray.inverse[axis]) +
+    const auto met_at = [&](const unsigned* place, unsigned axis) {
+        return F8::load(node.plane[0] + place[axis]) * F8::splat(ray.inverse[axis]) +
                F8::splat(ray.offset[axis]);
     };
-    const F8 enter = max(max(met_at(0, 0), met_at(1, 0)), max(met_at(2, 0), F8::splat(0)));
-    const F8 leave = min(min(met_at(0, 1), met_at(1, 1)), min(met_at(2, 1), F8::splat(t_max)));
+    const F8 enter =
+        max(max(met_at(ray.near, 0), met_at(ray.near, 1)), max(met_at(ray.near, 2), F8::splat(0)));
+    const F8 leave =
+        min(min(met_at(ray.far, 0), met_at(ray.far, 1)), min(met_at(ray.far, 2), F8::splat(t_max)));
     stack.push(node, enter, leave * F8::splat(slab_slack));
 }
 
@@ -72,27 +75,31 @@ struct LeafTest {
     }
 };
 
-/// The slots that a ray may strike, one by one: visit(slot, low, high, known, inside, front).
+/// The slots in `maybe`, one by one: visit(slot, low, high, known, inside, front), true to stop.
 /// `known`: low and high bound t; `inside`: the ray surely passes within the edges.
 template <class Visit>
-inline void sift_leaf(const Leaf& leaf, const FloatRay& ray, Visit&& visit) {
-    const LeafTest test(leaf, ray);
-    Bits maybe = test.sifted.maybe();
-    if (!maybe)
-        return;
-    const Interval<F8> t = test.interval();
-    const Bits inside = test.sifted.inside(), front = test.sifted.front();
+inline void visit_slots(const Leaf& leaf, const Sifted<F8>& sifted, const Interval<F8>& t,
+                        Bits maybe, std::uint32_t from, Visit&& visit) {
+    const Bits inside = sifted.inside(), front = sifted.front();
     alignas(64) float low[width], high[width];
     t.low.store(low);
     t.high.store(high);
     for (; maybe; maybe &= maybe - 1) {
         const unsigned k = first_of(maybe);
         const Bits bit = Bits{1} << k;
-        if ((leaf.slot[k] & ~flag) != ray.from)
+        if ((leaf.slot[k] & ~flag) != from)
             if (visit(leaf.slot[k], low[k], high[k], (t.known & bit) != 0, (inside & bit) != 0,
                       (front & bit) != 0))
                 return;
     }
+}
+
+/// The slots of a leaf that a ray may strike.
+template <class Visit>
+inline void sift_leaf(const Leaf& leaf, const FloatRay& ray, Visit&& visit) {
+    const LeafTest test(leaf, ray);
+    if (const Bits maybe = test.sifted.maybe())
+        visit_slots(leaf, test.sifted, test.interval(), maybe, ray.from, visit);
 }
 
 /// A slot that may be struck against the nearest so far.
@@ -149,18 +156,24 @@ inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, floa
     return blocked;
 }
 
+/// Whether a slot that may be struck counts.
+inline bool pierces(std::uint32_t slot, float low, float high, bool known, bool inside, bool,
+                    const FloatRay& ray, unsigned index, float t_low, float t_high,
+                    const Judge& judge) {
+    if (known && (low > t_high || high < ray.t_min_low))
+        return false;
+    return (inside && known && low > ray.t_min_high && high < t_low) ||
+           judge.counts(judge.query, index, slot);
+}
+
 /// How many facets of a leaf are pierced.
 inline std::uint32_t count_in(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low,
                               float t_high, const Judge& judge) {
     std::uint32_t pierced = 0;
-    sift_leaf(leaf, ray,
-              [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool) {
-                  if (known && (low > t_high || high < ray.t_min_low))
-                      return false;
-                  pierced += (inside && known && low > ray.t_min_high && high < t_low) ||
-                             judge.counts(judge.query, index, slot);
-                  return false;
-              });
+    sift_leaf(leaf, ray, [&](auto... told) {
+        pierced += pierces(told..., ray, index, t_low, t_high, judge);
+        return false;
+    });
     return pierced;
 }
 

@@ -39,9 +39,9 @@ inline void prefetch(const Tree& tree, std::uint32_t child) {
 
 /// Walkers by what they do next.
 struct Queue {
-    std::uint32_t walker[wave_size];
+    Walker* walker[wave_size];
     unsigned size = 0;
-    void add_if(bool is_mine, std::uint32_t w) {
+    void add_if(bool is_mine, Walker* w) {
         walker[size] = w;
         size += is_mine;
     }
@@ -54,23 +54,22 @@ inline void wave(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
     Walker walkers[wave_size];
     Queue nodes, leaves;
     // Puts a walker into the queue of its next visit, or lets it begin with the next ray.
-    const auto send_on = [&](std::uint32_t w, bool more, Queue& to_nodes) {
-        Walker& walker = walkers[w];
+    const auto send_on = [&](Walker& walker, bool more, Queue& to_nodes) {
         if (!more && !begin(walker))
             return;
         const bool leaf = (walker.next & flag) != 0;
         prefetch(tree, walker.next);
-        to_nodes.add_if(!leaf, w);
-        leaves.add_if(leaf, w);
+        to_nodes.add_if(!leaf, &walker);
+        leaves.add_if(leaf, &walker);
     };
-    for (std::uint32_t w = 0; w < wave_size; ++w)
-        send_on(w, false, nodes);
+    for (Walker& walker : walkers)
+        send_on(walker, false, nodes);
     while (nodes.size + leaves.size > 0) {
         Queue again;
         for (unsigned i = 0; i < nodes.size; ++i) {
-            Walker& walker = walkers[nodes.walker[i]];
+            Walker& walker = *nodes.walker[i];
             visit_node(tree.nodes[walker.next], walker.slabs, walker.t_max, walker.stack);
-            send_on(nodes.walker[i], walker.pop(), again);
+            send_on(walker, walker.pop(), again);
         }
         nodes = again;
         if (nodes.size > leaves.size)
@@ -78,9 +77,9 @@ inline void wave(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
         const Queue visited = leaves;
         leaves.size = 0;
         for (unsigned i = 0; i < visited.size; ++i) {
-            Walker& walker = walkers[visited.walker[i]];
+            Walker& walker = *visited.walker[i];
             const bool done = on_leaf(walker, tree.leaves[walker.next & ~flag]);
-            send_on(visited.walker[i], !done && walker.pop(), nodes);
+            send_on(walker, !done && walker.pop(), nodes);
         }
     }
 }
