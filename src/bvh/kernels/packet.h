@@ -186,6 +186,7 @@ struct PacketStack {
     unsigned top = 0;
 
     /// Adds the children of a node that some of the lanes meet.
+    template <Rays rays>
     void push(const Tree& tree, std::uint32_t index, const Packet& packet, const Pyramid& pyramid,
               Bits lanes) {
         // Covers the roundings of the pyramid; the boxes are widened for those of the rays.
@@ -196,8 +197,10 @@ struct PacketStack {
         const F8 distance = boxes.distance();
         std::uint32_t child[width];
         float unused[width];
-        const unsigned count = push_sorted(names, distance, boxes.outside(pyramid, distance),
-                                           F8::splat(tolerance), child, unused);
+        const F8 outside = boxes.outside(pyramid, distance), limit = F8::splat(tolerance);
+        const unsigned count = rays == Rays::stop
+                                   ? push_sorted(names, distance, outside, limit, child, unused)
+                                   : push_unsorted(names, outside, limit, child);
         for (unsigned i = 0; i < count; ++i) {
             Entry& to = entry[top];
             F16 enter;
@@ -232,14 +235,14 @@ struct Errands {
 };
 
 /// Sends a packet through the tree: on_leaf(leaf, lanes); on_few(child, lanes, enter) for subtrees.
-/// `culls`: hits shorten rays, so a ray that has left gets all that follows as errands, to be done
+/// Where hits stop rays, a ray that has left gets all that follows as errands, to be done
 /// when the hits of its first ones are known.
-template <bool culls, class OnLeaf, class OnFew>
+template <Rays rays, class OnLeaf, class OnFew>
 inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf, OnFew&& on_few) {
     const Pyramid pyramid(packet);
     PacketStack stack;
     Bits alone = 0; // lanes that have left the packet
-    stack.push(tree, 0, packet, pyramid, packet.lanes);
+    stack.push<rays>(tree, 0, packet, pyramid, packet.lanes);
     while (stack.top > 0) {
         const PacketStack::Entry& entry = stack.entry[--stack.top];
         const F16 enter = F16::load(entry.enter);
@@ -253,7 +256,7 @@ inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf
             leaving = lanes;
         if (leaving) {
             on_few(child, leaving, enter);
-            if (culls)
+            if (rays == Rays::stop)
                 alone |= leaving;
             lanes &= ~leaving;
             if (!lanes)
@@ -262,7 +265,7 @@ inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf
         if (child & flag)
             on_leaf(tree.leaves[child & ~flag], lanes);
         else
-            stack.push(tree, child, packet, pyramid, lanes);
+            stack.push<rays>(tree, child, packet, pyramid, lanes);
     }
 }
 
@@ -280,6 +283,7 @@ inline void send_on_errand(Errands& errands, unsigned first, std::uint32_t child
 }
 
 /// Begins the rays that have errands, each with all of them on its stack.
+template <Rays rays>
 struct FromErrands {
     Errands& errands;
     const Packet* packets;
@@ -296,7 +300,7 @@ struct FromErrands {
             walker.take(errands.ray[k], k, packet.high[k % packet_size]);
             for (unsigned i = n; i-- > 0;)
                 walker.stack.push_one(errands.child[k][i], errands.enter[k][i]);
-            if (walker.pop()) {
+            if (walker.pop<rays>()) {
                 ++started;
                 return true;
             }
@@ -396,11 +400,11 @@ inline void count_lanes(const Leaf& leaf, const SharedLeaf& shared, unsigned k,
 }
 
 /// The nearest facet of each ray of up to bundle_size in packets.
-inline void closest_bundle(const Tree& tree, Packet* packets, unsigned rays, const Judge& judge) {
-    Errands errands(rays);
-    for (unsigned first = 0; first < rays; first += packet_size) {
+inline void closest_bundle(const Tree& tree, Packet* packets, unsigned number, const Judge& judge) {
+    Errands errands(number);
+    for (unsigned first = 0; first < number; first += packet_size) {
         Packet& packet = packets[first / packet_size];
-        walk_packet<true>(
+        walk_packet<Rays::stop>(
             tree, packet,
             [&](const Leaf& leaf, Bits lanes) {
                 const SharedLeaf shared(leaf, packet.origin);
@@ -427,22 +431,23 @@ inline void closest_bundle(const Tree& tree, Packet* packets, unsigned rays, con
             });
     }
     unsigned started = 0;
-    wave(tree, FromErrands{errands, packets, rays, started}, [&](Walker& walker, const Leaf& leaf) {
-        const unsigned k = walker.index;
-        LaneNearest own(packets[k / packet_size], k % packet_size);
-        closest_in(leaf, *walker.ray, k, own.nearest, judge);
-        walker.t_max = own.nearest.high;
-        return false;
-    });
+    wave<Rays::stop>(tree, FromErrands<Rays::stop>{errands, packets, number, started},
+                     [&](Walker& walker, const Leaf& leaf) {
+                         const unsigned k = walker.index;
+                         LaneNearest own(packets[k / packet_size], k % packet_size);
+                         closest_in(leaf, *walker.ray, k, own.nearest, judge);
+                         walker.t_max = own.nearest.high;
+                         return false;
+                     });
 }
 
 /// How many facets each ray pierces, added to Packet::slot.
-inline void count_bundle(const Tree& tree, Packet* packets, unsigned rays, const Judge& judge) {
+inline void count_bundle(const Tree& tree, Packet* packets, unsigned number, const Judge& judge) {
     constexpr float infinity = __builtin_inff();
-    Errands errands(rays);
-    for (unsigned first = 0; first < rays; first += packet_size) {
+    Errands errands(number);
+    for (unsigned first = 0; first < number; first += packet_size) {
         Packet& packet = packets[first / packet_size];
-        walk_packet<false>(
+        walk_packet<Rays::pierce>(
             tree, packet,
             [&](const Leaf& leaf, Bits lanes) {
                 const SharedLeaf shared(leaf, packet.origin);
@@ -466,12 +471,13 @@ inline void count_bundle(const Tree& tree, Packet* packets, unsigned rays, const
             });
     }
     unsigned started = 0;
-    wave(tree, FromErrands{errands, packets, rays, started}, [&](Walker& walker, const Leaf& leaf) {
-        const unsigned k = walker.index;
-        packets[k / packet_size].slot[k % packet_size] +=
-            count_in(leaf, *walker.ray, k, infinity, infinity, judge);
-        return false;
-    });
+    wave<Rays::pierce>(tree, FromErrands<Rays::pierce>{errands, packets, number, started},
+                       [&](Walker& walker, const Leaf& leaf) {
+                           const unsigned k = walker.index;
+                           packets[k / packet_size].slot[k % packet_size] +=
+                               count_in(leaf, *walker.ray, k, infinity, infinity, judge);
+                           return false;
+                       });
 }
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

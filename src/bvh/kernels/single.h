@@ -22,6 +22,7 @@ struct SlabRay {
 };
 
 /// Pushes the children met before t_max.
+template <Rays rays>
 inline void visit_node(const Node& node, const SlabRay& ray, float t_max, Stack& stack) {
     const auto met_at = [&](const unsigned* place, unsigned axis) {
         return F8::load(node.plane[0] + place[axis]) * F8::splat(ray.inverse[axis]) +
@@ -31,11 +32,11 @@ inline void visit_node(const Node& node, const SlabRay& ray, float t_max, Stack&
         max(max(met_at(ray.near, 0), met_at(ray.near, 1)), max(met_at(ray.near, 2), F8::splat(0)));
     const F8 leave =
         min(min(met_at(ray.far, 0), met_at(ray.far, 1)), min(met_at(ray.far, 2), F8::splat(t_max)));
-    stack.push(node, enter, leave * F8::splat(slab_slack));
+    stack.push<rays>(node, enter, leave * F8::splat(slab_slack));
 }
 
 /// Depth-first from `root`; leaf(const Leaf&) returns true to stop; t_max may shrink meanwhile.
-template <class OnLeaf>
+template <Rays rays, class OnLeaf>
 inline void walk(const Tree& tree, std::uint32_t root, const FloatRay& ray, const float& t_max,
                  OnLeaf&& on_leaf) {
     SlabRay slabs;
@@ -45,10 +46,10 @@ inline void walk(const Tree& tree, std::uint32_t root, const FloatRay& ray, cons
     std::uint32_t now = root;
     do {
         if ((now & flag) == 0)
-            visit_node(tree.nodes[now], slabs, t_max, stack);
+            visit_node<rays>(tree.nodes[now], slabs, t_max, stack);
         else if (on_leaf(tree.leaves[now & ~flag]))
             return;
-    } while (stack.pop(t_max * slab_slack, now));
+    } while (stack.pop<rays>(t_max * slab_slack, now));
 }
 
 inline V3<F8> load3(const float (&p)[3][width]) {
@@ -115,7 +116,7 @@ inline void consider(std::uint32_t slot, float low, float high, bool known, bool
 
 inline void closest_from(const Tree& tree, std::uint32_t root, const FloatRay& ray, unsigned index,
                          Nearest& nearest, const Judge& judge) {
-    walk(tree, root, ray, nearest.high, [&](const Leaf& leaf) {
+    walk<Rays::stop>(tree, root, ray, nearest.high, [&](const Leaf& leaf) {
         sift_leaf(
             leaf, ray,
             [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool front) {
@@ -149,7 +150,7 @@ inline bool blocks(const Leaf& leaf, const FloatRay& ray, unsigned index, float 
 inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
                      float t_high, std::uint32_t target, const Judge& judge) {
     bool blocked = false;
-    walk(tree, 0, ray, t_high, [&](const Leaf& leaf) {
+    walk<Rays::stop>(tree, 0, ray, t_high, [&](const Leaf& leaf) {
         blocked = blocks(leaf, ray, index, t_low, t_high, target, judge);
         return blocked;
     });
@@ -180,7 +181,7 @@ inline std::uint32_t count_in(const Leaf& leaf, const FloatRay& ray, unsigned in
 inline std::uint32_t count_from(const Tree& tree, std::uint32_t root, const FloatRay& ray,
                                 unsigned index, float t_low, float t_high, const Judge& judge) {
     std::uint32_t pierced = 0;
-    walk(tree, root, ray, t_high, [&](const Leaf& leaf) {
+    walk<Rays::pierce>(tree, root, ray, t_high, [&](const Leaf& leaf) {
         pierced += count_in(leaf, ray, index, t_low, t_high, judge);
         return false;
     });

@@ -68,6 +68,26 @@ inline unsigned push_sorted(const std::uint32_t* names, F8 distances, F8 low, F8
 
 #endif
 
+/// The same in any order, where the order does not matter; distances are not written.
+inline unsigned push_unsorted(const std::uint32_t* names, F8 low, F8 high, std::uint32_t* name) {
+    Bits met = less_equal(low, high);
+#if defined(__AVX512VL__)
+    _mm256_storeu_si256(
+        reinterpret_cast<__m256i*>(name),
+        _mm256_maskz_compress_epi32(static_cast<__mmask8>(met),
+                                    _mm256_load_si256(reinterpret_cast<const __m256i*>(names))));
+    return static_cast<unsigned>(__builtin_popcount(met));
+#else
+    unsigned count = 0;
+    for (; met; met &= met - 1)
+        name[count++] = names[first_of(met)];
+    return count;
+#endif
+}
+
+/// Whether rays are stopped by what they hit, or pierce everything: then no order is kept.
+enum class Rays { stop, pierce };
+
 /// What remains to be visited, the nearest on top. At the bottom lies an entry that says so.
 struct Stack {
     std::uint32_t child[stack_size + width + 1];
@@ -83,11 +103,20 @@ struct Stack {
         child[top] = c;
         enter[top++] = at;
     }
+    template <Rays rays>
     void push(const Node& node, F8 from, F8 to) {
-        top += push_sorted(node.child, from, from, to, child + top, enter + top);
+        if constexpr (rays == Rays::stop)
+            top += push_sorted(node.child, from, from, to, child + top, enter + top);
+        else
+            top += push_unsorted(node.child, from, to, child + top);
     }
     /// Takes the topmost entry that lies before `limit`; false: there is none.
+    template <Rays rays>
     bool pop(float limit, std::uint32_t& next) {
+        if constexpr (rays == Rays::pierce) {
+            next = child[--top];
+            return next != no_facet;
+        }
         unsigned t = top - 1;
         t -= enter[t] > limit; // how many there are is hard to foresee for the processor
         t -= enter[t] > limit;

@@ -23,7 +23,10 @@ struct alignas(64) Walker {
         t_max = t_max_;
         stack.clear();
     }
-    bool pop() { return stack.pop(t_max * slab_slack, next); }
+    template <Rays rays>
+    bool pop() {
+        return stack.pop<rays>(t_max * slab_slack, next);
+    }
 };
 
 /// Asks for a node or leaf ahead of time, without a branch on which it is.
@@ -49,7 +52,7 @@ struct Queue {
 
 /// Sends rays through the tree. begin(walker) makes it the next ray and returns false when there is
 /// none; on_leaf(walker, leaf) may shrink walker.t_max and returns true when the ray is done.
-template <class Begin, class OnLeaf>
+template <Rays rays, class Begin, class OnLeaf>
 inline void wave(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
     Walker walkers[wave_size];
     Queue nodes, leaves;
@@ -68,8 +71,8 @@ inline void wave(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
         Queue again;
         for (unsigned i = 0; i < nodes.size; ++i) {
             Walker& walker = *nodes.walker[i];
-            visit_node(tree.nodes[walker.next], walker.slabs, walker.t_max, walker.stack);
-            send_on(walker, walker.pop(), again);
+            visit_node<rays>(tree.nodes[walker.next], walker.slabs, walker.t_max, walker.stack);
+            send_on(walker, walker.pop<rays>(), again);
         }
         nodes = again;
         if (nodes.size > leaves.size)
@@ -79,7 +82,7 @@ inline void wave(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
         for (unsigned i = 0; i < visited.size; ++i) {
             Walker& walker = *visited.walker[i];
             const bool done = on_leaf(walker, tree.leaves[walker.next & ~flag]);
-            send_on(walker, !done && walker.pop(), nodes);
+            send_on(walker, !done && walker.pop<rays>(), nodes);
         }
     }
 }
@@ -113,11 +116,12 @@ inline void closest_in(const Leaf& leaf, const FloatRay& ray, unsigned index, Ne
 inline void closest_stream(const Tree& tree, const FloatRay* rays, unsigned count, Nearest* nearest,
                            const Judge& judge) {
     unsigned started = 0;
-    wave(tree, FromArray{rays, count, nearest, started}, [&](Walker& walker, const Leaf& leaf) {
-        closest_in(leaf, *walker.ray, walker.index, nearest[walker.index], judge);
-        walker.t_max = nearest[walker.index].high;
-        return false;
-    });
+    wave<Rays::stop>(tree, FromArray{rays, count, nearest, started},
+                     [&](Walker& walker, const Leaf& leaf) {
+                         closest_in(leaf, *walker.ray, walker.index, nearest[walker.index], judge);
+                         walker.t_max = nearest[walker.index].high;
+                         return false;
+                     });
 }
 
 inline void occluded_stream(const Tree& tree, const FloatRay* rays, unsigned count,
@@ -126,11 +130,12 @@ inline void occluded_stream(const Tree& tree, const FloatRay* rays, unsigned cou
     for (unsigned k = 0; k < count; ++k)
         blocked[k] = 0;
     unsigned started = 0;
-    wave(tree, FromArray{rays, count, t, started}, [&](Walker& walker, const Leaf& leaf) {
-        const unsigned k = walker.index;
-        blocked[k] = blocks(leaf, *walker.ray, k, t[k].low, t[k].high, targets[k], judge);
-        return blocked[k] != 0;
-    });
+    wave<Rays::stop>(
+        tree, FromArray{rays, count, t, started}, [&](Walker& walker, const Leaf& leaf) {
+            const unsigned k = walker.index;
+            blocked[k] = blocks(leaf, *walker.ray, k, t[k].low, t[k].high, targets[k], judge);
+            return blocked[k] != 0;
+        });
 }
 
 } // namespace hemilux::wide::HEMILUX_KERNELS
