@@ -100,7 +100,7 @@ class Builder {
     void fill(Part& part, std::uint32_t node, const Range& range, unsigned depth, bool upper) {
         part.depth = std::max(part.depth, depth);
         part.cost += static_cast<double>(range.box.half_area());
-        std::array<Range, width> children;
+        std::array<Range, width> children{};
         children[0] = range;
         unsigned count = 1;
         for (; count < width; ++count) {
@@ -117,6 +117,27 @@ class Builder {
                   [](const Range& a, const Range& b) { return a.begin < b.begin; });
         for (unsigned c = 0; c < width; ++c)
             set_child(part, node, c, c < count ? children[c] : Range{}, depth, upper);
+        set_order(part.nodes[node], children);
+    }
+
+    /// Along the diagonal of each octant, the farthest first.
+    static void set_order(Node& node, const std::array<Range, width>& children) {
+        for (unsigned octant = 0; octant < width; ++octant) {
+            std::array<float, width> along;
+            std::array<unsigned, width> order;
+            for (unsigned c = 0; c < width; ++c) {
+                order[c] = c;
+                const FloatBox& box = children[c].box;
+                along[c] = children[c].size() > 0 ? 0 : std::numeric_limits<float>::infinity();
+                for (unsigned i = 0; i < 3 && children[c].size() > 0; ++i)
+                    along[c] += (octant >> i & 1 ? -1.0f : 1.0f) * (box.low.v[i] + box.high.v[i]);
+            }
+            std::stable_sort(order.begin(), order.end(),
+                             [&](unsigned a, unsigned b) { return along[a] > along[b]; });
+            node.order[octant] = 0;
+            for (unsigned k = 0; k < width; ++k)
+                node.order[octant] |= order[k] << (4 * k);
+        }
     }
 
     /// The part with the largest surface of those that are too many for a leaf; width: none.

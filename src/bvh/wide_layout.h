@@ -20,6 +20,9 @@ inline constexpr std::uint32_t flag = 0x80000000u; ///< child: a leaf; slot: sec
 struct alignas(64) Node {
     float plane[6][width];
     std::uint32_t child[width]; ///< index of a node, or of a leaf with `flag`
+    /// For each octant of directions (bit i: component i is negative) the children, four bits each,
+    /// the one to be visited last in the lowest.
+    std::uint32_t order[width];
 };
 
 /// Up to eight triangles: one corner and the two edges from it. Unused slots have edges of zero,

@@ -14,19 +14,20 @@ inline V3<F16> load16(const float (&p)[3][packet_size]) {
     return {F16::load(p[0]), F16::load(p[1]), F16::load(p[2])};
 }
 
-/// Four planes through the origin that hold all rays between them; none if the rays go too far
-/// apart.
+/// Four planes through the origin that hold all rays between them. If the rays go too far apart,
+/// all boxes lie within, but not those of absent children, which are infinitely far away.
 struct Pyramid {
-    bool exists = false;
     float normal[4][3];     ///< outward
     unsigned nearest[4][3]; ///< which planes of a box meet in the corner that is farthest inward
+    unsigned octant;        ///< of the mean direction
 
     explicit Pyramid(const Packet& packet) {
         const V3<F16> d = load16(packet.direction);
-        float axis[3], x[3], y[3];
-        axis[0] = total(d.x);
-        axis[1] = total(d.y);
-        axis[2] = total(d.z);
+        float axis[3] = {total(d.x), total(d.y), total(d.z)}, x[3], y[3];
+        octant = octant_of(axis);
+        for (unsigned k = 0; k < 4; ++k)
+            for (unsigned i = 0; i < 3; ++i)
+                set(k, i, 0);
         if (!(length(axis) > 1))
             return;
         scale(axis, 1 / length(axis));
@@ -35,7 +36,6 @@ struct Pyramid {
         constexpr float least_forward = 0.15f;
         if (!(lowest(forward) > least_forward))
             return;
-        exists = true;
         set_planes(0, axis, x, dot(d, V3<F16>::splat(x)) / forward);
         set_planes(2, axis, y, dot(d, V3<F16>::splat(y)) / forward);
     }
@@ -45,11 +45,14 @@ struct Pyramid {
     void set_planes(unsigned first, const float* axis, const float* side, F16 slope) {
         const float low = lowest(slope), high = -lowest(F16::splat(0) - slope);
         for (unsigned i = 0; i < 3; ++i) {
-            normal[first][i] = side[i] - high * axis[i];
-            normal[first + 1][i] = low * axis[i] - side[i];
-            nearest[first][i] = 2 * i + (normal[first][i] < 0);
-            nearest[first + 1][i] = 2 * i + (normal[first + 1][i] < 0);
+            set(first, i, side[i] - high * axis[i]);
+            set(first + 1, i, low * axis[i] - side[i]);
         }
+    }
+    /// Never quite zero: infinity times it is to be infinity.
+    void set(unsigned k, unsigned i, float n) {
+        normal[k][i] = n < 0 ? n - 1e-20f : n + 1e-20f;
+        nearest[k][i] = 2 * i + (n < 0);
     }
     /// Two directions that make a frame with the axis (Duff et al. 2017).
     static void across(const float* n, float* x, float* y) {
@@ -85,27 +88,14 @@ struct RelativeBoxes {
         for (unsigned p = 0; p < 6; ++p)
             plane[p] = F8::load(node.plane[p]) - F8::splat(origin[p / 2]);
     }
-    /// By how much each box lies outside the pyramid; absent boxes lie infinitely far outside.
-    [[nodiscard]] F8 outside(const Pyramid& pyramid, F8 square_distance) const {
-        const F8 absence = square_distance - F8::splat(1e30f);
-        if (!pyramid.exists)
-            return absence;
+    /// By how much each box lies outside the pyramid.
+    [[nodiscard]] F8 outside(const Pyramid& pyramid) const {
         const auto beyond = [&](unsigned k) {
             return plane[pyramid.nearest[k][0]] * F8::splat(pyramid.normal[k][0]) +
                    plane[pyramid.nearest[k][1]] * F8::splat(pyramid.normal[k][1]) +
                    plane[pyramid.nearest[k][2]] * F8::splat(pyramid.normal[k][2]);
         };
-        const F8 out = max(max(beyond(0), beyond(1)), max(beyond(2), beyond(3)));
-        return max(out, absence); // in this order: out may be NaN for absent boxes
-    }
-    /// The square of each box's distance from the origin: absent boxes are infinitely far.
-    [[nodiscard]] F8 distance() const {
-        F8 sum = F8::splat(0);
-        for (unsigned p = 0; p < 6; p += 2) {
-            const F8 d = max(max(plane[p], F8::splat(0) - plane[p + 1]), F8::splat(0));
-            sum = sum + d * d;
-        }
-        return sum;
+        return max(max(beyond(0), beyond(1)), max(beyond(2), beyond(3)));
     }
 };
 
@@ -186,21 +176,17 @@ struct PacketStack {
     unsigned top = 0;
 
     /// Adds the children of a node that some of the lanes meet.
-    template <Rays rays>
     void push(const Tree& tree, std::uint32_t index, const Packet& packet, const Pyramid& pyramid,
               Bits lanes) {
         // Covers the roundings of the pyramid; the boxes are widened for those of the rays.
         constexpr float tolerance = 0x1p-17f;
-        static constexpr std::uint32_t names[width] alignas(64) = {0, 1, 2, 3, 4, 5, 6, 7};
+        alignas(64) static constexpr std::uint32_t names[width] = {0, 1, 2, 3, 4, 5, 6, 7};
         const Node& node = tree.nodes[index];
-        const RelativeBoxes boxes(node, packet.origin);
-        const F8 distance = boxes.distance();
+        const F8 outside = RelativeBoxes(node, packet.origin).outside(pyramid);
+        const Ordering ordering(node, pyramid.octant, outside, F8::splat(tolerance));
         std::uint32_t child[width];
-        float unused[width];
-        const F8 outside = boxes.outside(pyramid, distance), limit = F8::splat(tolerance);
-        const unsigned count = rays == Rays::stop
-                                   ? push_sorted(names, distance, outside, limit, child, unused)
-                                   : push_unsorted(names, outside, limit, child);
+        ordering.store(names, child);
+        const unsigned count = ordering.count();
         for (unsigned i = 0; i < count; ++i) {
             Entry& to = entry[top];
             F16 enter;
@@ -242,7 +228,7 @@ inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf
     const Pyramid pyramid(packet);
     PacketStack stack;
     Bits alone = 0; // lanes that have left the packet
-    stack.push<rays>(tree, 0, packet, pyramid, packet.lanes);
+    stack.push(tree, 0, packet, pyramid, packet.lanes);
     while (stack.top > 0) {
         const PacketStack::Entry& entry = stack.entry[--stack.top];
         const F16 enter = F16::load(entry.enter);
@@ -265,7 +251,7 @@ inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf
         if (child & flag)
             on_leaf(tree.leaves[child & ~flag], lanes);
         else
-            stack.push<rays>(tree, child, packet, pyramid, lanes);
+            stack.push(tree, child, packet, pyramid, lanes);
     }
 }
 

@@ -9,9 +9,11 @@ inline constexpr float slab_slack = 1 + 0x1p-20f;
 /// The ray as the box tests take it: a plane p is met at p * inverse + offset.
 struct SlabRay {
     float inverse[3], offset[3];
+    unsigned octant;
     unsigned near[3], far[3]; ///< where in a node the planes lie that are met first and last
 
     void set(const FloatRay& ray) {
+        octant = octant_of(ray.inverse);
         for (unsigned i = 0; i < 3; ++i) {
             inverse[i] = ray.inverse[i];
             offset[i] = -ray.origin[i] * ray.inverse[i];
@@ -32,7 +34,7 @@ inline void visit_node(const Node& node, const SlabRay& ray, float t_max, Stack&
         max(max(met_at(ray.near, 0), met_at(ray.near, 1)), max(met_at(ray.near, 2), F8::splat(0)));
     const F8 leave =
         min(min(met_at(ray.far, 0), met_at(ray.far, 1)), min(met_at(ray.far, 2), F8::splat(t_max)));
-    stack.push<rays>(node, enter, leave * F8::splat(slab_slack));
+    stack.push<rays>(node, ray.octant, enter, leave * F8::splat(slab_slack));
 }
 
 /// Depth-first from `root`; leaf(const Leaf&) returns true to stop; t_max may shrink meanwhile.

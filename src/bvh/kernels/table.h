@@ -5,7 +5,7 @@
 
 #include "bvh/kernels/sieve.h"
 
-#include "bvh/kernels/sorted.h"
+#include "bvh/kernels/stack.h"
 
 #include "bvh/kernels/single.h"
 
