@@ -63,7 +63,7 @@ class Modeller {
   private:
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const Vec3 &p = scene_.vertices[a], &q = scene_.vertices[b], &r = scene_.vertices[c];
-        if (glm::length(glm::cross(q - p, r - p)) > 1e-18) // a sphere's poles
+        if (glm::length(glm::cross(q - p, r - p)) > 1e-12) // a sphere's poles
             scene_.facets.push_back({{a, b, c, c}, scene_.faces++, 0, 0});
     }
 

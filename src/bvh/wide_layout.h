@@ -35,6 +35,7 @@ struct alignas(64) Leaf {
 struct Tree {
     const Node* nodes; ///< null: nothing to strike
     const Leaf* leaves;
+    bool large; ///< does not fit the cache of a core, so what is needed next is fetched ahead
 };
 
 /// The deepest tree that the builder makes, and what a depth-first walk through it can pile up.
