@@ -89,7 +89,6 @@ bool bundle_fits(const Bundle& bundle, const wide::Space& space) {
 /// The first sixteen of the directions. Empty lanes repeat the first.
 void fill_packet(const FloatRay& shared, std::span<const Vec3> directions, const Nearest& start,
                  wide::Packet& packet) {
-    constexpr float least_slope = 1e-18f;
     const std::size_t n = std::min<std::size_t>(directions.size(), wide::packet_size);
     std::copy_n(shared.origin, 3, packet.origin);
     packet.t_min_low = shared.t_min_low;
@@ -98,13 +97,8 @@ void fill_packet(const FloatRay& shared, std::span<const Vec3> directions, const
     packet.lanes = (1u << n) - 1;
     for (std::size_t lane = 0; lane < wide::packet_size; ++lane) {
         const Vec3& direction = directions[lane < n ? lane : 0];
-        for (unsigned i = 0; i < 3; ++i) {
-            const auto d = static_cast<float>(direction[static_cast<int>(i)]);
-            packet.direction[i][lane] = d;
-            packet.inverse[i][lane] =
-                1.0f / (std::abs(d) < least_slope ? std::copysign(least_slope, d) : d);
-            packet.offset[i][lane] = -packet.origin[i] * packet.inverse[i][lane];
-        }
+        for (unsigned i = 0; i < 3; ++i)
+            packet.direction[i][lane] = static_cast<float>(direction[static_cast<int>(i)]);
         packet.low[lane] = start.low;
         packet.high[lane] = start.high;
         packet.slot[lane] = start.slot;

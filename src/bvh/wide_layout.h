@@ -64,7 +64,7 @@ inline constexpr unsigned packet_size = 16, bundle_size = 256;
 struct alignas(64) Packet {
     float direction[3][packet_size];
     float inverse[3][packet_size],
-        offset[3][packet_size];                          ///< a plane p is met at p*inverse + offset
+        offset[3][packet_size]; ///< a plane p is met at p * inverse + offset; set by the kernels
     float low[packet_size], high[packet_size];           ///< bounds of the nearest distance so far
     std::uint32_t slot[packet_size], front[packet_size]; ///< of the nearest; slot: also the count
     float origin[3];

@@ -5,8 +5,8 @@
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-inline constexpr unsigned few = 5;         ///< rays that leave the packet
-inline constexpr unsigned few_in_leaf = 8; ///< rays that are held against eight triangles at once
+inline constexpr unsigned few = 3;          ///< rays that leave the packet
+inline constexpr unsigned few_in_leaf = 12; ///< rays that are held against eight triangles at once
 
 inline unsigned count_bits(Bits bits) { return static_cast<unsigned>(__builtin_popcount(bits)); }
 
@@ -197,6 +197,17 @@ struct PacketStack {
         }
     }
 };
+
+/// Works out what the box tests need.
+inline void set_slabs(Packet& packet) {
+    const F16 least = F16::splat(1e-18f); // no plane then gives 0 times infinity
+    for (unsigned i = 0; i < 3; ++i) {
+        const F16 d = F16::load(packet.direction[i]);
+        const F16 inverse = F16::splat(1) / select(less(abs(d), least), least, d);
+        inverse.store(packet.inverse[i]);
+        (F16::splat(-packet.origin[i]) * inverse).store(packet.offset[i]);
+    }
+}
 
 /// Subtrees that single rays have still to visit, for each ray in order of distance.
 struct Errands {
@@ -390,6 +401,7 @@ inline void closest_bundle(const Tree& tree, Packet* packets, unsigned number, c
     Errands errands(number);
     for (unsigned first = 0; first < number; first += packet_size) {
         Packet& packet = packets[first / packet_size];
+        set_slabs(packet);
         walk_packet<Rays::stop>(
             tree, packet,
             [&](const Leaf& leaf, Bits lanes) {
@@ -433,6 +445,7 @@ inline void count_bundle(const Tree& tree, Packet* packets, unsigned number, con
     Errands errands(number);
     for (unsigned first = 0; first < number; first += packet_size) {
         Packet& packet = packets[first / packet_size];
+        set_slabs(packet);
         walk_packet<Rays::pierce>(
             tree, packet,
             [&](const Leaf& leaf, Bits lanes) {
