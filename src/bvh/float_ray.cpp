@@ -9,8 +9,6 @@ namespace {
 /// Below it a direction's component is taken for this in the box tests: the ray then strays by far
 /// less than the boxes are widened by, and no slab's plane gives 0 times infinity.
 constexpr double least_slope = 1e-18;
-/// More than the error of a scaled distance apart from its own rounding.
-constexpr double slack = 0x1p-30;
 constexpr double too_far = 0x1p20; ///< in sizes of the scene
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -69,16 +67,6 @@ Fit scale_ray(const Ray& given, const Space& space, FloatRay& ray) {
     ray.t_min_low = below(ray, given.t_min);
     ray.t_min_high = above(ray, given.t_min);
     return Fit::good;
-}
-
-float below(const FloatRay& scaled, double t) {
-    const double at = (t - scaled.skipped) * scaled.per_unit;
-    return static_cast<float>(at == infinity ? at : at - std::abs(at) * 0x1p-22 - slack);
-}
-
-float above(const FloatRay& scaled, double t) {
-    const double at = (t - scaled.skipped) * scaled.per_unit;
-    return static_cast<float>(at + std::abs(at) * 0x1p-22 + slack);
 }
 
 } // namespace hemilux::wide

@@ -4,6 +4,8 @@
 #include "bvh/tracer.h"
 #include "bvh/wide_layout.h"
 
+#include <cmath>
+
 namespace hemilux::wide {
 
 /// The box of the scene and the number its coordinates are divided by.
@@ -21,9 +23,18 @@ enum class Fit {
 
 [[nodiscard]] Fit scale_ray(const Ray& ray, const Space& space, FloatRay& scaled);
 
-/// Sure bounds of a distance in scaled units.
-[[nodiscard]] float below(const FloatRay& scaled, double t);
-[[nodiscard]] float above(const FloatRay& scaled, double t);
+/// More than the error of a scaled distance apart from its own rounding.
+inline constexpr double distance_slack = 0x1p-30;
+
+/// Sure bounds of a distance in scaled units; it may be infinite.
+[[nodiscard]] inline float below(const FloatRay& scaled, double t) {
+    const double at = (t - scaled.skipped) * scaled.per_unit;
+    return static_cast<float>(std::isinf(at) ? at : at - std::abs(at) * 0x1p-22 - distance_slack);
+}
+[[nodiscard]] inline float above(const FloatRay& scaled, double t) {
+    const double at = (t - scaled.skipped) * scaled.per_unit;
+    return static_cast<float>(at + std::abs(at) * 0x1p-22 + distance_slack);
+}
 
 /// Of a ray that has met nothing yet.
 [[nodiscard]] inline Nearest nothing_before(const FloatRay& scaled, double t_max) {
