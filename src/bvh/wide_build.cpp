@@ -104,11 +104,11 @@ class Builder {
         children[0] = range;
         unsigned count = 1;
         for (; count < width; ++count) {
-            const unsigned widest = choose(children, count);
+            const bool balanced = depth >= balanced_below;
+            const unsigned widest = choose(children, count, balanced);
             if (widest == width)
                 break;
-            const auto halves =
-                divide(items_, children[widest], depth >= balanced_below, workers_for(upper));
+            const auto halves = divide(items_, children[widest], balanced, workers_for(upper));
             children[widest] = halves[0];
             children[count] = halves[1];
         }
@@ -140,15 +140,20 @@ class Builder {
         }
     }
 
-    /// The part with the largest surface of those that are too many for a leaf; width: none.
-    [[nodiscard]] static unsigned choose(const std::array<Range, width>& children, unsigned count) {
+    /// The part with the largest surface, or with the most triangles, of those that are too many
+    /// for a leaf; width: none.
+    [[nodiscard]] static unsigned choose(const std::array<Range, width>& children, unsigned count,
+                                         bool balanced) {
         unsigned best = width;
-        float area = -1;
-        for (unsigned c = 0; c < count; ++c)
-            if (children[c].size() > width && children[c].box.half_area() > area) {
+        float most = -1;
+        for (unsigned c = 0; c < count; ++c) {
+            const float weight =
+                balanced ? static_cast<float>(children[c].size()) : children[c].box.half_area();
+            if (children[c].size() > width && weight > most) {
                 best = c;
-                area = children[c].box.half_area();
+                most = weight;
             }
+        }
         return best;
     }
 
@@ -197,7 +202,9 @@ class Builder {
         const Vec3 a = shrink_ * soup_.vertices[c[0]];
         Vec3 e1 = shrink_ * soup_.vertices[c[second ? 2 : 1]] - a;
         Vec3 e2 = shrink_ * soup_.vertices[c[second ? 3 : 2]] - a;
-        if (is_doubtful(c))
+        // Products of edges still smaller would vanish in floats.
+        constexpr double tiny = 1e-12;
+        if (is_doubtful(c) || !(std::max(glm::length(e1), glm::length(e2)) > tiny))
             e1 = e2 = Vec3(std::numeric_limits<double>::quiet_NaN());
         for (unsigned i = 0; i < 3; ++i) {
             const auto axis = static_cast<int>(i);

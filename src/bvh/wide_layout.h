@@ -41,6 +41,8 @@ struct Tree {
 /// The deepest tree that the builder makes, and what a depth-first walk through it can pile up.
 inline constexpr unsigned max_depth = 40;
 inline constexpr unsigned stack_size = (width - 1) * max_depth + 1;
+/// Subtrees with which a single ray may begin.
+inline constexpr unsigned most_errands = 24;
 
 /// A ray as the kernels see it: |component of direction| <= 1 and the largest at least 1/2.
 struct FloatRay {

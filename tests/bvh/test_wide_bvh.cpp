@@ -163,6 +163,11 @@ TEST_CASE("The wide tree and what breaks tracers") {
             check_soup(test::thin_walls(8, gap, 4), 2000);
     }
     SECTION("odd quads") { check_soup(test::odd_quads(200, 1), 2000); }
+    SECTION("deep trees") {
+        for (const double shrink : {.99, .7, .3})
+            check_soup(test::nested(300, shrink), 1000);
+        CHECK(WideBvh(test::nested(3000, .9).view()).quality().depth <= int(wide::max_depth));
+    }
     SECTION("copies") { check_soup(test::copies(200, 1), 2000); }
     SECTION("very small and very large scenes, and scenes far away") {
         for (const double size : {1e-30, 1e-3, 1e4, 1e30}) {

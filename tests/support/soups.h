@@ -99,6 +99,15 @@ struct Soup {
     return soup;
 }
 
+/// Each a little smaller and nearer to a corner than the one before: trees become deep.
+[[nodiscard]] inline Soup nested(std::size_t facets, double shrink) {
+    Soup soup;
+    double size = 1;
+    for (std::size_t f = 0; f < facets; ++f, size *= shrink)
+        soup.triangle({size, 0, .1 * size}, {0, size, .2 * size}, {.1 * size, .2 * size, size});
+    return soup;
+}
+
 /// Many copies of a few facets.
 [[nodiscard]] inline Soup copies(std::size_t facets, std::uint64_t seed) {
     Soup soup = random_soup(7, seed);

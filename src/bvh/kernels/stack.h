@@ -95,8 +95,8 @@ enum class Rays { stop, pierce };
 
 /// What remains to be visited, the nearest on top. At the bottom lies an entry that says so.
 struct Stack {
-    std::uint32_t child[stack_size + width + 1];
-    float enter[stack_size + width + 1];
+    std::uint32_t child[stack_size + most_errands + width + 1];
+    float enter[stack_size + most_errands + width + 1];
     unsigned top;
 
     void clear() {

@@ -11,7 +11,15 @@
 
 #include "bvh/kernels/wave.h"
 
+#include "bvh/kernels/pyramid.h"
+
 #include "bvh/kernels/packet.h"
+
+#include "bvh/kernels/shared_leaf.h"
+
+#include "bvh/kernels/errands.h"
+
+#include "bvh/kernels/bundle.h"
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
