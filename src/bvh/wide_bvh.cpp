@@ -72,20 +72,6 @@ Struck struck_at(const Nearest& nearest) {
     return {nearest.slot & ~flag, nearest.front != 0};
 }
 
-/// Whether a bundle is as the packets want it: directions of about unit length, an origin within
-/// the scene. Others are traced ray by ray.
-bool bundle_fits(const Bundle& bundle, const wide::Space& space) {
-    const auto longest = [](const Vec3& v) {
-        return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    };
-    bool fits = !bundle.directions.empty() && longest(bundle.origin) <= space.size;
-    for (const Vec3& d : bundle.directions) {
-        const double sum = d.x + d.y + d.z; // catches NaN
-        fits &= (longest(d) >= 0.25) & (longest(d) <= 1.001) & (sum == sum);
-    }
-    return fits;
-}
-
 /// The first sixteen of the directions. Empty lanes repeat the first.
 void fill_packet(const FloatRay& shared, std::span<const Vec3> directions, const Nearest& start,
                  wide::Packet& packet) {
@@ -234,7 +220,8 @@ template <class Done>
 bool WideBvh::for_packets(const Bundle& bundle, BundleKernel kernel, const Nearest& start,
                           const Done& done) const {
     FloatRay shared;
-    if (!bundle_fits(bundle, space_) || fit_ray(bundle.ray(0), shared) != Fit::good)
+    if (bundle.directions.empty() || fit_ray(bundle.ray(0), shared) != Fit::good ||
+        shared.skipped != 0)
         return false;
     shared.per_unit = 1 / space_.size;
     std::array<wide::Packet, wide::bundle_size / wide::packet_size> packets;
@@ -245,7 +232,8 @@ bool WideBvh::for_packets(const Bundle& bundle, BundleKernel kernel, const Neare
             first, std::min<std::size_t>(bundle.directions.size() - first, wide::bundle_size));
         for (std::size_t k = 0; k < rays.size(); k += wide::packet_size)
             fill_packet(shared, rays.subspan(k), start, packets[k / wide::packet_size]);
-        kernel(tree(), packets.data(), static_cast<unsigned>(rays.size()), judge(query));
+        if (!kernel(tree(), packets.data(), static_cast<unsigned>(rays.size()), judge(query)))
+            return false;
         for (std::size_t k = 0; k < rays.size(); ++k)
             done(first + k, packets[k / wide::packet_size], k % wide::packet_size);
     }

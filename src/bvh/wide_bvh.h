@@ -37,7 +37,7 @@ class WideBvh final : public Tracer {
 
   private:
     struct Block;
-    using BundleKernel = void (*)(const wide::Tree&, wide::Packet*, unsigned, const wide::Judge&);
+    using BundleKernel = bool (*)(const wide::Tree&, wide::Packet*, unsigned, const wide::Judge&);
     template <class Done>
     bool for_packets(const Bundle& bundle, BundleKernel kernel, const wide::Nearest& start,
                      const Done& done) const;

@@ -98,9 +98,10 @@ struct Kernels {
     /// t[k] bounds the farthest distance of ray k; blocked[k] becomes 0 or 1.
     void (*occluded_stream)(const Tree&, const FloatRay* rays, unsigned count, const Nearest* t,
                             const std::uint32_t* targets, std::uint8_t* blocked, const Judge&);
-    /// Up to bundle_size rays in packets; the last may have empty lanes.
-    void (*closest_bundle)(const Tree&, Packet*, unsigned rays, const Judge&);
-    void (*count_bundle)(const Tree&, Packet*, unsigned rays, const Judge&);
+    /// Up to bundle_size rays in packets; the last may have empty lanes. False, and nothing done,
+    /// if a direction is not of about unit length.
+    bool (*closest_bundle)(const Tree&, Packet*, unsigned rays, const Judge&);
+    bool (*count_bundle)(const Tree&, Packet*, unsigned rays, const Judge&);
 };
 
 } // namespace hemilux::wide

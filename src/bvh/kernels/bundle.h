@@ -61,11 +61,12 @@ inline void count_lanes(const Leaf& leaf, const SharedLeaf& shared, unsigned k,
 }
 
 /// The nearest facet of each ray of up to bundle_size in packets.
-inline void closest_bundle(const Tree& tree, Packet* packets, unsigned number, const Judge& judge) {
+inline bool closest_bundle(const Tree& tree, Packet* packets, unsigned number, const Judge& judge) {
+    if (!set_slabs(packets, number))
+        return false;
     Errands errands(number);
     for (unsigned first = 0; first < number; first += packet_size) {
         Packet& packet = packets[first / packet_size];
-        set_slabs(packet);
         walk_packet<Rays::stop>(
             tree, packet,
             [&](const Leaf& leaf, Bits lanes) {
@@ -101,15 +102,17 @@ inline void closest_bundle(const Tree& tree, Packet* packets, unsigned number, c
                          walker.t_max = own.nearest.high;
                          return false;
                      });
+    return true;
 }
 
 /// How many facets each ray pierces, added to Packet::slot.
-inline void count_bundle(const Tree& tree, Packet* packets, unsigned number, const Judge& judge) {
+inline bool count_bundle(const Tree& tree, Packet* packets, unsigned number, const Judge& judge) {
     constexpr float infinity = __builtin_inff();
+    if (!set_slabs(packets, number))
+        return false;
     Errands errands(number);
     for (unsigned first = 0; first < number; first += packet_size) {
         Packet& packet = packets[first / packet_size];
-        set_slabs(packet);
         walk_packet<Rays::pierce>(
             tree, packet,
             [&](const Leaf& leaf, Bits lanes) {
@@ -141,6 +144,7 @@ inline void count_bundle(const Tree& tree, Packet* packets, unsigned number, con
                                count_in(leaf, *walker.ray, k, infinity, infinity, judge);
                            return false;
                        });
+    return true;
 }
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

@@ -55,15 +55,30 @@ struct PacketStack {
     }
 };
 
-/// Works out what the box tests need.
-inline void set_slabs(Packet& packet) {
+/// Works out what the box tests need. False if a direction is not of about unit length, so that the
+/// sieve's bounds do not hold; NaN is not.
+inline bool set_slabs(Packet& packet) {
     const F16 least = F16::splat(1e-18f); // no plane then gives 0 times infinity
+    F16 longest = F16::splat(0), sum = longest;
     for (unsigned i = 0; i < 3; ++i) {
         const F16 d = F16::load(packet.direction[i]);
+        longest = max(longest, abs(d));
+        sum = sum + d;
         const F16 inverse = F16::splat(1) / select(less(abs(d), least), least, d);
         inverse.store(packet.inverse[i]);
         (F16::splat(-packet.origin[i]) * inverse).store(packet.offset[i]);
     }
+    const Bits fit = less_equal(F16::splat(0.25f), longest) &
+                     less_equal(longest, F16::splat(1.001f)) & less_equal(abs(sum), F16::splat(4));
+    return fit == (Bits{1} << packet_size) - 1;
+}
+
+/// All packets of a bundle.
+inline bool set_slabs(Packet* packets, unsigned rays) {
+    bool fit = true;
+    for (unsigned first = 0; first < rays; first += packet_size)
+        fit &= set_slabs(packets[first / packet_size]);
+    return fit;
 }
 
 /// Sends a packet through the tree: on_leaf(leaf, lanes); on_few(child, lanes, enter) for subtrees.
