@@ -149,6 +149,13 @@ Hit WideBvh::locate(const Ray& ray, std::uint32_t facet) const {
     return hit;
 }
 
+/// The limits were found by measurement (hemilux_bench).
+wide::Tree WideBvh::tree() const {
+    constexpr std::size_t small = 1 << 19, cache = 1 << 20;
+    const std::size_t bytes = built_.quality.bytes;
+    return {built_.nodes.data(), built_.leaves.data(), bytes < small ? 0u : 3u, bytes > cache};
+}
+
 Fit WideBvh::fit_ray(const Ray& ray, FloatRay& scaled) const {
     return built_.nodes.size() == 0 ? Fit::misses : scale_ray(ray, space_, scaled);
 }

@@ -42,10 +42,7 @@ class WideBvh final : public Tracer {
     bool for_packets(const Bundle& bundle, BundleKernel kernel, const wide::Nearest& start,
                      const Done& done) const;
     [[nodiscard]] wide::Fit fit_ray(const Ray& ray, wide::FloatRay& scaled) const;
-    [[nodiscard]] wide::Tree tree() const {
-        constexpr std::size_t cache = 1 << 20;
-        return {built_.nodes.data(), built_.leaves.data(), built_.quality.bytes > cache};
-    }
+    [[nodiscard]] wide::Tree tree() const;
 
     FacetSoup soup_;
     const wide::Kernels* kernels_;

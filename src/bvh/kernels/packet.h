@@ -4,8 +4,6 @@
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-inline constexpr unsigned few = 3; ///< rays that leave the packet
-
 inline unsigned count_bits(Bits bits) { return static_cast<unsigned>(__builtin_popcount(bits)); }
 
 /// The lanes that meet one child's box before they end; where, in `enter`.
@@ -99,7 +97,7 @@ inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf
             continue;
         const std::uint32_t child = entry.child;
         Bits leaving = lanes & alone;
-        if (!(child & flag) && count_bits(lanes & ~alone) <= few)
+        if (!(child & flag) && count_bits(lanes & ~alone) <= tree.few)
             leaving = lanes;
         if (leaving) {
             on_few(child, leaving, enter);
