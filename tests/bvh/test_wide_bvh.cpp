@@ -156,6 +156,22 @@ TEST_CASE("The wide tree answers as brute force does") {
         check_soup(test::random_soup(facets, facets), 2000);
 }
 
+TEST_CASE("Trees too large for the cache, where rays leave their packets, answer the same") {
+    const Soup soup = test::random_soup(20'000, 3);
+    const BruteForce referee(soup.view());
+    for (const wide::Kernels* kernels : wide::available_kernels()) {
+        const WideBvh wide_bvh(soup.view(), {.kernels = kernels->name});
+        REQUIRE(wide_bvh.quality().bytes > 1 << 20);
+        CAPTURE(kernels->name);
+        check_streams(wide_bvh, rays_for(soup, 2000, 98));
+        check_bundles(wide_bvh, soup, 300);
+        const Differences found(wide_bvh, referee, rays_for(soup, 100, 97));
+        CHECK(found.closest == 0);
+        CHECK(found.count == 0);
+        CHECK(found.occluded == 0);
+    }
+}
+
 TEST_CASE("The wide tree and what breaks tracers") {
     SECTION("needles") { check_soup(test::needles(300, 1), 2000); }
     SECTION("thin walls") {
