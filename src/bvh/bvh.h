@@ -6,6 +6,7 @@
 // rounding of a box or of a ray's origin loses a hit.
 
 #include "bvh/intersect.h"
+#include "bvh/quality.h"
 #include "geometry/box.h"
 
 #include <cstddef>
@@ -22,14 +23,6 @@ struct BvhOptions {
     bool quads = true;          ///< false: all are triangles, so a second half is not looked for
 };
 
-/// What the tree says of itself.
-struct BvhQuality {
-    double sah_cost = 0; ///< expected cost of a random line through the scene's box
-    int depth = 0;
-    std::size_t nodes = 0, leaves = 0;
-    std::size_t bytes = 0; ///< nodes, facets and vertices
-};
-
 class Bvh final : public Tracer {
   public:
     /// Copies what it needs. Facets with a coordinate that is not finite are never hit.
@@ -39,6 +32,7 @@ class Bvh final : public Tracer {
     [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target = none) const override;
     [[nodiscard]] std::uint32_t count(const Ray& ray) const override;
 
+    /// The bytes are those of nodes, facets and vertices.
     [[nodiscard]] const BvhQuality& quality() const { return quality_; }
 
     /// An inner node with the boxes of both children: 64 bytes.

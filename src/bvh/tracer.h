@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace hemilux {
 
@@ -39,6 +40,27 @@ struct Hit {
     bool front; ///< the counter-clockwise side was struck
 };
 
+/// Which facet is the nearest, and whether from its counter-clockwise side: as much of a hit as
+/// most patches need. Tracer::locate tells the rest.
+struct Struck {
+    std::uint32_t facet = none;
+    bool front = false;
+};
+
+/// Rays that share their origin, on one facet. They are traced fastest when neighbours in
+/// `directions` point about the same way, in runs of 16 or more.
+struct Bundle {
+    Vec3 origin;
+    std::uint32_t from = none;
+    std::span<const Vec3> directions;
+
+    [[nodiscard]] Ray ray(std::size_t k) const {
+        Ray ray{origin, directions[k]};
+        ray.from = from;
+        return ray;
+    }
+};
+
 class Tracer {
   public:
     virtual ~Tracer() = default;
@@ -49,6 +71,19 @@ class Tracer {
     /// How many facets the ray pierces; one through a shared edge or vertex pierces one of those
     /// that lie around it.
     [[nodiscard]] virtual std::uint32_t count(const Ray& ray) const = 0;
+
+    // The same questions about many rays at once, with the same answers: out[k] is that of ray k.
+    // By default they are asked one by one.
+
+    virtual void closest_bundle(const Bundle& bundle, std::span<Struck> out) const;
+    virtual void count_bundle(const Bundle& bundle, std::span<std::uint32_t> out) const;
+    /// Rays that have nothing in common.
+    virtual void closest_stream(std::span<const Ray> rays, std::span<Struck> out) const;
+    /// out[k] != 0: something but targets[k] lies on ray k.
+    virtual void occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
+                                 std::span<std::uint8_t> out) const;
+    /// The hit of a ray that was told to strike `facet` first.
+    [[nodiscard]] virtual Hit locate(const Ray& ray, std::uint32_t facet) const;
 };
 
 } // namespace hemilux

@@ -32,6 +32,8 @@ bool may_include_system(const std::string& file, const std::string& header) {
         return layer == "io" && source;
     if (begins("CLI/"))
         return layer == "app";
+    if (header == "immintrin.h" || header == "sys/mman.h")
+        return layer == "bvh"; // intrinsics and huge pages
     const bool standard = header.find_first_of("./") == std::string::npos;
     const bool posix =
         header.ends_with(".h") && (header.find('/') == std::string::npos || begins("sys/"));

@@ -1,5 +1,5 @@
 // No ray leaks between neighbours, and none is counted twice: closed meshes, seen from inside.
-#include "bvh/bvh.h"
+#include "bvh/wide_bvh.h"
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
 #include "support/scenes.h"
@@ -50,7 +50,7 @@ std::size_t escapes(Scene scene, const Vec3& shift, std::size_t rays) {
     for (Vec3& v : scene.vertices)
         v += shift;
     const Mesh mesh(std::move(scene));
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     Rng rng(7);
     std::size_t escaped = 0;
     for (std::size_t k = 0; k < rays; ++k) {
@@ -94,7 +94,7 @@ TEST_CASE("No ray escapes from small closed meshes") {
 TEST_CASE("Rays exactly through vertices and edges pierce one facet") {
     const Mesh mesh(test::box_room(Vec3(-1.0), Vec3(1.0), 4, {{"wall", Vec3(.5), Vec3(0.0)}},
                                    {0, 0, 0, 0, 0, 0}));
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     // All vertices of the grid of a side, edge midpoints and quad diagonals, along the axis and
     // obliquely.
     for (int i = -3; i <= 3; ++i)
@@ -116,7 +116,7 @@ TEST_CASE("Rays exactly through vertices and edges pierce one facet") {
 
 TEST_CASE("A line through a closed sphere enters and leaves once") {
     const Mesh mesh(test::sphere(3, 1, .5, 1));
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     const auto vertices = mesh.vertices();
     for (std::size_t a = 0; a < vertices.size(); a += 7) {
         const Vec3 outside = 3.0 * vertices[a] + Vec3(.01, -.02, .03);

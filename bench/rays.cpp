@@ -1,0 +1,94 @@
+#include "rays.h"
+
+#include "radiosity/rng.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace hemilux::bench {
+namespace {
+
+/// Interleaves the bits of up to three coordinates in [0,1): neighbours in space follow each other.
+std::uint64_t morton(std::initializer_list<double> at, int bits) {
+    std::uint64_t key = 0;
+    for (int b = bits - 1; b >= 0; --b)
+        for (const double x : at)
+            key = key << 1 | (static_cast<std::uint64_t>(x * double(1 << bits)) >> b & 1);
+    return key;
+}
+
+std::vector<std::uint32_t> in_spatial_order(const Mesh& mesh) {
+    std::vector<std::uint64_t> key;
+    for (const Patch& patch : mesh.patches()) {
+        const Vec3 p = 0.49 * (patch.centre + 1.0);
+        key.push_back(morton({p.x, p.y, p.z}, 16));
+    }
+    std::vector<std::uint32_t> order(key.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
+    return order;
+}
+
+/// Cosine distributed through equal areas of the disc, and the cell of the disc it lies in.
+struct Direction {
+    Vec3 local;
+    std::uint64_t cell;
+};
+
+Direction sample(Rng& rng, int bits) {
+    const double s = rng.uniform(), t = rng.uniform();
+    const double a = 2 * s - 1, b = 2 * t - 1; // the square's rings become the disc's
+    const bool wide = std::abs(a) > std::abs(b);
+    const double r = wide ? a : b;
+    const double quarter = std::numbers::pi / 4;
+    const double phi = r == 0 ? 0 : wide ? quarter * b / a : 2 * quarter - quarter * a / b;
+    const double x = r * std::cos(phi), y = r * std::sin(phi);
+    return {{x, y, std::sqrt(std::max(0.0, 1 - x * x - y * y))}, morton({s, t}, bits)};
+}
+
+void add_bundle(const Mesh& mesh, std::uint32_t index, std::size_t count, Rng& rng, RaySet& set) {
+    const Patch& patch = mesh.patches()[index];
+    const Frame frame = mesh.hemisphere_frame(index);
+    const int bits = count >= 1024 ? 5 : 3;
+    std::vector<Direction> directions;
+    for (std::size_t k = 0; k < count; ++k)
+        directions.push_back(sample(rng, bits));
+    std::stable_sort(directions.begin(), directions.end(),
+                     [](const Direction& a, const Direction& b) { return a.cell < b.cell; });
+    for (const Direction& d : directions)
+        set.directions.push_back(frame.to_world(d.local));
+    const double u = rng.uniform(), v = rng.uniform();
+    set.bundles.push_back({patch.shape.sample({u, v}), patch.facet, {}});
+}
+
+} // namespace
+
+RaySet make_rays(const Mesh& mesh, std::size_t per_patch, std::size_t total) {
+    const std::vector<std::uint32_t> order = in_spatial_order(mesh);
+    constexpr std::size_t runs = 16;
+    const std::size_t patches = std::max<std::size_t>(runs, total / per_patch);
+    const std::size_t length =
+        std::min(patches / runs, std::max<std::size_t>(1, order.size() / runs));
+    RaySet set;
+    Rng rng(1);
+    for (std::size_t r = 0; r < runs; ++r)
+        for (std::size_t k = 0; k < length; ++k)
+            add_bundle(mesh, order[(r * order.size() / runs + k) % order.size()], per_patch, rng,
+                       set);
+    for (std::size_t b = 0; b < set.bundles.size(); ++b) {
+        set.bundles[b].directions = std::span(set.directions).subspan(b * per_patch, per_patch);
+        for (std::size_t k = 0; k < per_patch; ++k)
+            set.origin.push_back(static_cast<std::uint32_t>(b * per_patch + k));
+    }
+    for (std::size_t k = set.origin.size(); k > 1; --k)
+        std::swap(set.origin[k - 1],
+                  set.origin[static_cast<std::size_t>(rng.uniform() * double(k))]);
+    for (const std::uint32_t k : set.origin)
+        set.shuffled.push_back(set.bundles[k / per_patch].ray(k % per_patch));
+    return set;
+}
+
+} // namespace hemilux::bench

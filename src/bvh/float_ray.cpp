@@ -1,0 +1,72 @@
+#include "bvh/float_ray.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux::wide {
+namespace {
+
+/// Below it a direction's component is taken for this in the box tests: the ray then strays by far
+/// less than the boxes are widened by, and no slab's plane gives 0 times infinity.
+constexpr double least_slope = 1e-18;
+constexpr double too_far = 0x1p20; ///< in sizes of the scene
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double max_abs(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// Where the ray enters the box; false when it does not.
+bool enter_box(const Ray& ray, const Space& space, double& enter) {
+    const double widen = space.size * 0x1p-20;
+    double leave = infinity;
+    for (int i = 0; i < 3; ++i) {
+        const double d = ray.direction[i];
+        const double a = (space.low[i] - widen - ray.origin[i]) / d;
+        const double b = (space.high[i] + widen - ray.origin[i]) / d;
+        if (std::isnan(a) || std::isnan(b))
+            continue; // within a plane, or parallel on it
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave;
+}
+
+} // namespace
+
+Fit scale_ray(const Ray& given, const Space& space, FloatRay& ray) {
+    const double longest = max_abs(given.direction);
+    const double distance = max_abs(given.origin) / space.size;
+    const double sum = given.direction.x + given.direction.y + given.direction.z + distance;
+    if (!(longest > 0 && longest < infinity && distance < infinity) || std::isnan(sum))
+        return Fit::misses;
+    if (distance > too_far)
+        return Fit::too_far;
+    // A power of two, so that scaling rounds nothing; most directions are of unit length already.
+    double shorten = 1;
+    if (!(longest >= 0.5 && longest <= 1)) {
+        int exponent = 0;
+        std::frexp(longest, &exponent);
+        shorten = std::ldexp(1.0, -std::clamp(exponent, -1000, 1000));
+    }
+    double skipped = 0;
+    if (distance > 1 && !enter_box(given, space, skipped))
+        return Fit::misses;
+    ray.skipped = skipped;
+    ray.per_unit = 1 / (space.size * shorten); // exact
+    ray.from = given.from;
+    const double shrink = 1 / space.size;
+    for (int i = 0; i < 3; ++i) {
+        const double d = given.direction[i] * shorten;
+        const auto slope =
+            static_cast<float>(std::abs(d) < least_slope ? std::copysign(least_slope, d) : d);
+        const double start = given.origin[i] + skipped * given.direction[i];
+        ray.origin[i] = static_cast<float>(start * shrink);
+        ray.direction[i] = static_cast<float>(d);
+        ray.inverse[i] = 1.0f / slope;
+    }
+    ray.t_min_low = below(ray, given.t_min);
+    ray.t_min_high = above(ray, given.t_min);
+    return Fit::good;
+}
+
+} // namespace hemilux::wide

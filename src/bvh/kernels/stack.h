@@ -1,0 +1,137 @@
+// What a ray has still to visit. The children that it meets are pushed in an order that was fixed
+// when the tree was built, one for each octant of directions (after Ylitie, Karras and Laine 2017):
+// that needs no sorting and no branch on how many they are. No #pragma once: see simd.h.
+
+namespace hemilux::wide::HEMILUX_KERNELS {
+
+/// Which octant a direction belongs to, from the signs of its components.
+inline unsigned octant_of(const float* direction) {
+    return unsigned{direction[0] < 0} | unsigned{direction[1] < 0} << 1 |
+           unsigned{direction[2] < 0} << 2;
+}
+
+#if defined(__AVX2__)
+
+/// Eight words of 32 bits brought into a node's order, of which those in a mask are stored without
+/// gaps. Words behind them are overwritten too.
+struct Ordering {
+    __m256i place;
+    unsigned met;
+
+    /// The lanes with low <= high.
+    Ordering(const Node& node, unsigned octant, F8 low, F8 high) {
+        place = _mm256_srlv_epi32(_mm256_set1_epi32(static_cast<int>(node.order[octant])),
+                                  _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
+        met = less_equal(F8{_mm256_permutevar8x32_ps(low.v, place)},
+                         F8{_mm256_permutevar8x32_ps(high.v, place)});
+#if !defined(__AVX512VL__)
+        place = _mm256_permutevar8x32_epi32(place, gaps_closed(met));
+#endif
+    }
+    [[nodiscard]] unsigned count() const { return static_cast<unsigned>(__builtin_popcount(met)); }
+    void store(const std::uint32_t* words, std::uint32_t* to) const {
+        write(_mm256_load_si256(reinterpret_cast<const __m256i*>(words)), to);
+    }
+    void store(F8 words, float* to) const { write(_mm256_castps_si256(words.v), to); }
+
+  private:
+    void write(__m256i words, void* to) const {
+        __m256i ordered = _mm256_permutevar8x32_epi32(words, place);
+#if defined(__AVX512VL__)
+        ordered = _mm256_maskz_compress_epi32(static_cast<__mmask8>(met), ordered);
+#endif
+        _mm256_storeu_si256(static_cast<__m256i*>(to), ordered);
+    }
+#if !defined(__AVX512VL__)
+    /// The lanes in the mask, then anything.
+    static __m256i gaps_closed(unsigned mask) {
+        struct Table {
+            unsigned char lane[256][8] = {};
+            constexpr Table() {
+                for (unsigned m = 0; m < 256; ++m)
+                    for (unsigned bit = 0, count = 0; bit < 8; ++bit)
+                        if (m >> bit & 1)
+                            lane[m][count++] = static_cast<unsigned char>(bit);
+            }
+        };
+        alignas(64) static constexpr Table table;
+        return _mm256_cvtepu8_epi32(
+            _mm_loadl_epi64(reinterpret_cast<const __m128i*>(table.lane[mask])));
+    }
+#endif
+};
+
+#else
+
+struct Ordering {
+    unsigned char lane[width];
+    unsigned number = 0;
+
+    Ordering(const Node& node, unsigned octant, F8 low, F8 high) {
+        const Bits met = less_equal(low, high);
+        std::uint32_t order = node.order[octant];
+        for (unsigned k = 0; k < width; ++k, order >>= 4) {
+            lane[number] = order & 7;
+            number += met >> (order & 7) & 1;
+        }
+    }
+    [[nodiscard]] unsigned count() const { return number; }
+    void store(const std::uint32_t* words, std::uint32_t* to) const {
+        for (unsigned k = 0; k < number; ++k)
+            to[k] = words[lane[k]];
+    }
+    void store(F8 words, float* to) const {
+        alignas(64) float word[width];
+        words.store(word);
+        for (unsigned k = 0; k < number; ++k)
+            to[k] = word[lane[k]];
+    }
+};
+
+#endif
+
+/// Whether rays are stopped by what they hit, or pierce everything: then nothing is ever skipped.
+enum class Rays { stop, pierce };
+
+/// What remains to be visited, the nearest on top. At the bottom lies an entry that says so.
+struct Stack {
+    std::uint32_t child[stack_size + most_errands + width + 1];
+    float enter[stack_size + most_errands + width + 1];
+    unsigned top;
+
+    void clear() {
+        child[0] = no_facet;
+        enter[0] = -__builtin_inff();
+        top = 1;
+    }
+    void push_one(std::uint32_t c, float at) {
+        child[top] = c;
+        enter[top++] = at;
+    }
+    template <Rays rays>
+    void push(const Node& node, unsigned octant, F8 from, F8 to) {
+        const Ordering ordering(node, octant, from, to);
+        ordering.store(node.child, child + top);
+        if constexpr (rays == Rays::stop)
+            ordering.store(from, enter + top);
+        top += ordering.count();
+    }
+    /// Takes the topmost entry that lies before `limit`; false: there is none.
+    template <Rays rays>
+    bool pop(float limit, std::uint32_t& next) {
+        if constexpr (rays == Rays::pierce) {
+            next = child[--top];
+            return next != no_facet;
+        }
+        unsigned t = top - 1;
+        t -= enter[t] > limit; // how many there are is hard to foresee for the processor
+        t -= enter[t] > limit;
+        while (enter[t] > limit)
+            --t;
+        next = child[t];
+        top = t;
+        return next != no_facet;
+    }
+};
+
+} // namespace hemilux::wide::HEMILUX_KERNELS

@@ -1,0 +1,15 @@
+#pragma once
+// What a tree says of itself.
+
+#include <cstddef>
+
+namespace hemilux {
+
+struct BvhQuality {
+    double sah_cost = 0; ///< expected cost of a random line through the scene's box
+    int depth = 0;
+    std::size_t nodes = 0, leaves = 0;
+    std::size_t bytes = 0; ///< all memory that the tracer holds itself
+};
+
+} // namespace hemilux

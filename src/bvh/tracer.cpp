@@ -1,0 +1,36 @@
+#include "bvh/tracer.h"
+
+namespace hemilux {
+namespace {
+
+Struck struck_by(const Tracer& tracer, const Ray& ray) {
+    const auto hit = tracer.closest(ray);
+    return hit ? Struck{hit->facet, hit->front} : Struck{};
+}
+
+} // namespace
+
+void Tracer::closest_bundle(const Bundle& bundle, std::span<Struck> out) const {
+    for (std::size_t k = 0; k < bundle.directions.size(); ++k)
+        out[k] = struck_by(*this, bundle.ray(k));
+}
+
+void Tracer::count_bundle(const Bundle& bundle, std::span<std::uint32_t> out) const {
+    for (std::size_t k = 0; k < bundle.directions.size(); ++k)
+        out[k] = count(bundle.ray(k));
+}
+
+void Tracer::closest_stream(std::span<const Ray> rays, std::span<Struck> out) const {
+    for (std::size_t k = 0; k < rays.size(); ++k)
+        out[k] = struck_by(*this, rays[k]);
+}
+
+void Tracer::occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
+                             std::span<std::uint8_t> out) const {
+    for (std::size_t k = 0; k < rays.size(); ++k)
+        out[k] = occluded(rays[k], targets[k]);
+}
+
+Hit Tracer::locate(const Ray& ray, std::uint32_t) const { return closest(ray).value(); }
+
+} // namespace hemilux

@@ -1,0 +1,29 @@
+#pragma once
+// Builds the wide tree: top-down, eight children at a time, by the surface area heuristic over bins
+// (Wald 2007). A node's range of triangles is divided in two again and again, always the part with
+// the largest surface, until there are eight parts.
+//
+// The upper tree is built by one thread; the subtrees below it are jobs for all threads, cut by
+// size alone, so that the tree does not depend on the number of threads.
+
+#include "bvh/huge_array.h"
+#include "bvh/intersect.h"
+#include "bvh/quality.h"
+#include "bvh/wide_layout.h"
+
+namespace hemilux::wide {
+
+struct Built {
+    HugeArray<Node> nodes;
+    HugeArray<Leaf> leaves;
+    Vec3 low{0.0}, high{0.0}; ///< of all facets, in the soup's units
+    BvhQuality quality;
+};
+
+/// The power of two that the soup's coordinates are divided by, at least the largest of them.
+[[nodiscard]] double size_of(const Vec3& low, const Vec3& high);
+
+/// Facets with coordinates that are not finite are left out. threads == 0: one per core.
+[[nodiscard]] Built build(const FacetSoup& soup, unsigned threads);
+
+} // namespace hemilux::wide

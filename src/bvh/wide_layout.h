@@ -1,0 +1,109 @@
+#pragma once
+// How the wide tree lies in memory, and what its kernels are told. Plain data only: this header is
+// compiled with several instruction sets, so it may define no function that the linker could merge.
+//
+// The kernels see the scene in floats, scaled into [-1,1]^3, and only *sift*: with bounds on every
+// rounding error they say "surely missed", "surely struck" or "unsure". What is unsure is decided
+// in doubles by the same code as in the scalar BVH. So all engines, instruction sets and forms of a
+// question give the same answers to the last bit, and the arithmetic of the sieve is free.
+
+#include <cstdint>
+
+namespace hemilux::wide {
+
+inline constexpr unsigned width = 8;
+inline constexpr std::uint32_t no_facet = 0xffffffffu;
+inline constexpr std::uint32_t flag = 0x80000000u; ///< child: a leaf; slot: second half of a quad
+
+/// Planes are ordered low x, high x, low y, high y, low z, high z. An absent child's box is
+/// inverted, so that nothing meets it.
+struct alignas(64) Node {
+    float plane[6][width];
+    std::uint32_t child[width]; ///< index of a node, or of a leaf with `flag`
+    /// For each octant of directions (bit i: component i is negative) the children, four bits each,
+    /// the one to be visited last in the lowest.
+    std::uint32_t order[width];
+};
+
+/// Up to eight triangles: one corner and the two edges from it. Unused slots have edges of zero,
+/// which no ray strikes; slots with edges of NaN are always unsure.
+struct alignas(64) Leaf {
+    float corner[3][width], edge1[3][width], edge2[3][width];
+    std::uint32_t slot[width]; ///< facet, with `flag` for the second half of a quad
+};
+
+struct Tree {
+    const Node* nodes; ///< null: nothing to strike
+    const Leaf* leaves;
+    /// So many rays of a packet go on alone. In a small tree they have too little to do for that.
+    unsigned few;
+    bool large; ///< does not fit the cache of a core, so what is needed next is fetched ahead
+};
+
+/// The deepest tree that the builder makes, and what a depth-first walk through it can pile up.
+inline constexpr unsigned max_depth = 40;
+inline constexpr unsigned stack_size = (width - 1) * max_depth + 1;
+/// Subtrees with which a single ray may begin.
+inline constexpr unsigned most_errands = 24;
+
+/// A ray as the kernels see it: |component of direction| <= 1 and the largest at least 1/2.
+struct FloatRay {
+    float origin[3], direction[3];
+    float inverse[3];            ///< of the direction, never infinite
+    float t_min_low, t_min_high; ///< sure bounds
+    std::uint32_t from;
+    double skipped, per_unit; ///< the kernels' t is (t - skipped) * per_unit
+};
+
+/// Sure bounds of the nearest distance so far, and which slot it belongs to.
+struct Nearest {
+    float low, high;
+    std::uint32_t slot;
+    std::uint32_t front;
+};
+
+inline constexpr unsigned packet_size = 16, bundle_size = 256;
+
+/// Rays that share their origin.
+struct alignas(64) Packet {
+    float direction[3][packet_size];
+    float inverse[3][packet_size],
+        offset[3][packet_size]; ///< a plane p is met at p * inverse + offset; set by the kernels
+    float low[packet_size], high[packet_size];           ///< bounds of the nearest distance so far
+    std::uint32_t slot[packet_size], front[packet_size]; ///< of the nearest; slot: also the count
+    float origin[3];
+    float t_min_low, t_min_high;
+    std::uint32_t from;
+    std::uint32_t lanes; ///< those that are rays, a bit each; the others repeat one of them
+};
+
+/// Decides in doubles what the kernels are unsure of. `ray` counts within the query.
+struct Judge {
+    void* query;
+    /// A slot that may be struck: updates `nearest`.
+    void (*closer)(void* query, unsigned ray, std::uint32_t slot, Nearest& nearest);
+    /// Whether a slot is struck (inclusive edges), and counts (half-open edges).
+    bool (*struck)(void* query, unsigned ray, std::uint32_t slot);
+    bool (*counts)(void* query, unsigned ray, std::uint32_t slot);
+};
+
+/// The kernels of one instruction set. In the streams the judge is told a ray by its place.
+struct Kernels {
+    const char* name;
+    void (*closest)(const Tree&, const FloatRay&, unsigned ray, Nearest&, const Judge&);
+    bool (*occluded)(const Tree&, const FloatRay&, unsigned ray, float t_low, float t_high,
+                     std::uint32_t target, const Judge&);
+    std::uint32_t (*count)(const Tree&, const FloatRay&, unsigned ray, float t_low, float t_high,
+                           const Judge&);
+    void (*closest_stream)(const Tree&, const FloatRay* rays, unsigned count, Nearest*,
+                           const Judge&);
+    /// t[k] bounds the farthest distance of ray k; blocked[k] becomes 0 or 1.
+    void (*occluded_stream)(const Tree&, const FloatRay* rays, unsigned count, const Nearest* t,
+                            const std::uint32_t* targets, std::uint8_t* blocked, const Judge&);
+    /// Up to bundle_size rays in packets; the last may have empty lanes. False, and nothing done,
+    /// if a direction is not of about unit length.
+    bool (*closest_bundle)(const Tree&, Packet*, unsigned rays, const Judge&);
+    bool (*count_bundle)(const Tree&, Packet*, unsigned rays, const Judge&);
+};
+
+} // namespace hemilux::wide

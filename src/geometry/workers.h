@@ -1,0 +1,55 @@
+#pragma once
+// Loops over several threads whose result does not depend on their number: the caller writes to a
+// place of its own for each index or chunk and sums afterwards in order.
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace hemilux {
+
+class Workers {
+  public:
+    /// 0: one per core.
+    explicit Workers(unsigned threads)
+        : threads_(threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency())) {}
+
+    [[nodiscard]] unsigned threads() const { return threads_; }
+
+    /// Calls body(begin, end) for consecutive chunks of [0, count), each exactly once, on any
+    /// thread. Rethrows the first exception of a body.
+    template <class Body>
+    void for_chunks(std::size_t count, std::size_t chunk, const Body& body) const {
+        const std::size_t chunks = (count + chunk - 1) / chunk;
+        std::atomic<std::size_t> next{0};
+        std::exception_ptr failure;
+        std::mutex failure_mutex;
+        const auto work = [&] {
+            try {
+                for (std::size_t c = next++; c < chunks; c = next++)
+                    body(c * chunk, std::min(count, (c + 1) * chunk));
+            } catch (...) {
+                const std::lock_guard lock(failure_mutex);
+                if (!failure)
+                    failure = std::current_exception();
+                next = chunks;
+            }
+        };
+        std::vector<std::jthread> helpers;
+        for (std::size_t i = 1; i < std::min<std::size_t>(threads_, chunks); ++i)
+            helpers.emplace_back(work);
+        work();
+        helpers.clear(); // joins
+        if (failure)
+            std::rethrow_exception(failure);
+    }
+
+  private:
+    unsigned threads_;
+};
+
+} // namespace hemilux

@@ -1,0 +1,274 @@
+// The wide tree answers as brute force does, bit for bit, in every form and with every instruction
+// set.
+#include "bvh/brute_force.h"
+#include "bvh/kernel_choice.h"
+#include "bvh/wide_bvh.h"
+#include "support/soups.h"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+using namespace hemilux;
+using test::point_within;
+using test::Soup;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Rays of all kinds: short, long, along axes, from far away, from facets, towards vertices.
+std::vector<Ray> rays_for(const Soup& soup, std::size_t count, std::uint64_t seed) {
+    Rng rng(seed);
+    std::vector<Ray> rays;
+    const auto pick = [&](std::size_t n) {
+        return static_cast<std::uint32_t>(rng.uniform() * double(n));
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+        Ray ray{point_within(rng, 1.2), point_within(rng, 1)};
+        if (k % 3 == 0)
+            ray.t_max = rng.uniform();
+        if (k % 5 == 0)
+            ray.from = pick(soup.facets.size());
+        if (k % 7 == 0)
+            ray.direction[int(k % 3)] = 0;
+        if (k % 11 == 0)
+            ray.origin *= 1000.0;
+        if (k % 13 == 0)
+            ray.direction = soup.vertices[pick(soup.vertices.size())] - ray.origin;
+        if (k % 17 == 0)
+            ray.direction *= 1e5;
+        if (k % 19 == 0) { // between two vertices: along an edge perhaps
+            ray.origin = soup.vertices[pick(soup.vertices.size())];
+            ray.direction = soup.vertices[pick(soup.vertices.size())] - ray.origin;
+        }
+        if (k % 23 == 0)
+            ray.origin *= 1e9;
+        if (k % 33 == 0)
+            ray.direction = -ray.origin;
+        rays.push_back(ray);
+    }
+    return rays;
+}
+
+bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
+    if (!a || !b)
+        return a.has_value() == b.has_value();
+    return a->facet == b->facet && a->t == b->t && a->u == b->u && a->v == b->v &&
+           a->second_half == b->second_half && a->front == b->front;
+}
+
+/// How many rays are answered differently.
+struct Differences {
+    int closest = 0, count = 0, occluded = 0;
+
+    Differences(const Tracer& a, const Tracer& b, const std::vector<Ray>& rays) {
+        for (const Ray& ray : rays) {
+            closest += !same(a.closest(ray), b.closest(ray));
+            count += a.count(ray) != b.count(ray);
+            occluded += a.occluded(ray, 3) != b.occluded(ray, 3);
+        }
+    }
+};
+
+bool same(const std::optional<Hit>& a, const Struck& b) {
+    return a ? a->facet == b.facet && a->front == b.front : b.facet == none;
+}
+
+/// How many rays are answered differently when many are asked at once.
+void check_streams(const WideBvh& bvh, const std::vector<Ray>& rays) {
+    std::vector<Struck> struck(rays.size());
+    std::vector<std::uint8_t> occluded(rays.size());
+    std::vector<std::uint32_t> targets;
+    for (std::size_t k = 0; k < rays.size(); ++k)
+        targets.push_back(static_cast<std::uint32_t>(k % 7));
+    bvh.closest_stream(rays, struck);
+    bvh.occluded_stream(rays, targets, occluded);
+    int closest_differ = 0, occluded_differ = 0;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        const auto hit = bvh.closest(rays[k]);
+        closest_differ += !same(hit, struck[k]);
+        if (hit)
+            CHECK(bvh.locate(rays[k], struck[k].facet).t == hit->t);
+        occluded_differ += bvh.occluded(rays[k], targets[k]) != (occluded[k] != 0);
+    }
+    CHECK(closest_differ == 0);
+    CHECK(occluded_differ == 0);
+}
+
+/// Bundles of the same rays ask the same as rays one by one.
+void check_bundles(const WideBvh& bvh, const Soup& soup, std::size_t bundles) {
+    Rng rng(5);
+    int closest_differ = 0, count_differ = 0;
+    for (std::size_t b = 0; b < bundles; ++b) {
+        // Wide and narrow bundles, full and rest packets, from vertices, from facets, from outside.
+        const std::size_t n = 1 + b * 7 % 70;
+        const double spread = std::pow(10.0, -double(b % 4));
+        const Vec3 axis = point_within(rng, 1);
+        std::vector<Vec3> directions;
+        for (std::size_t k = 0; k < n; ++k)
+            directions.push_back(glm::normalize(axis + point_within(rng, spread)));
+        Bundle bundle{point_within(rng, b % 5 == 0 ? 2 : .9), none, directions};
+        if (b % 3 == 0)
+            bundle.from = static_cast<std::uint32_t>(b % soup.facets.size());
+        if (b % 4 == 0) {
+            const auto v = soup.vertices[b % soup.vertices.size()];
+            directions[0] = glm::normalize(v - bundle.origin);
+            directions[n / 2] = {0, 0, 1};
+        }
+        if (b % 11 == 0)
+            directions[0] *= 100.0;
+        if (b % 13 == 0)
+            bundle.origin = soup.vertices[b % soup.vertices.size()];
+        std::vector<Struck> struck(n);
+        std::vector<std::uint32_t> counts(n);
+        bvh.closest_bundle(bundle, struck);
+        bvh.count_bundle(bundle, counts);
+        for (std::size_t k = 0; k < n; ++k) {
+            closest_differ += !same(bvh.closest(bundle.ray(k)), struck[k]);
+            count_differ += bvh.count(bundle.ray(k)) != counts[k];
+        }
+    }
+    CHECK(closest_differ == 0);
+    CHECK(count_differ == 0);
+}
+
+void check_soup(const Soup& soup, std::size_t rays) {
+    const BruteForce referee(soup.view());
+    for (const wide::Kernels* kernels : wide::available_kernels()) {
+        const WideBvh wide_bvh(soup.view(), {.kernels = kernels->name});
+        CHECK(wide_bvh.kernels() == kernels->name);
+        const Differences found(wide_bvh, referee, rays_for(soup, rays, 99));
+        check_streams(wide_bvh, rays_for(soup, rays / 2, 98));
+        check_bundles(wide_bvh, soup, rays / 20);
+        CAPTURE(kernels->name, soup.facets.size());
+        CHECK(found.closest == 0);
+        CHECK(found.count == 0);
+        CHECK(found.occluded == 0);
+    }
+}
+
+} // namespace
+
+TEST_CASE("The wide tree answers as brute force does") {
+    for (const std::size_t facets : {1u, 2u, 9u, 70u, 1000u})
+        check_soup(test::random_soup(facets, facets), 2000);
+}
+
+TEST_CASE("Trees too large for the cache, where rays leave their packets, answer the same") {
+    const Soup soup = test::random_soup(20'000, 3);
+    const BruteForce referee(soup.view());
+    for (const wide::Kernels* kernels : wide::available_kernels()) {
+        const WideBvh wide_bvh(soup.view(), {.kernels = kernels->name});
+        REQUIRE(wide_bvh.quality().bytes > 1 << 20);
+        CAPTURE(kernels->name);
+        check_streams(wide_bvh, rays_for(soup, 2000, 98));
+        check_bundles(wide_bvh, soup, 300);
+        const Differences found(wide_bvh, referee, rays_for(soup, 100, 97));
+        CHECK(found.closest == 0);
+        CHECK(found.count == 0);
+        CHECK(found.occluded == 0);
+    }
+}
+
+TEST_CASE("The wide tree and what breaks tracers") {
+    SECTION("needles") { check_soup(test::needles(300, 1), 2000); }
+    SECTION("thin walls") {
+        for (const double gap : {1e-6, 1e-8, 1e-12})
+            check_soup(test::thin_walls(8, gap, 4), 2000);
+    }
+    SECTION("odd quads") { check_soup(test::odd_quads(200, 1), 2000); }
+    SECTION("deep trees") {
+        for (const double shrink : {.99, .7, .3})
+            check_soup(test::nested(300, shrink), 1000);
+        CHECK(WideBvh(test::nested(3000, .9).view()).quality().depth <= int(wide::max_depth));
+    }
+    SECTION("copies") { check_soup(test::copies(200, 1), 2000); }
+    SECTION("very small and very large scenes, and scenes far away") {
+        for (const double size : {1e-30, 1e-3, 1e4, 1e30}) {
+            Soup soup = test::random_soup(100, 5);
+            for (Vec3& v : soup.vertices)
+                v *= size;
+            const BruteForce referee(soup.view());
+            const WideBvh wide_bvh(soup.view());
+            std::vector<Ray> rays = rays_for(test::random_soup(100, 5), 1000, 3);
+            for (Ray& ray : rays) {
+                ray.origin *= size;
+                ray.t_max *= size;
+                ray.t_min *= size;
+            }
+            const Differences found(wide_bvh, referee, rays);
+            CAPTURE(size);
+            CHECK(found.closest == 0);
+            CHECK(found.count == 0);
+        }
+        Soup away = test::random_soup(300, 6);
+        for (Vec3& v : away.vertices)
+            v += Vec3(1e3, 0, -1e3);
+        std::vector<Ray> rays = rays_for(away, 1000, 4);
+        for (std::size_t k = 0; k < rays.size(); k += 2)
+            rays[k].origin += Vec3(1e3, 0, -1e3);
+        const Differences found(WideBvh(away.view()), BruteForce(away.view()), rays);
+        CHECK(found.closest == 0);
+        CHECK(found.count == 0);
+    }
+}
+
+TEST_CASE("The wide tree over nothing, and over bad coordinates") {
+    const WideBvh empty(FacetSoup{});
+    const Ray up{Vec3(0.0), Vec3(0, 0, 1)};
+    CHECK_FALSE(empty.closest(up));
+    CHECK(empty.count(up) == 0);
+    CHECK_FALSE(empty.occluded(up));
+    CHECK(empty.quality().bytes == 0);
+
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    Soup soup{{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, {nan, 0, 0}}, {{0, 1, 3, 3}}};
+    const WideBvh bad(soup.view());
+    CHECK_FALSE(bad.closest(up));
+    soup.facets.push_back({0, 1, 2, 2});
+    const WideBvh half(soup.view());
+    REQUIRE(half.closest(up));
+    CHECK(half.closest(up)->facet == 1);
+    for (const Ray& ray :
+         {Ray{Vec3(nan), Vec3(0, 0, 1)}, Ray{Vec3(0.0), Vec3(nan)}, Ray{Vec3(0.0), Vec3(0.0)},
+          Ray{Vec3(0.0), Vec3(nan, 0, 1)}, Ray{Vec3(infinity), Vec3(0, 0, 1)},
+          Ray{Vec3(0.0), Vec3(0, 0, infinity)}}) {
+        CHECK_FALSE(half.closest(ray));
+        CHECK_FALSE(half.occluded(ray));
+        CHECK(half.count(ray) == 0);
+    }
+}
+
+TEST_CASE("The wide tree does not depend on the number of threads") {
+    const Soup soup = test::random_soup(60'000, 2);
+    const auto one = wide::build(soup.view(), 1);
+    for (const unsigned threads : {2u, 5u}) {
+        const auto many = wide::build(soup.view(), threads);
+        REQUIRE(one.nodes.size() == many.nodes.size());
+        REQUIRE(one.leaves.size() == many.leaves.size());
+        for (std::size_t i = 0; i < one.nodes.size(); ++i) {
+            const wide::Node &a = one.nodes.data()[i], &b = many.nodes.data()[i];
+            REQUIRE(std::memcmp(a.plane, b.plane, sizeof a.plane) == 0);
+            REQUIRE(std::memcmp(a.child, b.child, sizeof a.child) == 0);
+        }
+        REQUIRE(std::memcmp(one.leaves.data(), many.leaves.data(), one.leaves.bytes()) == 0);
+    }
+}
+
+TEST_CASE("The wide tree's own figures") {
+    const Soup soup = test::random_soup(5000, 1);
+    const BvhQuality q = WideBvh(soup.view()).quality();
+    CHECK(q.leaves * 8 >= 7500); // halves of quads are triangles
+    CHECK(q.nodes < q.leaves);
+    CHECK(q.depth < 20);
+    CHECK(q.bytes == q.nodes * sizeof(wide::Node) + q.leaves * sizeof(wide::Leaf));
+}
+
+TEST_CASE("Kernels are chosen by name") {
+    REQUIRE_FALSE(wide::available_kernels().empty());
+    CHECK(std::string_view(wide::available_kernels().back()->name) == "baseline");
+    CHECK(std::string_view(wide::find_kernels("baseline").name) == "baseline");
+    CHECK_THROWS_AS(wide::find_kernels("abacus"), std::invalid_argument);
+}
