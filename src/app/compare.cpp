@@ -134,7 +134,7 @@ int compare(const CompareSettings& settings) {
         reference = read_reference(settings.reference, mesh, {});
     const Stopwatch building;
     const Needs needs = needs_of(mesh, settings.options);
-    const auto [tracer, tree] = make_tracer(mesh, needs);
+    const auto [tracer, tree] = make_tracer(mesh, needs, settings.options.threads);
     say(settings.talk, Talk::verbose, tracer_text(tree, building.seconds()));
     if (!reference)
         reference = compute_reference(settings, mesh, *tracer, needs, monitor);

@@ -8,7 +8,7 @@
 #include "app/text.h"
 #include "app/view.h"
 #include "app/write_report.h"
-#include "bvh/bvh.h"
+#include "bvh/wide_bvh.h"
 #include "io/atomic_file.h"
 #include "io/density_picture.h"
 #include "io/hemisphere_svg.h"
@@ -165,7 +165,7 @@ int density(const DensitySettings& settings) {
     const InterruptGuard guard(monitor.interrupted);
     const Mesh mesh = load_geometry(settings.scene, settings.talk);
     check_patch(settings, mesh);
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup(), {.threads = settings.options.threads});
     const Hemisphere hemisphere(settings.options.depth);
     const DensityMap map(mesh, bvh, hemisphere, settings.options.threshold,
                          Workers(settings.options.threads), monitor);

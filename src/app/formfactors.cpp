@@ -8,7 +8,7 @@
 #include "app/talk.h"
 #include "app/text.h"
 #include "app/write_report.h"
-#include "bvh/bvh.h"
+#include "bvh/wide_bvh.h"
 #include "io/factor_table.h"
 #include "io/npy.h"
 #include "radiosity/exact_form_factors.h"
@@ -72,7 +72,7 @@ int formfactors(const FormFactorSettings& settings) {
     const InterruptGuard guard(monitor.interrupted);
     const Mesh mesh = load_geometry(settings.scene, settings.talk);
     check_size(settings, mesh.patches().size());
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup(), {.threads = settings.options.threads});
     const Workers workers(settings.options.threads);
     SampledFormFactors samples(mesh, bvh, {}, settings.options.seed);
     const auto matrix = compute(settings, mesh, samples, workers, monitor);

@@ -104,7 +104,7 @@ int solve(const SolveSettings& settings) {
         reference = read_reference(settings.reference, mesh, std::move(detail));
     const Stopwatch building;
     const Needs needs = needs_of(mesh, settings.options);
-    const auto [tracer, tree] = make_tracer(mesh, needs);
+    const auto [tracer, tree] = make_tracer(mesh, needs, settings.options.threads);
     statistics.seconds_bvh = building.seconds();
     say(settings.talk, Talk::verbose, tracer_text(tree, statistics.seconds_bvh));
 

@@ -1,7 +1,8 @@
 #pragma once
 // The tracer that suits a scene.
 
-#include "bvh/bvh.h"
+#include "bvh/quality.h"
+#include "bvh/tracer.h"
 #include "radiosity/needs.h"
 
 #include <memory>
@@ -14,7 +15,7 @@ struct MadeTracer {
     std::optional<BvhQuality> tree; ///< empty where rays test all facets
 };
 
-/// The mesh must outlive it.
-[[nodiscard]] MadeTracer make_tracer(const Mesh& mesh, const Needs& needs);
+/// The mesh must outlive it. `threads`: that build the tree, 0 for one per core.
+[[nodiscard]] MadeTracer make_tracer(const Mesh& mesh, const Needs& needs, unsigned threads = 0);
 
 } // namespace hemilux

@@ -66,6 +66,16 @@ class Mesh {
     [[nodiscard]] Frame hemisphere_frame(std::uint32_t patch) const;
     /// The facets for a tracer to copy or to refer to.
     [[nodiscard]] FacetSoup soup() const;
+    /// Whether a facet has more than one patch a side.
+    [[nodiscard]] bool is_divided(std::uint32_t facet) const {
+        return divisions_[facet].rows > 1 || divisions_[facet].columns > 1;
+    }
+    /// The patch of a facet that is not divided; none for the back of a one-sided one.
+    [[nodiscard]] std::uint32_t patch_of(std::uint32_t facet, bool front) const {
+        if (!front && !two_sided_)
+            return none;
+        return divisions_[facet].first_patch + (front ? 0 : 1);
+    }
     /// The patch that was struck; none where the back of a one-sided facet was.
     [[nodiscard]] std::uint32_t patch_at(const Hit& hit) const;
 

@@ -16,8 +16,8 @@ class Mesh;
 struct Patch;
 
 struct PairFactor {
-    double factor = 0;   ///< F_from,to [-]
-    double variance = 0; ///< of the factor
+    double factor = 0;                            ///< F_from,to [-]
+    double variance = 0;                          ///< of the factor
     std::uint64_t points = 0, rays = 0, hits = 0; ///< not each point needs a ray
 
     /// Mean and spread of sets of so many points.

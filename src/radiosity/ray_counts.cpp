@@ -23,13 +23,13 @@ std::uint64_t RayCounts::trace_up_to(std::span<const std::uint32_t> rays, const 
                                      Monitor& monitor) {
     std::atomic<std::uint64_t> traced{0};
     workers.for_chunks(rows_.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::uint32_t> struck;
+        Scratch scratch;
         std::uint64_t count = 0;
         for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
             if (rays[i] <= rows_[i].rays)
                 continue;
             count += rays[i] - rows_[i].rays;
-            trace_row(static_cast<std::uint32_t>(i), rays[i], struck);
+            trace_row(static_cast<std::uint32_t>(i), rays[i], scratch);
         }
         traced += count;
         monitor.rays += count;
@@ -37,25 +37,27 @@ std::uint64_t RayCounts::trace_up_to(std::span<const std::uint32_t> rays, const 
     return traced;
 }
 
-void RayCounts::trace_row(std::uint32_t patch, std::uint32_t end,
-                          std::vector<std::uint32_t>& struck) {
+void RayCounts::trace_row(std::uint32_t patch, std::uint32_t end, Scratch& scratch) {
     const Patch& from = mesh_.patches()[patch];
     const Frame frame = mesh_.hemisphere_frame(patch);
     const std::uint64_t seed = hash_words({seed_, patch});
     Row& row = rows_[patch];
+    auto& [rays, struck] = scratch;
+    rays.clear();
     struck.clear();
     for (std::uint32_t k = row.rays; k < end; ++k) {
+        // Of the four dimensions the first two are the best distributed.
         const auto u = sobol4(k, seed);
         Ray ray{from.shape.sample({u[2], u[3]}), frame.to_world(cosine_direction({u[0], u[1]}))};
         ray.from = from.facet;
-        const std::uint32_t receiver = receiver_of(ray, mesh_, tracer_);
-        if (receiver == hemilux::escaped)
-            ++row.escaped;
-        else if (receiver == hemilux::absorbed)
-            ++row.absorbed;
-        else
-            struck.push_back(receiver);
+        rays.push_back(ray);
     }
+    find_receivers(rays, mesh_, tracer_, struck);
+    row.escaped += static_cast<std::uint32_t>(std::ranges::count(struck, hemilux::escaped));
+    row.absorbed += static_cast<std::uint32_t>(std::ranges::count(struck, hemilux::absorbed));
+    std::erase_if(struck, [](std::uint32_t patch_struck) {
+        return patch_struck == hemilux::escaped || patch_struck == hemilux::absorbed;
+    });
     row.add(struck);
     row.rays = end;
 }

@@ -3,7 +3,6 @@
 #include "radiosity/mesh.h"
 #include "radiosity/point_to_patch.h"
 #include "radiosity/rng.h"
-#include "radiosity/shot.h"
 #include "radiosity/sobol.h"
 #include "radiosity/solver.h"
 
@@ -33,7 +32,7 @@ SampledFormFactors::SampledFormFactors(const Mesh& mesh, const Tracer& tracer,
                                        std::vector<std::uint32_t> emitters, std::uint64_t seed,
                                        const Needs& needs)
     : mesh_(mesh), tracer_(tracer), emitters_(std::move(emitters)),
-      is_emitter_(mesh.patches().size()), seed_(seed), needs_(needs), rows_(mesh.patches().size()),
+      is_emitter_(mesh.patches().size()), seed_(seed), needs_(needs), counts_(mesh, tracer, seed),
       emitter_sum_(mesh.patches().size() * emitters_.size()) {
     for (const std::uint32_t e : emitters_)
         is_emitter_[e] = true;
@@ -48,60 +47,22 @@ std::uint32_t SampledFormFactors::emitter_samples(std::uint32_t rays) const {
 
 std::uint64_t SampledFormFactors::trace_up_to(std::uint32_t rays, const Workers& workers,
                                               Monitor& monitor) {
-    std::atomic<std::uint64_t> traced{0};
-    workers.for_chunks(rows_.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    const std::size_t patches = mesh_.patches().size();
+    std::vector<std::uint32_t> wanted(patches);
+    for (std::uint32_t i = 0; i < patches; ++i)
+        wanted[i] = needs_.power(i) ? rays : 0;
+    std::atomic<std::uint64_t> traced = counts_.trace_up_to(wanted, workers, monitor);
+    workers.for_chunks(patches, rows_per_chunk, [&](std::size_t begin, std::size_t end) {
         std::uint64_t count = 0;
-        for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
-            const auto patch = static_cast<std::uint32_t>(i);
-            if (!needs_.power(patch))
-                continue;
-            trace_row(patch, rays_, rays);
-            count += rays - rays_;
-            count += trace_emitters(patch, emitter_samples(rays_), emitter_samples(rays));
-        }
+        for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
+            if (wanted[i] > 0)
+                count += trace_emitters(static_cast<std::uint32_t>(i), emitter_samples(rays_),
+                                        emitter_samples(rays));
         traced += count;
         monitor.rays += count;
     });
     rays_ = rays;
     return traced;
-}
-
-void SampledFormFactors::trace_row(std::uint32_t patch, std::uint32_t begin, std::uint32_t end) {
-    const Patch& from = mesh_.patches()[patch];
-    const Frame frame = mesh_.hemisphere_frame(patch);
-    const std::uint64_t seed = hash_words({seed_, patch});
-    Row& row = rows_[patch];
-    std::vector<std::uint32_t> struck;
-    for (std::uint32_t k = begin; k < end; ++k) {
-        const auto u = sobol4(k, seed);
-        Ray ray{from.shape.sample({u[0], u[1]}), frame.to_world(cosine_direction({u[2], u[3]}))};
-        ray.from = from.facet;
-        const auto hit = tracer_.closest(ray);
-        const std::uint32_t receiver = hit ? mesh_.patch_at(*hit) : none;
-        if (receiver != none)
-            struck.push_back(receiver);
-        else
-            ++(hit ? row.absorbed : row.escaped);
-    }
-    std::ranges::sort(struck);
-    std::vector<Count> merged;
-    merged.reserve(row.counts.size() + struck.size());
-    std::size_t old = 0;
-    for (std::size_t k = 0; k < struck.size();) {
-        const std::uint32_t j = struck[k];
-        std::uint32_t hits = 0;
-        for (; k < struck.size() && struck[k] == j; ++k)
-            ++hits;
-        for (; old < row.counts.size() && row.counts[old].patch < j; ++old)
-            merged.push_back(row.counts[old]);
-        if (old < row.counts.size() && row.counts[old].patch == j)
-            hits += row.counts[old++].hits;
-        merged.push_back({j, hits});
-    }
-    merged.insert(merged.end(), row.counts.begin() + static_cast<std::ptrdiff_t>(old),
-                  row.counts.end());
-    merged.shrink_to_fit();
-    row.counts = std::move(merged);
 }
 
 std::uint64_t SampledFormFactors::trace_emitters(std::uint32_t patch, std::uint32_t begin,
@@ -119,19 +80,20 @@ std::uint64_t SampledFormFactors::trace_emitters(std::uint32_t patch, std::uint3
 
 LostShare SampledFormFactors::lost(std::uint32_t patch) const {
     const double n = rays_;
-    return {rows_[patch].escaped / n, rows_[patch].absorbed / n};
+    return {counts_.escaped(patch) / n, counts_.absorbed(patch) / n};
 }
 
 /// c_ij + c_ji, by row and patch.
-std::vector<std::vector<SampledFormFactors::Count>> SampledFormFactors::merged_counts() const {
-    std::vector<std::vector<Count>> merged(rows_.size());
-    for (std::uint32_t i = 0; i < rows_.size(); ++i)
-        for (const Count& c : rows_[i].counts) {
+std::vector<std::vector<RayCounts::Count>> SampledFormFactors::merged_counts() const {
+    const auto patches = static_cast<std::uint32_t>(mesh_.patches().size());
+    std::vector<std::vector<RayCounts::Count>> merged(patches);
+    for (std::uint32_t i = 0; i < patches; ++i)
+        for (const RayCounts::Count& c : counts_.row(i)) {
             merged[i].push_back(c);
             merged[c.patch].push_back({i, c.hits});
         }
     for (auto& row : merged) {
-        std::ranges::sort(row, {}, &Count::patch);
+        std::ranges::sort(row, {}, &RayCounts::Count::patch);
         std::size_t kept = 0;
         for (std::size_t k = 0; k < row.size(); ++k) {
             if (kept > 0 && row[kept - 1].patch == row[k].patch)
@@ -157,7 +119,7 @@ SparseMatrix SampledFormFactors::matrix() const {
     f.row_begin.push_back(0);
     const double samples = emitter_samples(rays_);
     const auto merged = merged_counts();
-    for (std::uint32_t i = 0; i < rows_.size(); ++i) {
+    for (std::uint32_t i = 0; i < merged.size(); ++i) {
         const LostShare lost_share = lost(i);
         double rest =
             1 - lost_share.escaped - lost_share.absorbed; // of the row, for all but emitters
@@ -172,7 +134,7 @@ SparseMatrix SampledFormFactors::matrix() const {
         const std::size_t first = f.value.size();
         double sum = 0;
         const bool shoots = needs_.power(i);
-        for (const Count& c : merged[i])
+        for (const RayCounts::Count& c : merged[i])
             if (!shoots || !is_emitter_[c.patch]) {
                 f.column.push_back(c.patch);
                 f.value.push_back(factor_per_hit(i, c.patch) * c.hits);

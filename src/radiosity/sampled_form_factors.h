@@ -11,6 +11,7 @@
 
 #include "bvh/tracer.h"
 #include "radiosity/needs.h"
+#include "radiosity/ray_counts.h"
 #include "radiosity/workers.h"
 
 #include <atomic>
@@ -59,18 +60,8 @@ class SampledFormFactors {
     [[nodiscard]] LostShare lost(std::uint32_t patch) const;
 
   private:
-    /// A patch that was struck, and how often.
-    struct Count {
-        std::uint32_t patch, hits;
-    };
-    struct Row {
-        std::vector<Count> counts; ///< by patch
-        std::uint32_t escaped = 0, absorbed = 0;
-    };
-
-    void trace_row(std::uint32_t patch, std::uint32_t begin, std::uint32_t end);
     std::uint64_t trace_emitters(std::uint32_t patch, std::uint32_t begin, std::uint32_t end);
-    [[nodiscard]] std::vector<std::vector<Count>> merged_counts() const;
+    [[nodiscard]] std::vector<std::vector<RayCounts::Count>> merged_counts() const;
     [[nodiscard]] std::uint32_t emitter_samples(std::uint32_t rays) const;
     [[nodiscard]] double factor_per_hit(std::uint32_t i, std::uint32_t j) const;
 
@@ -81,7 +72,7 @@ class SampledFormFactors {
     std::uint64_t seed_;
     const Needs& needs_;
     std::uint32_t rays_ = 0; ///< per patch, so far
-    std::vector<Row> rows_;
+    RayCounts counts_;
     std::vector<double> emitter_sum_; ///< per patch and emitter: sum of the samples
 };
 

@@ -90,6 +90,7 @@ std::uint64_t ShootingSolver::bounce(std::uint64_t stream, const std::vector<Vec
                                for (std::size_t i = begin + first; i < begin + last; ++i)
                                    if (mean_of_channels(unshot[i]) > 0)
                                        shoot(static_cast<std::uint32_t>(i), stream, shares, volley);
+                               trace(volley);
                                input_.monitor.rays += volley.receivers.size();
                            });
         for (const Volley& volley : volleys)
@@ -164,8 +165,11 @@ void ShootingSolver::shoot(std::uint32_t patch, std::uint64_t stream,
         const double ray_power = (own ? own->power : share.power) / sharing;
         const Aim target = aim(patch, share.cell, own);
         volley.bursts.push_back({patch, static_cast<std::uint32_t>(n), ray_power});
-        for (double k = 0; k < n; ++k)
-            volley.receivers.push_back(trace(input_.mesh.patches()[patch], frame, target, rng));
+        for (double k = 0; k < n; ++k) {
+            volley.waiting.push_back(draw(input_.mesh.patches()[patch], frame, target, rng));
+            if (volley.waiting.size() == rays_at_a_time)
+                trace(volley);
+        }
     }
 }
 
@@ -182,15 +186,19 @@ ShootingSolver::Aim ShootingSolver::aim(std::uint32_t patch, std::uint16_t cell,
     return {nullptr, own ? origins->centre() : from.centre, &triangle};
 }
 
-std::uint32_t ShootingSolver::trace(const Patch& from, const Frame& frame, const Aim& aim,
-                                    Rng& rng) const {
+Ray ShootingSolver::draw(const Patch& from, const Frame& frame, const Aim& aim, Rng& rng) {
     Ray ray{};
     ray.from = from.facet;
     ray.origin = aim.origins ? sample_uniform(*aim.origins, rng) : aim.centre;
     ray.direction =
         frame.to_world(aim.triangle ? aim.triangle->sample_rejection([&] { return rng.uniform(); })
                                     : sample_cosine(rng));
-    return receiver_of(ray, input_.mesh, input_.tracer);
+    return ray;
+}
+
+void ShootingSolver::trace(Volley& volley) const {
+    find_receivers(volley.waiting, input_.mesh, input_.tracer, volley.receivers);
+    volley.waiting.clear();
 }
 
 } // namespace hemilux

@@ -44,6 +44,7 @@ class ShootingSolver final : public StepwiseSolver {
     struct Volley {
         std::vector<Burst> bursts;
         std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
+        std::vector<Ray> waiting;             ///< rays that are not traced yet
     };
 
     bool solve_once(std::uint64_t stream, StepResult& result) override;
@@ -55,8 +56,8 @@ class ShootingSolver final : public StepwiseSolver {
                Volley& volley) const;
     [[nodiscard]] Aim aim(std::uint32_t patch, std::uint16_t cell,
                           const std::optional<PrivateCell>& own) const;
-    [[nodiscard]] std::uint32_t trace(const Patch& from, const Frame& frame, const Aim& aim,
-                                      Rng& rng) const;
+    [[nodiscard]] static Ray draw(const Patch& from, const Frame& frame, const Aim& aim, Rng& rng);
+    void trace(Volley& volley) const;
 
     static void collect(const Volley& volley, const std::vector<Vec3>& unshot,
                         std::vector<Vec3>& received, StepResult& result);

@@ -4,6 +4,7 @@
 
 #include "bvh/tracer.h"
 #include "radiosity/mesh.h"
+#include "radiosity/receivers.h"
 #include "radiosity/rng.h"
 
 #include <algorithm>
@@ -11,9 +12,6 @@
 #include <numbers>
 
 namespace hemilux {
-
-/// Where a ray arrived if not at a patch: in the open, or on the back of a one-sided face.
-inline constexpr std::uint32_t escaped = 0xffffffff, absorbed = 0xfffffffe;
 
 /// What decides how many rays a power in three channels is worth.
 [[nodiscard]] inline double mean_of_channels(const Vec3& power) {
@@ -54,16 +52,6 @@ inline constexpr std::uint32_t escaped = 0xffffffff, absorbed = 0xfffffffe;
 [[nodiscard]] inline Vec3 sample_uniform(const Polygon& polygon, Rng& rng) {
     const double u = rng.uniform(), v = rng.uniform();
     return polygon.sample({u, v});
-}
-
-/// The patch that the ray strikes, or `escaped` or `absorbed`.
-[[nodiscard]] inline std::uint32_t receiver_of(const Ray& ray, const Mesh& mesh,
-                                               const Tracer& tracer) {
-    const auto hit = tracer.closest(ray);
-    if (!hit)
-        return escaped;
-    const std::uint32_t receiver = mesh.patch_at(*hit);
-    return receiver == none ? absorbed : receiver;
 }
 
 } // namespace hemilux

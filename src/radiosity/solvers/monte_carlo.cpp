@@ -71,24 +71,32 @@ class MonteCarloSolver final : public StepwiseSolver {
     Vec3 shoot(std::uint32_t shooter, const Vec3& power, std::uint64_t stream) {
         const double expected = mean_of_channels(power) / ray_power();
         const double n = std::floor(expected + Rng(stream).uniform());
-        receivers_.resize(static_cast<std::size_t>(n));
-        const Workers workers = receivers_.size() < rays_for_one_thread ? Workers(1) : workers_;
-        workers.for_chunks(
-            receivers_.size(), rays_per_stream, [&](std::size_t begin, std::size_t end) {
-                Rng rng(hash_words({stream, begin / rays_per_stream}));
-                for (std::size_t k = begin; k < end && !input_.monitor.interrupted; ++k)
-                    receivers_[k] = trace(shooter, rng);
-            });
+        const auto rays = static_cast<std::size_t>(n);
+        std::vector<std::vector<std::uint32_t>> struck((rays + rays_per_stream - 1) /
+                                                       rays_per_stream);
+        const Workers workers = rays < rays_for_one_thread ? Workers(1) : workers_;
+        workers.for_chunks(rays, rays_per_stream, [&](std::size_t begin, std::size_t end) {
+            if (input_.monitor.interrupted)
+                return;
+            Rng rng(hash_words({stream, begin / rays_per_stream}));
+            std::vector<Ray> drawn;
+            for (std::size_t k = begin; k < end; ++k)
+                drawn.push_back(draw(shooter, rng));
+            find_receivers(drawn, input_.mesh, input_.tracer, struck[begin / rays_per_stream]);
+        });
+        receivers_.clear();
+        for (const std::vector<std::uint32_t>& part : struck)
+            receivers_.insert(receivers_.end(), part.begin(), part.end());
         // Below one ray, the ray that is shot carries the power of those that are not.
         return power / (expected >= 1 ? n : expected);
     }
 
-    [[nodiscard]] std::uint32_t trace(std::uint32_t shooter, Rng& rng) const {
+    [[nodiscard]] Ray draw(std::uint32_t shooter, Rng& rng) const {
         const Patch& from = input_.mesh.patches()[shooter];
         Ray ray{sample_uniform(from.shape, rng),
                 Frame::from_normal(from.normal).to_world(sample_cosine(rng))};
         ray.from = from.facet;
-        return receiver_of(ray, input_.mesh, input_.tracer);
+        return ray;
     }
 
     /// The part of a ray's power that the patch reflects, which it now holds unshot.

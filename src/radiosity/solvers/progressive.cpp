@@ -251,11 +251,16 @@ class ProgressiveSolver final : public Solver {
         const std::uint64_t seed = hash_words({input_.options.seed, shots_, shooter, 1});
         const Frame frame = Frame::from_normal(s.normal);
         const Vec3 each = shot * (s.area / count);
+        std::vector<Ray> rays;
         for (std::uint32_t k = 0; k < count; ++k) {
             const auto u = sobol4(k, seed);
-            Ray ray{s.shape.sample({u[0], u[1]}), frame.to_world(cosine_direction({u[2], u[3]}))};
-            ray.from = s.facet;
-            const std::uint32_t receiver = receiver_of(ray, input_.mesh, input_.tracer);
+            rays.push_back(
+                {s.shape.sample({u[0], u[1]}), frame.to_world(cosine_direction({u[2], u[3]}))});
+            rays.back().from = s.facet;
+        }
+        std::vector<std::uint32_t> receivers;
+        find_receivers(rays, input_.mesh, input_.tracer, receivers);
+        for (const std::uint32_t receiver : receivers) {
             if (receiver == escaped)
                 tally_.escaped += each;
             else if (receiver == absorbed || !input_.needs.power(receiver))
