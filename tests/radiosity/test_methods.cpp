@@ -39,7 +39,9 @@ Solution solve(const Model& model, const Method& method, SolveOptions options, s
         options.progressive.one_shot = true;
         return test::solve(model, method, options, test::steps(1'000'000));
     }
-    return test::solve(model, method, options, test::steps(method.default_stop.error ? 2 : n));
+    const std::uint32_t doublings = method.name == "matrix" ? 2 : 4;
+    return test::solve(model, method, options,
+                       test::steps(method.default_stop.error ? doublings : n));
 }
 
 } // namespace

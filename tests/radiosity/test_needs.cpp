@@ -247,6 +247,8 @@ TEST_CASE("What is left out changes no byte of the solution") {
             for (const bool literal : {false, true}) {
                 if (literal && !method->has_literal)
                     continue;
+                if (method->name == "gathering" && !needs.idle.empty())
+                    continue; // deals the rays of idle patches to others, see below
                 const SolveOptions options = with_rays(4, literal);
                 const Solution with = solve_with(mesh, needs, *method, options, 2);
                 const Solution without = solve_with(mesh, everything_needed, *method, options, 2);
@@ -262,15 +264,19 @@ TEST_CASE("What is left out changes no byte of the solution") {
     }
 }
 
-// Black patches shoot no rays for the matrix, so that their pairs are known from one side alone.
-TEST_CASE("matrix without the rays of black patches agrees within the standard errors") {
+// Black patches shoot no rays, so that their pairs are known from one side alone.
+TEST_CASE("Without the rays of black patches factors agree within the standard errors") {
     const Mesh mesh(room_with_black_walls());
     const Needs needs = find_needs(mesh);
     REQUIRE(needs.black > mesh.patches().size() / 2);
-    const Method& matrix = *find_method("matrix");
-    const Solution with = solve_with(mesh, needs, matrix, with_rays(256), 2);
-    const Solution without = solve_with(mesh, everything_needed, matrix, with_rays(256), 2);
-    CHECK(with.rays_energy < without.rays_energy / 2);
+    const std::string name = GENERATE("matrix", "gathering");
+    CAPTURE(name);
+    const Method& method = *find_method(name);
+    const std::uint32_t steps = name == "matrix" ? 2 : 7;
+    const Solution with = solve_with(mesh, needs, method, with_rays(256), steps);
+    const Solution without = solve_with(mesh, everything_needed, method, with_rays(256), steps);
+    if (name == "matrix")
+        CHECK(with.rays_energy < without.rays_energy / 2);
     double mean = 0;
     std::size_t count = 0, far = 0;
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
@@ -288,7 +294,7 @@ TEST_CASE("matrix without the rays of black patches agrees within the standard e
     }
     REQUIRE(count > 10);
     CHECK(std::abs(mean / static_cast<double>(count)) < .6);
-    CHECK(far == 0);
+    CHECK(far <= (name == "matrix" ? 0 : count / 20)); // with four sets errors are rough
     for (int c = 0; c < 3; ++c) {
         const double balance = with.energy.absorbed[c] + with.energy.escaped[c];
         CHECK(balance == Approx(with.energy.emitted[c]).epsilon(.005));

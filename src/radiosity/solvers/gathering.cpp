@@ -45,6 +45,9 @@ constexpr double worth_doubling = .35;
 /// The share of the weights that is measured; and what a patch's area counts, see weigh().
 constexpr double trust = .5, area_exponent = .42;
 
+/// Black emitters count as if they reflected this: their rays tell where their light goes.
+constexpr double least_reflectance = .1;
+
 class GatheringSolver final : public Solver {
   public:
     explicit GatheringSolver(const SolverInput& input)
@@ -70,10 +73,11 @@ class GatheringSolver final : public Solver {
         rays_.resize(patches.size());
         samples_.resize(patches.size());
         for (std::uint32_t i = 0; i < patches.size(); ++i) {
-            const Vec3 rho = input.needs.power(i) ? reflectance_[i] : Vec3(0.0);
-            weights_.push_back(std::pow(area_[i], area_exponent) * glm::length(rho));
+            const double area = input.needs.power(i) ? std::pow(area_[i], area_exponent) : 0;
+            direct_weights_.push_back(area * glm::length(reflectance_[i]));
+            weights_.push_back(area * std::max(glm::length(reflectance_[i]), least_reflectance));
         }
-        direct_weights_ = weights_;
+        prior_weights_ = weights_;
         incident_.assign(sets + 1, std::vector<Vec3>(patches.size(), Vec3(0.0)));
         solution_.radiosity = emission_;
         solution_.standard_error.resize(patches.size());
@@ -144,13 +148,13 @@ class GatheringSolver final : public Solver {
         for (std::size_t i = 0; i < n; ++i) {
             const Vec3 variance = glm::max(mean_of_squares[i] - mean[i] * mean[i], 0.0);
             spread[i] = std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance));
-            sum += direct_weights_[i] * spread[i];
-            sum_of_weights += direct_weights_[i];
+            sum += prior_weights_[i] * spread[i];
+            sum_of_weights += prior_weights_[i];
         }
         if (sum > 0)
             for (std::size_t i = 0; i < n; ++i)
                 weights_[i] =
-                    direct_weights_[i] * (trust * spread[i] * sum_of_weights / sum + 1 - trust);
+                    prior_weights_[i] * (trust * spread[i] * sum_of_weights / sum + 1 - trust);
     }
 
     /// What arrives at each patch in the end, from these sets together.
@@ -160,10 +164,9 @@ class GatheringSolver final : public Solver {
         const std::size_t n = area_.size();
         std::vector<Vec3> d(n), seen(n);
         factors.multiply(seen_emission_, d, workers_);
-        if (!input_.needs.idle.empty()) // these have no rays of their own
-            factors.multiply(emission_, seen, workers_);
+        factors.multiply(emission_, seen, workers_);
         for (std::uint32_t i = 0; i < n; ++i) {
-            if (!input_.needs.power(i))
+            if (direct[0].samples(i) == 0) // black: rays at random tell well enough what it absorbs
                 d[i] = seen[i];
             for (const DirectLight& light : direct)
                 d[i] += light.irradiance(i) / static_cast<double>(direct.size());
@@ -226,6 +229,7 @@ class GatheringSolver final : public Solver {
     double mean_rays_ = 0, mean_samples_ = 0; ///< per patch and set
     std::vector<std::uint32_t> rays_, samples_;
     std::vector<double> weights_, direct_weights_; ///< what a ray or a sample is worth
+    std::vector<double> prior_weights_;            ///< of rays, before anything is known
     double variance_ = 0, direct_variance_ = 0;
     std::uint64_t traced_ = 0;
     Solution solution_;
