@@ -7,6 +7,7 @@
 #include "app/option_kinds.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
@@ -68,6 +69,19 @@ void add_method_options(CLI::App& app, SolveOptions& options) {
                "mean rays per patch and step [64]")
         ->group("Method");
     add_division_options(app, options);
+    app.add_option_function<std::string>(
+           "--guide",
+           [&options](const std::string& name) {
+               const auto names = std::to_array<std::string>({"density", "visible", "learned"});
+               const auto found = std::ranges::find(names, name);
+               if (found == names.end())
+                   throw UsageError("--guide: " +
+                                    unknown_name("guide", name, {names.begin(), names.end()}));
+               options.guide = static_cast<Guide>(found - names.begin());
+           },
+           "what guides hemisphere: density, visible or learned [density]")
+        ->type_name("NAME")
+        ->group("Method");
     app.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased")
         ->group("Method");
     app.add_flag("--keep-all", options.keep_all,

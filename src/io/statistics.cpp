@@ -33,6 +33,7 @@ Json to_object(const Statistics& s) {
             {"rays_per_second", s.rays_per_second},
             {"bytes_density", s.bytes_density},
             {"bytes_density_paper", s.bytes_density_paper},
+            {"bytes_transport", s.bytes_transport},
             {"bytes_peak", s.bytes_peak},
             {"estimated_error", s.estimated_error},
             {"energy",

@@ -24,6 +24,7 @@ struct Statistics {
     double seconds_density = unknown, seconds_solve = unknown;
     double rays_per_second = unknown;
     std::uint64_t bytes_density = 0;       ///< measured
+    std::uint64_t bytes_transport = 0;     ///< of the rays that `gathering` keeps
     std::uint64_t bytes_density_paper = 0; ///< 4 (4^(n+1) - 1) / 3 per patch (paper section 6)
     std::uint64_t bytes_peak = 0;          ///< of the process
     double estimated_error = unknown;

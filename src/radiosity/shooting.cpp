@@ -109,6 +109,9 @@ void ShootingSolver::collect(const Volley& volley, const std::vector<Vec3>& unsh
     std::size_t ray = 0;
     for (const Burst& burst : volley.bursts) {
         const Vec3 power = burst.ray_power * unshot[burst.patch]; // Phi_ray
+        if (strategy_->learns())
+            strategy_->learn(burst.patch, burst.cell,
+                             std::span(volley.receivers).subspan(ray, burst.rays));
         for (std::uint32_t k = 0; k < burst.rays; ++k) {
             const std::uint32_t receiver = volley.receivers[ray++];
             if (receiver == escaped) {
@@ -164,7 +167,7 @@ void ShootingSolver::shoot(std::uint32_t patch, std::uint64_t stream,
         const auto own = strategy_->private_cell(patch, share.cell);
         const double ray_power = (own ? own->power : share.power) / sharing;
         const Aim target = aim(patch, share.cell, own);
-        volley.bursts.push_back({patch, static_cast<std::uint32_t>(n), ray_power});
+        volley.bursts.push_back({patch, share.cell, static_cast<std::uint32_t>(n), ray_power});
         for (double k = 0; k < n; ++k) {
             volley.waiting.push_back(draw(input_.mesh.patches()[patch], frame, target, rng));
             if (volley.waiting.size() == rays_at_a_time)

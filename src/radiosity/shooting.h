@@ -31,6 +31,7 @@ class ShootingSolver final : public StepwiseSolver {
     /// Rays of one cell: N_tr of them, each carrying ray_power of the patch's power.
     struct Burst {
         std::uint32_t patch;
+        std::uint16_t cell;
         std::uint32_t rays;
         double ray_power; ///< Phi_ray / Phi_patch
     };
@@ -59,8 +60,8 @@ class ShootingSolver final : public StepwiseSolver {
     [[nodiscard]] static Ray draw(const Patch& from, const Frame& frame, const Aim& aim, Rng& rng);
     void trace(Volley& volley) const;
 
-    static void collect(const Volley& volley, const std::vector<Vec3>& unshot,
-                        std::vector<Vec3>& received, StepResult& result);
+    void collect(const Volley& volley, const std::vector<Vec3>& unshot, std::vector<Vec3>& received,
+                 StepResult& result);
 
     Workers workers_;
     Hemisphere hemisphere_;

@@ -30,6 +30,13 @@ struct ProgressiveOptions {
     bool overshoot = false;
 };
 
+/// What `hemisphere` is guided by.
+enum class Guide {
+    density, ///< surfaces along a ray, as in the paper
+    visible, ///< what is seen: rho^2 / A of the nearest patch
+    learned  ///< the same, from the hits of the steps before
+};
+
 struct SolveOptions {
     /// Mean energy rays per patch and step, N_hemi of the paper. More: fewer, longer steps.
     double rays = 64;
@@ -42,7 +49,10 @@ struct SolveOptions {
     /// `matrix`: factors without chance where patches see each other fully. For small scenes.
     bool exact = false;
     ProgressiveOptions progressive;
+    Guide guide = Guide::density; ///< `hemisphere`; not with `literal`
     std::uint64_t seed = 1;
+    /// Bytes that `gathering` may use for its rays; 0: as many as it needs.
+    std::uint64_t memory = 0;
     /// 0: one per core. The result does not depend on it.
     unsigned threads = 0;
     /// Leaves out nothing that the scene does not need (needs.h): for comparison.

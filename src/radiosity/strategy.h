@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -45,6 +46,12 @@ class Strategy {
                                                                   std::uint16_t /*cell*/) const {
         return std::nullopt;
     }
+
+    /// Whether it wants to be told what its rays struck.
+    [[nodiscard]] virtual bool learns() const { return false; }
+    /// Where the rays of a cell arrived, see receivers.h; in a fixed order.
+    virtual void learn(std::uint32_t /*patch*/, std::uint16_t /*cell*/,
+                       std::span<const std::uint32_t> /*receivers*/) {}
 
     [[nodiscard]] virtual std::uint64_t density_rays() const { return 0; }
     /// Those that would have been shot if all triangles were divided.

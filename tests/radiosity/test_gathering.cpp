@@ -213,3 +213,23 @@ TEST_CASE("Gathering closes the balance of energy of closed rooms") {
                   Approx(s.energy.emitted[c]).epsilon(.01));
     }
 }
+
+TEST_CASE("With little memory gathering goes on, and its rays take no more") {
+    const Model model(test::room_with_block());
+    const Solution exact = test::reference(model, .004);
+    SolveOptions options;
+    options.memory = 300'000;
+    const Solution few = test::solve(model, gathering(), options, test::steps(6));
+    const Solution many = test::solve(model, gathering(), options, test::steps(40));
+    options.memory = 0;
+    const Solution free = test::solve(model, gathering(), options, test::steps(10));
+    CHECK(many.bytes_transport <= 300'000);
+    CHECK(many.bytes_transport >= few.bytes_transport);
+    CHECK(free.bytes_transport > 2 * many.bytes_transport);
+    const auto off = [&](const Solution& s) {
+        return true_error(model.mesh, s.radiosity, exact.radiosity).all;
+    };
+    CHECK(off(many) < .6 * off(few));
+    CHECK(off(many) < .02);
+    CHECK(estimated_error(model.mesh, many) > off(many) / 2);
+}

@@ -28,6 +28,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hemilux {
 namespace {
@@ -42,6 +43,9 @@ constexpr double most_rays = 1u << 20;
 /// variance.
 constexpr double worth_doubling = .35;
 
+/// Bytes that are needed to put counts together, for each byte of them.
+constexpr double merging = 5;
+
 /// The share of the weights that is measured; and what a patch's area counts, see weigh().
 constexpr double trust = .5, area_exponent = .42;
 
@@ -53,11 +57,8 @@ class GatheringSolver final : public Solver {
     explicit GatheringSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)) {
         const auto patches = input.mesh.patches();
-        for (std::uint64_t s = 0; s < sets; ++s) {
-            counts_.emplace_back(input.mesh, input.tracer, hash_words({input.options.seed, s}));
-            direct_.emplace_back(input.mesh, input.tracer, input.needs, emitters_,
-                                 hash_words({input.options.seed, s, 1}));
-        }
+        renew();
+        finished_.assign(sets + 1, std::vector<Vec3>(patches.size(), Vec3(0.0)));
         std::vector<bool> small(patches.size());
         for (const std::uint32_t e : emitters_)
             small[e] = true;
@@ -85,10 +86,17 @@ class GatheringSolver final : public Solver {
     }
 
     bool step() override {
+        const double mean_rays = mean_rays_, mean_samples = mean_samples_;
         choose_rays();
-        const std::vector<std::uint32_t> rays = deal_rays(weights_, mean_rays_, rays_);
-        const std::vector<std::uint32_t> samples =
-            deal_rays(direct_weights_, mean_samples_, samples_);
+        std::vector<std::uint32_t> rays = deal_rays(weights_, mean_rays_, rays_);
+        std::vector<std::uint32_t> samples = deal_rays(direct_weights_, mean_samples_, samples_);
+        if (!fits(rays)) {
+            rays = rays_;
+            samples = samples_;
+            mean_rays_ = mean_rays;
+            mean_samples_ = mean_samples;
+            begin_generation();
+        }
         for (std::size_t s = 0; s < sets; ++s) {
             input_.monitor.phase = "rays";
             traced_ += counts_[s].trace_up_to(rays, workers_, input_.monitor);
@@ -113,6 +121,47 @@ class GatheringSolver final : public Solver {
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
   private:
+    /// New rays, independent of all before.
+    void renew() {
+        counts_.clear();
+        direct_.clear();
+        for (std::uint64_t s = 0; s < sets; ++s) {
+            const std::uint64_t seed = hash_words({input_.options.seed, s, generation_});
+            counts_.emplace_back(input_.mesh, input_.tracer, hash_words({seed, 0}));
+            direct_.emplace_back(input_.mesh, input_.tracer, input_.needs, emitters_,
+                                 hash_words({seed, 1}));
+        }
+    }
+
+    /// What is known is kept as a solution, and its rays are forgotten.
+    void begin_generation() {
+        for (std::size_t s = 0; s <= sets; ++s)
+            for (std::size_t i = 0; i < area_.size(); ++i)
+                finished_[s][i] += incident_[s][i];
+        ++generation_;
+        renew();
+    }
+
+    /// Whether so many rays may be stored.
+    [[nodiscard]] bool fits(const std::vector<std::uint32_t>& rays) const {
+        const auto sum = [](const std::vector<std::uint32_t>& of) {
+            return std::accumulate(of.begin(), of.end(), 0.0);
+        };
+        if (input_.options.memory == 0 || sum(rays_) == 0)
+            return true;
+        std::uint64_t stored = 0;
+        for (const RayCounts& set : counts_)
+            stored += set.bytes();
+        const double growth = sum(rays) / sum(rays_);
+        return merging * growth * static_cast<double>(stored) <=
+               static_cast<double>(input_.options.memory);
+    }
+
+    /// Mean over the generations; `set` == sets: of all sets together.
+    [[nodiscard]] Vec3 incident(std::size_t set, std::size_t patch) const {
+        return (finished_[set][patch] + incident_[set][patch]) / double(generation_ + 1);
+    }
+
     /// How many rays of both kinds the mean patch and set is to have after this step.
     void choose_rays() {
         if (solution_.steps == 0) {
@@ -182,27 +231,31 @@ class GatheringSolver final : public Solver {
             Vec3 mean(0.0), squares(0.0), direct_mean(0.0), direct_squares(0.0);
             std::uint64_t hits = 0;
             for (std::size_t s = 0; s < sets; ++s) {
-                mean += incident_[s][i] / double(sets);
+                mean += incident(s, i) / double(sets);
                 direct_mean += direct_[s].irradiance(i) / double(sets);
                 hits += direct_[s].hits(i);
             }
             for (std::size_t s = 0; s < sets; ++s) {
-                const Vec3 off = incident_[s][i] - mean;
+                const Vec3 off = incident(s, i) - mean;
                 const Vec3 direct_off = direct_[s].irradiance(i) - direct_mean;
                 squares += off * off;
                 direct_squares += direct_off * direct_off;
             }
             const Vec3 rho = reflectance_[i];
-            solution_.radiosity[i] = emission_[i] + rho * incident_[sets][i];
+            solution_.radiosity[i] = emission_[i] + rho * incident(sets, i);
             solution_.standard_error[i] = rho * glm::sqrt(squares / double(sets * (sets - 1)));
             solution_.hits[i] = hits + std::uint64_t{rays_[i]} * sets;
             variance_ += area_[i] * glm::dot(rho * rho, squares);
-            direct_variance_ += area_[i] * glm::dot(rho * rho, direct_squares);
+            direct_variance_ +=
+                area_[i] * glm::dot(rho * rho, direct_squares) / double(generation_ + 1);
         }
         variance_ = std::max(variance_, direct_variance_);
         weigh(all);
         account(all);
         solution_.rays_energy = traced_;
+        solution_.bytes_transport = all.bytes();
+        for (std::size_t s = 0; s < sets; ++s)
+            solution_.bytes_transport += counts_[s].bytes() + direct_[s].bytes();
         ++solution_.steps;
     }
 
@@ -211,7 +264,7 @@ class GatheringSolver final : public Solver {
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
             const double area = input_.mesh.frame().area_to_world(area_[i]);
             const LostShare lost = all.lost(i);
-            solution_.energy.absorbed += area * ((1.0 - reflectance_[i]) * incident_[sets][i] +
+            solution_.energy.absorbed += area * ((1.0 - reflectance_[i]) * incident(sets, i) +
                                                  lost.absorbed * solution_.radiosity[i]);
             solution_.energy.escaped += area * lost.escaped * solution_.radiosity[i];
         }
@@ -226,6 +279,8 @@ class GatheringSolver final : public Solver {
     std::vector<RayCounts> counts_;
     std::vector<DirectLight> direct_;
     std::vector<std::vector<Vec3>> incident_; ///< of each set, at last of all together
+    std::vector<std::vector<Vec3>> finished_; ///< sums over the generations before
+    std::uint64_t generation_ = 0;
     double mean_rays_ = 0, mean_samples_ = 0; ///< per patch and set
     std::vector<std::uint32_t> rays_, samples_;
     std::vector<double> weights_, direct_weights_; ///< what a ray or a sample is worth

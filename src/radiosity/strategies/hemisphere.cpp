@@ -14,6 +14,7 @@
 // which it sends rays in vain. Costs at most 41 rays and bytes per patch at depth 2.
 
 #include "radiosity/density.h"
+#include "radiosity/seen_guide.h"
 #include "radiosity/shooting.h"
 
 #include <algorithm>
@@ -113,6 +114,9 @@ class HemisphereStrategy final : public Strategy {
 
 std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisphere& hemisphere,
                                           const Workers& workers) {
+    const Guide guide = input.options.literal ? Guide::density : input.options.guide;
+    if (guide != Guide::density && input.needs.densities)
+        return make_seen_guide(input, hemisphere, workers, guide == Guide::learned);
     return std::make_unique<HemisphereStrategy>(input, hemisphere, workers);
 }
 
