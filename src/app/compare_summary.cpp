@@ -39,14 +39,14 @@ double geometric_mean(const std::vector<const MethodRun*>& runs, Figure figure) 
     return hemilux::geometric_mean(numbers);
 }
 
-MeanCurve curve(const std::vector<const MethodRun*>& runs, Figure x) {
+std::vector<ErrorCurve> curves_of(const std::vector<const MethodRun*>& runs, Figure x) {
     std::vector<ErrorCurve> curves;
     for (const MethodRun* const run : runs) {
         ErrorCurve& points = curves.emplace_back();
         for (const StepRow& row : run->rows)
             append(points, {x(row), row.error->all});
     }
-    return mean_curve(curves);
+    return curves;
 }
 
 MethodSummary summarise(const MethodRuns& result, bool literal) {
@@ -61,8 +61,10 @@ MethodSummary summarise(const MethodRuns& result, bool literal) {
                      geometric_mean(runs, [](const StepRow& row) { return row.error->rest; })};
     summary.estimated_error =
         geometric_mean(runs, [](const StepRow& row) { return row.record.estimated_error; });
-    summary.by_seconds = curve(runs, seconds_of);
-    summary.by_rays = curve(runs, rays_of);
+    summary.runs_by_seconds = curves_of(runs, seconds_of);
+    summary.runs_by_rays = curves_of(runs, rays_of);
+    summary.by_seconds = mean_curve(summary.runs_by_seconds);
+    summary.by_rays = mean_curve(summary.runs_by_rays);
     for (const MethodRun* const run : runs)
         summary.bytes_density = std::max(summary.bytes_density, run->bytes_density);
     return summary;
@@ -117,8 +119,8 @@ std::vector<MethodSummary> summarise(std::span<const MethodRuns> results, bool l
         return summaries;
     const MethodSummary yardstick = summaries[static_cast<std::size_t>(base - results.begin())];
     for (MethodSummary& summary : summaries) {
-        summary.gain_seconds = speed_up(summary.by_seconds.points(), yardstick.by_seconds.points());
-        summary.gain_rays = speed_up(summary.by_rays.points(), yardstick.by_rays.points());
+        summary.gain_seconds = speed_up(summary.runs_by_seconds, yardstick.runs_by_seconds);
+        summary.gain_rays = speed_up(summary.runs_by_rays, yardstick.runs_by_rays);
     }
     return summaries;
 }

@@ -18,7 +18,8 @@ struct MethodSummary {
     RelativeError error;
     double estimated_error = 0;
     std::uint64_t bytes_density = 0;
-    MeanCurve by_seconds, by_rays; ///< true error
+    std::vector<ErrorCurve> runs_by_seconds, runs_by_rays; ///< true error
+    MeanCurve by_seconds, by_rays;                         ///< mean of these
     /// How many times less of it the base method's error costs; see `speed_up`.
     std::optional<double> gain_seconds, gain_rays;
 };

@@ -106,6 +106,30 @@ std::optional<double> speed_up(const ErrorCurve& curve, const ErrorCurve& base) 
     return *base_cost / *cost;
 }
 
+std::optional<double> speed_up(std::span<const ErrorCurve> runs,
+                               std::span<const ErrorCurve> base_runs) {
+    const auto mean_least = [](std::span<const ErrorCurve> curves) {
+        std::vector<double> errors;
+        for (const ErrorCurve& curve : curves)
+            if (!curve.empty())
+                errors.push_back(least_error(curve));
+        return geometric_mean(errors);
+    };
+    const double error = std::max(mean_least(runs), mean_least(base_runs));
+    const auto mean_cost = [error](std::span<const ErrorCurve> curves, bool from_first) {
+        std::vector<double> costs;
+        for (const ErrorCurve& curve : curves) {
+            if (from_first && !curve.empty() && curve.front().error < error)
+                costs.push_back(curve.front().x);
+            else if (const std::optional<double> x = x_of_error(curve, error))
+                costs.push_back(*x);
+        }
+        return geometric_mean(costs);
+    };
+    const double gain = mean_cost(base_runs, false) / mean_cost(runs, true);
+    return std::isfinite(gain) ? std::optional(gain) : std::nullopt;
+}
+
 double geometric_mean(std::span<const double> numbers) {
     double sum = 0;
     std::size_t count = 0;

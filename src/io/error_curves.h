@@ -44,6 +44,12 @@ struct MeanCurve {
 /// Empty where they have no error in common.
 [[nodiscard]] std::optional<double> speed_up(const ErrorCurve& curve, const ErrorCurve& base);
 
+/// The same for several runs of both, whose least errors and costs are averaged as logarithms. A
+/// run that begins below the error counts with its first point, so that the result may be too
+/// small.
+[[nodiscard]] std::optional<double> speed_up(std::span<const ErrorCurve> runs,
+                                             std::span<const ErrorCurve> base_runs);
+
 /// exp of the mean of logarithms; numbers that are not positive and finite do not count. NaN where
 /// none does.
 [[nodiscard]] double geometric_mean(std::span<const double> numbers);

@@ -91,6 +91,11 @@ TEST_CASE("the gain is the ratio of costs at the smallest error that both reach"
     CHECK_FALSE(speed_up(base, {}));
     // A method with a floor is judged where its floor is.
     const ErrorCurve floored{{100, 0.6}, {200, 0.5}, {400, 0.4}, {800, 0.4}};
+    const std::vector<ErrorCurve> bases{base, base};
+    CHECK(speed_up(bases, bases).value() == Approx(1));
+    const std::vector<ErrorCurve> fast{root_law(3, 100, 6), root_law(1.5, 100, 6)};
+    CHECK(speed_up(fast, bases).value() == Approx(8).epsilon(.2)); // 4 and 16
+    CHECK_FALSE(speed_up(std::vector<ErrorCurve>{}, bases));
     CHECK(speed_up(floored, base).value() == Approx(std::pow(6 / 0.4, 2) / 400));
 }
 

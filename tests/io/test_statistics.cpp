@@ -46,6 +46,7 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
   "rays_per_second": null,
   "bytes_density": 40000,
   "bytes_density_paper": 82824,
+  "bytes_transport": 0,
   "bytes_peak": 1048576,
   "estimated_error": null,
   "energy": {
