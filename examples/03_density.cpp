@@ -6,7 +6,7 @@
 // Prints: each triangle that is left, its level, mean density and solid angle, and what is kept in
 // all. Octants without the stack stay whole.
 
-#include "bvh/bvh.h"
+#include "bvh/wide_bvh.h"
 #include "radiosity/density.h"
 #include "radiosity/mesh.h"
 #include "radiosity/solver.h"
@@ -41,7 +41,7 @@ Scene stack_beside_a_patch() {
 
 int main() {
     const Mesh mesh(stack_beside_a_patch());
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     const Hemisphere hemisphere(2);
     Monitor monitor;
     const DensityMap densities(mesh, bvh, hemisphere, 0.5, Workers(1), monitor);

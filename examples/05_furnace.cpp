@@ -5,7 +5,7 @@
 // method the rays, the mean of B, the largest miss of any patch, and how many standard errors the
 // largest is. None may exceed 5.
 
-#include "bvh/bvh.h"
+#include "bvh/wide_bvh.h"
 #include "io/obj.h"
 #include "radiosity/mesh.h"
 #include "radiosity/solver.h"
@@ -16,7 +16,7 @@
 int main() {
     using namespace hemilux;
     const Mesh mesh(read_obj("examples/scenes/furnace_lshape.obj").scene);
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     constexpr double expected = 2, most_standard_errors = 5, rounding = 1e-9;
     SolveOptions options;
     bool good = true;

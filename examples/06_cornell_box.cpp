@@ -5,7 +5,7 @@
 // subdivision method, render through a camera.
 // Prints: the estimated error after each step that doubles the rays, at last where the picture is.
 
-#include "bvh/bvh.h"
+#include "bvh/wide_bvh.h"
 #include "io/obj.h"
 #include "io/render.h"
 #include "radiosity/mesh.h"
@@ -22,7 +22,7 @@ namespace {
 /// Returns the estimated error.
 double solve_and_draw(const char* scene, const char* picture) {
     const Mesh mesh(read_obj(scene).scene);
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     const SolveOptions options;
     Monitor monitor;
     const SolverInput input{mesh, bvh, options, monitor};

@@ -7,7 +7,7 @@
 // its mean square error in the detailed regions and in the others relative to the classical method,
 // and its memory, as a table in Markdown. FOLDER gets the pictures.
 
-#include "bvh/bvh.h"
+#include "bvh/wide_bvh.h"
 #include "io/obj.h"
 #include "io/render.h"
 #include "radiosity/mesh.h"
@@ -143,7 +143,7 @@ void draw(const Table& table, const Mesh& mesh, const Tracer& tracer,
 
 int experiment(const char* scene, const char* folder, int runs) {
     const Mesh mesh(read_obj(scene).scene);
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     const std::vector<Vec3> truth = reference(mesh, bvh);
     Table table;
     for (int r = 0; r < runs; ++r) // the contenders take turns, so that none has the quiet hours

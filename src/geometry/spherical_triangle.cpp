@@ -22,27 +22,48 @@ Vec3 edge_normal(const Vec3& a, const Vec3& b) {
 
 SphericalTriangle::SphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
     : vertex_{a, b, c}, normal_{edge_normal(a, b), edge_normal(b, c), edge_normal(c, a)},
-      box_low_(a), box_extent_(a), warp_(a, b, c) {
-    for (std::size_t i = 0; i < 3; ++i)
-        include_in_box(vertex_[i], vertex_[(i + 1) % 3], normal_[i]);
-    box_extent_ -= box_low_; // until here it was the upper corner
+      warp_(a, b, c) {
+    set_hull();
 }
 
-/// The projected edge is an arc of an ellipse, which may bulge beyond its ends: where the tangent's
-/// x changes its sign between them, x has its extreme +-sqrt(1 - m_x^2); y likewise.
-void SphericalTriangle::include_in_box(const Vec3& a, const Vec3& b, const Vec3& normal) {
-    const Vec2 end(b);
-    box_low_ = glm::min(box_low_, end);
-    box_extent_ = glm::max(box_extent_, end);
-    const Vec3 start_tangent = glm::cross(normal, a), end_tangent = glm::cross(normal, b);
-    for (int axis = 0; axis < 2; ++axis) {
-        if (!(start_tangent[axis] * end_tangent[axis] < 0))
-            continue;
-        const double extreme = std::sqrt(std::max(0.0, 1.0 - normal[axis] * normal[axis]));
-        if (start_tangent[axis] > 0)
-            box_extent_[axis] = std::max(box_extent_[axis], extreme);
-        else
-            box_low_[axis] = std::min(box_low_[axis], -extreme);
+/// The greatest height of an edge's projection: at an end, or where the great circle goes farthest
+/// that way if the edge holds that point. Arcs of ellipses may bulge beyond their chords.
+double SphericalTriangle::reach(std::size_t edge, Vec2 towards) const {
+    const Vec3 &a = vertex_[edge], &b = vertex_[(edge + 1) % 3], &normal = normal_[edge];
+    const double ends = std::max(glm::dot(towards, Vec2(a)), glm::dot(towards, Vec2(b)));
+    const Vec3 direction(towards, 0.0);
+    const Vec3 farthest = direction - glm::dot(direction, normal) * normal;
+    const bool between = glm::dot(glm::cross(normal, a), farthest) > 0 &&
+                         glm::dot(glm::cross(normal, b), farthest) < 0;
+    return between ? std::max(ends, glm::length(farthest)) : ends;
+}
+
+void SphericalTriangle::set_hull() {
+    const auto reach_of_all = [&](Vec2 towards) {
+        return std::max({reach(0, towards), reach(1, towards), reach(2, towards)});
+    };
+    hull_corner_ = {-reach_of_all({-1, 0}), -reach_of_all({0, -1})};
+    const Vec2 extent = Vec2(reach_of_all({1, 0}), reach_of_all({0, 1})) - hull_corner_;
+    hull_edge_ = {Vec2(extent.x, 0), Vec2(0, extent.y)};
+
+    std::array<Vec2, 3> outward{}, corner{}; // of each chord; corner i lies before side i
+    std::array<double, 3> height{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec2 chord = Vec2(vertex_[(i + 1) % 3]) - Vec2(vertex_[i]);
+        outward[i] = {chord.y, -chord.x};
+        height[i] = reach_of_all(outward[i]);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec2 &n = outward[(i + 2) % 3], &m = outward[i];
+        const double h = height[(i + 2) % 3], k = height[i];
+        corner[i] = Vec2(h * m.y - k * n.y, k * n.x - h * m.x) / (n.x * m.y - n.y * m.x);
+    }
+    const Vec2 first = corner[1] - corner[0], second = corner[2] - corner[0];
+    const double area = 0.5 * (first.x * second.y - first.y * second.x);
+    if (area > 0 && area < extent.x * extent.y) {
+        hull_corner_ = corner[0];
+        hull_edge_ = {first, second};
+        hull_is_half_ = true;
     }
 }
 

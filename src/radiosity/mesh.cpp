@@ -119,6 +119,8 @@ void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
                 {piece.flipped(), piece.centre(), -normal, area, f, facet.material, true});
     }
     divisions_.push_back(division);
+    const bool divided = division.rows > 1 || division.columns > 1;
+    only_patch_.push_back(divided ? none : division.first_patch);
 }
 
 void Mesh::check_room(double count, std::size_t room) {

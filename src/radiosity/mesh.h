@@ -67,14 +67,12 @@ class Mesh {
     /// The facets for a tracer to copy or to refer to.
     [[nodiscard]] FacetSoup soup() const;
     /// Whether a facet has more than one patch a side.
-    [[nodiscard]] bool is_divided(std::uint32_t facet) const {
-        return divisions_[facet].rows > 1 || divisions_[facet].columns > 1;
-    }
+    [[nodiscard]] bool is_divided(std::uint32_t facet) const { return only_patch_[facet] == none; }
     /// The patch of a facet that is not divided; none for the back of a one-sided one.
     [[nodiscard]] std::uint32_t patch_of(std::uint32_t facet, bool front) const {
         if (!front && !two_sided_)
             return none;
-        return divisions_[facet].first_patch + (front ? 0 : 1);
+        return only_patch_[facet] + (front ? 0 : 1);
     }
     /// The patch that was struck; none where the back of a one-sided facet was.
     [[nodiscard]] std::uint32_t patch_at(const Hit& hit) const;
@@ -107,6 +105,8 @@ class Mesh {
     std::vector<FacetCorners> corners_;
     std::vector<Patch> patches_;
     std::vector<Division> divisions_;
+    std::vector<std::uint32_t>
+        only_patch_; ///< of a facet, none if divided: all that most hits need
     bool two_sided_ = false;
 };
 

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace hemilux {
 namespace {
 
-/// Patches that one thread takes at a time, and patches whose rays are kept until they are summed.
-constexpr std::size_t patches_per_volley = 32;
+/// Rays that one thread takes at a time, and rays whose receivers are kept until they are summed.
+constexpr double pieces_a_bounce = 64, least_piece = 512, largest_piece = 8192;
+constexpr std::uint32_t patches_per_piece = 32;
 constexpr double rays_per_batch = 2e6;
 /// Fewer rays than this are traced sooner than other threads would be started.
 constexpr double rays_for_one_thread = 2000;
@@ -20,6 +22,9 @@ constexpr double rays_for_one_thread = 2000;
 /// Literal steps shoot as many rays for the last of the power as for the first; they end when this
 /// share of the emitted power is left.
 constexpr double literal_rest = 1e-4;
+
+/// std::floor for numbers of rays; compilers call a function for that.
+double whole_below(double rays) { return static_cast<double>(static_cast<std::int64_t>(rays)); }
 
 } // namespace
 
@@ -69,38 +74,40 @@ bool ShootingSolver::solve_once(std::uint64_t stream, StepResult& result) {
 std::uint64_t ShootingSolver::bounce(std::uint64_t stream, const std::vector<Vec3>& unshot,
                                      std::vector<Vec3>& received, StepResult& result) {
     plan(stream, unshot);
-    const std::size_t patches = unshot.size();
+    const double rays_a_piece = cut();
     const std::uint64_t before = result.rays;
-    const double planned = rays_before_[patches] - rays_before_[0];
-    const Workers workers = planned < rays_for_one_thread ? Workers(1) : workers_;
-    std::vector<Volley> volleys;
-    for (std::size_t begin = 0; begin < patches;) {
-        std::size_t end = begin;
-        while (end < patches && rays_before_[end] - rays_before_[begin] <= rays_per_batch)
-            end = std::min(end + patches_per_volley, patches);
-        volleys.resize((end - begin + patches_per_volley - 1) / patches_per_volley);
-        workers.for_chunks(end - begin, patches_per_volley,
-                           [&](std::size_t first, std::size_t last) {
-                               Volley& volley = volleys[first / patches_per_volley];
-                               volley.bursts.clear();
-                               volley.receivers.clear();
-                               if (input_.monitor.interrupted)
-                                   return;
-                               std::vector<CellShare> shares;
-                               for (std::size_t i = begin + first; i < begin + last; ++i)
-                                   if (mean_of_channels(unshot[i]) > 0)
-                                       shoot(static_cast<std::uint32_t>(i), stream, shares, volley);
-                               trace(volley);
-                               input_.monitor.rays += volley.receivers.size();
-                           });
-        for (const Volley& volley : volleys)
-            collect(volley, unshot, received, result);
+    const bool few = rays_before_.back() - rays_before_[0] < rays_for_one_thread;
+    const Workers workers = few ? Workers(1) : workers_;
+    const auto most = static_cast<std::size_t>(std::ceil(rays_per_batch / rays_a_piece));
+    volleys_.resize(std::min(most, pieces_.size()));
+    for (std::size_t begin = 0; begin < pieces_.size(); begin += most) {
+        const std::size_t count = std::min(most, pieces_.size() - begin);
+        workers.for_chunks(count, 1, [&](std::size_t k, std::size_t) {
+            fire(pieces_[begin + k], stream, unshot, volleys_[k]);
+        });
+        for (std::size_t k = 0; k < count; ++k)
+            collect(volleys_[k], unshot, received, result);
         input_.monitor.step_share =
             std::min(1.0, static_cast<double>(result.rays) /
-                              (input_.options.rays * static_cast<double>(patches)));
-        begin = end;
+                              (input_.options.rays * static_cast<double>(unshot.size())));
     }
     return result.rays - before;
+}
+
+void ShootingSolver::fire(const Piece& piece, std::uint64_t stream, const std::vector<Vec3>& unshot,
+                          Volley& volley) const {
+    volley.bursts.clear();
+    volley.receivers.clear();
+    if (input_.monitor.interrupted)
+        return;
+    std::vector<CellShare> shares;
+    volley.waiting.reserve(rays_at_a_time);
+    for (std::uint32_t i = piece.first; i < piece.last; ++i)
+        if (mean_of_channels(unshot[i]) > 0)
+            shoot(i, piece, stream, shares, volley);
+    trace(volley);
+    volley.waiting = {};
+    input_.monitor.rays += volley.receivers.size();
 }
 
 /// In the order of patches and rays, whatever thread traced them.
@@ -141,35 +148,66 @@ void ShootingSolver::plan(std::uint64_t stream, const std::vector<Vec3>& unshot)
     }
 }
 
-void ShootingSolver::shoot(std::uint32_t patch, std::uint64_t stream,
+/// Pieces of equal numbers of rays, so that no thread waits long for another: a lamp may shoot half
+/// of a bounce. They do not depend on the number of threads. Returns the rays of one.
+double ShootingSolver::cut() {
+    pieces_.clear();
+    const auto patches = static_cast<std::uint32_t>(rays_before_.size() - 1);
+    if (input_.options.literal) { // rays do not stand on the line
+        for (std::uint32_t i = 0; i < patches; i += patches_per_piece)
+            pieces_.push_back({i, std::min(i + patches_per_piece, patches), 0,
+                               std::numeric_limits<double>::infinity()});
+        return patches_per_piece * input_.options.rays;
+    }
+    const double first = whole_below(rays_before_[0]), end = whole_below(rays_before_.back());
+    const double size =
+        std::clamp(std::ceil((end - first) / pieces_a_bounce), least_piece, largest_piece);
+    const auto patch_of = [&](double ray) {
+        return static_cast<std::uint32_t>(std::ranges::lower_bound(rays_before_, ray) -
+                                          rays_before_.begin() - 1);
+    };
+    for (double from = first; from < end; from += size) {
+        const double to = std::min(from + size, end);
+        pieces_.push_back({patch_of(from + 1), patch_of(to) + 1, from, to});
+    }
+    return size;
+}
+
+void ShootingSolver::shoot(std::uint32_t patch, const Piece& piece, std::uint64_t stream,
                            std::vector<CellShare>& shares, Volley& volley) const {
     const double before = rays_before_[patch], after = rays_before_[patch + 1];
     const bool literal = input_.options.literal;
-    if (!literal && std::floor(after) == std::floor(before))
+    double low = whole_below(before);
+    if (!literal && !(std::min(whole_below(after), piece.to) > std::max(low, piece.from)))
         return;
     strategy_->deal(patch, shares);
-    Rng rng(hash_words({stream, patch}));
+    Rng rng(hash_words({stream, patch, static_cast<std::uint64_t>(piece.from)}));
+    const Patch& from = input_.mesh.patches()[patch];
     const Frame frame = input_.mesh.hemisphere_frame(patch);
+    const PolygonSampler whole(from.shape);
     double dealt = 0; // share of the patch's rays that the cells so far own
-    double low = std::floor(before);
     for (const CellShare& share : shares) {
         dealt += share.rays;
         const bool last = &share == &shares.back();
-        const double high =
-            std::floor(last ? after : before + (after - before) * std::min(dealt, 1.0));
+        const double end = last ? after : before + (after - before) * std::min(dealt, 1.0);
+        if (!literal && end < low + 1) // most cells, when the light is nearly spent
+            continue;
         const double expected = (after - before) * share.rays; // N_tr
+        const double high = whole_below(end);
         const double n = literal ? std::round(expected) : high - low;
+        const double here = literal ? n : std::min(high, piece.to) - std::max(low, piece.from);
         low = high;
-        if (!(n > 0))
+        if (!(here > 0))
             continue;
         // Below one ray per cell, the ray that is shot carries the power of those that are not.
         const double sharing = literal || expected >= 1 ? n : expected;
         const auto own = strategy_->private_cell(patch, share.cell);
         const double ray_power = (own ? own->power : share.power) / sharing;
-        const Aim target = aim(patch, share.cell, own);
-        volley.bursts.push_back({patch, share.cell, static_cast<std::uint32_t>(n), ray_power});
-        for (double k = 0; k < n; ++k) {
-            volley.waiting.push_back(draw(input_.mesh.patches()[patch], frame, target, rng));
+        const auto part = own ? std::optional<PolygonSampler>(own->origins) : std::nullopt;
+        const Aim target = aim(patch, share.cell, own, part ? *part : whole);
+        volley.bursts.push_back({patch, share.cell, static_cast<std::uint32_t>(here), ray_power});
+        for (double k = 0; k < here; ++k) {
+            volley.waiting.push_back(draw(from, frame, target, rng));
             if (volley.waiting.size() == rays_at_a_time)
                 trace(volley);
         }
@@ -178,15 +216,15 @@ void ShootingSolver::shoot(std::uint32_t patch, std::uint64_t stream,
 
 /// As printed, rays into triangles leave from the centre; those of plain Monte Carlo do not.
 ShootingSolver::Aim ShootingSolver::aim(std::uint32_t patch, std::uint16_t cell,
-                                        const std::optional<PrivateCell>& own) const {
+                                        const std::optional<PrivateCell>& own,
+                                        const PolygonSampler& origins) const {
     const Patch& from = input_.mesh.patches()[patch];
     if (!own && cell == whole_hemisphere)
-        return {&from.shape, {}, nullptr};
-    const Polygon* origins = own ? &own->origins : &from.shape;
+        return {&origins, {}, nullptr};
     const SphericalTriangle& triangle = own ? own->shape : hemisphere_.cells()[cell].shape;
     if (!input_.options.literal)
-        return {origins, {}, &triangle};
-    return {nullptr, own ? origins->centre() : from.centre, &triangle};
+        return {&origins, {}, &triangle};
+    return {nullptr, own ? own->origins.centre() : from.centre, &triangle};
 }
 
 Ray ShootingSolver::draw(const Patch& from, const Frame& frame, const Aim& aim, Rng& rng) {

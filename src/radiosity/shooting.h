@@ -8,6 +8,7 @@
 // at once, which is unbiased and ends the series of bounces by itself.
 
 #include "geometry/frame.h"
+#include "geometry/polygon_sampler.h"
 #include "radiosity/hemisphere.h"
 #include "radiosity/rng.h"
 #include "radiosity/stepwise.h"
@@ -37,11 +38,17 @@ class ShootingSolver final : public StepwiseSolver {
     };
     /// Where the rays of a burst start and where they go.
     struct Aim {
-        const Polygon* origins; ///< nullptr: all from the centre
+        const PolygonSampler* origins; ///< nullptr: all from the centre
         Vec3 centre;
         const SphericalTriangle* triangle; ///< nullptr: the whole hemisphere
     };
-    /// What some consecutive patches shot and where each ray arrived.
+    /// What one thread shoots at a time: of the rays on the line (plan) those in (from, to], which
+    /// are of patches from `first` to before `last`.
+    struct Piece {
+        std::uint32_t first, last;
+        double from, to;
+    };
+    /// What a piece shot and where each ray arrived.
     struct Volley {
         std::vector<Burst> bursts;
         std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
@@ -53,10 +60,14 @@ class ShootingSolver final : public StepwiseSolver {
     std::uint64_t bounce(std::uint64_t stream, const std::vector<Vec3>& unshot,
                          std::vector<Vec3>& received, StepResult& result);
     void plan(std::uint64_t stream, const std::vector<Vec3>& unshot);
-    void shoot(std::uint32_t patch, std::uint64_t stream, std::vector<CellShare>& shares,
-               Volley& volley) const;
+    [[nodiscard]] double cut();
+    void fire(const Piece& piece, std::uint64_t stream, const std::vector<Vec3>& unshot,
+              Volley& volley) const;
+    void shoot(std::uint32_t patch, const Piece& piece, std::uint64_t stream,
+               std::vector<CellShare>& shares, Volley& volley) const;
     [[nodiscard]] Aim aim(std::uint32_t patch, std::uint16_t cell,
-                          const std::optional<PrivateCell>& own) const;
+                          const std::optional<PrivateCell>& own,
+                          const PolygonSampler& origins) const;
     [[nodiscard]] static Ray draw(const Patch& from, const Frame& frame, const Aim& aim, Rng& rng);
     void trace(Volley& volley) const;
 
@@ -68,6 +79,8 @@ class ShootingSolver final : public StepwiseSolver {
     std::unique_ptr<Strategy> strategy_;
     /// Expected rays of the patches before patch i, counted from the bounce's random offset.
     std::vector<double> rays_before_;
+    std::vector<Piece> pieces_;   ///< of the present bounce
+    std::vector<Volley> volleys_; ///< kept for their memory
 };
 
 /// Method::make of a strategy.

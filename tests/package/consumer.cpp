@@ -1,5 +1,5 @@
 // Uses the library from its installed headers: a lamp above a floor, solved in one step.
-#include "bvh/bvh.h"
+#include "bvh/wide_bvh.h"
 #include "radiosity/mesh.h"
 #include "radiosity/solver.h"
 
@@ -16,7 +16,7 @@ int main() {
     scene.faces = 2;
 
     const Mesh mesh(scene);
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     const SolveOptions options{.rays = 10000};
     Monitor monitor;
     const SolverInput input{mesh, bvh, options, monitor};

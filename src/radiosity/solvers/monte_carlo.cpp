@@ -79,9 +79,12 @@ class MonteCarloSolver final : public StepwiseSolver {
             if (input_.monitor.interrupted)
                 return;
             Rng rng(hash_words({stream, begin / rays_per_stream}));
+            const Patch& from = input_.mesh.patches()[shooter];
+            const PolygonSampler origins(from.shape);
+            const Frame frame = Frame::from_normal(from.normal);
             std::vector<Ray> drawn;
             for (std::size_t k = begin; k < end; ++k)
-                drawn.push_back(draw(shooter, rng));
+                drawn.push_back(draw(from, origins, frame, rng));
             find_receivers(drawn, input_.mesh, input_.tracer, struck[begin / rays_per_stream]);
         });
         receivers_.clear();
@@ -91,10 +94,9 @@ class MonteCarloSolver final : public StepwiseSolver {
         return power / (expected >= 1 ? n : expected);
     }
 
-    [[nodiscard]] Ray draw(std::uint32_t shooter, Rng& rng) const {
-        const Patch& from = input_.mesh.patches()[shooter];
-        Ray ray{sample_uniform(from.shape, rng),
-                Frame::from_normal(from.normal).to_world(sample_cosine(rng))};
+    [[nodiscard]] static Ray draw(const Patch& from, const PolygonSampler& origins,
+                                  const Frame& frame, Rng& rng) {
+        Ray ray{sample_uniform(origins, rng), frame.to_world(sample_cosine(rng))};
         ray.from = from.facet;
         return ray;
     }

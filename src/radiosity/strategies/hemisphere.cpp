@@ -14,6 +14,7 @@
 // which it sends rays in vain. Costs at most 41 rays and bytes per patch at depth 2.
 
 #include "radiosity/density.h"
+#include "radiosity/mesh.h"
 #include "radiosity/seen_guide.h"
 #include "radiosity/shooting.h"
 
@@ -29,6 +30,8 @@ class HemisphereStrategy final : public Strategy {
     HemisphereStrategy(const SolverInput& input, const Hemisphere& hemisphere,
                        const Workers& workers)
         : hemisphere_(hemisphere), literal_(input.options.literal) {
+        for (const Hemisphere::Cell& cell : hemisphere.cells())
+            area_shares_.push_back(area_share(cell));
         if (input.needs.densities)
             density_.emplace(input.mesh, input.tracer, hemisphere, input.options.threshold, workers,
                              input.monitor, input.needs,
@@ -36,6 +39,9 @@ class HemisphereStrategy final : public Strategy {
                                                     : DensityStore::divided_only);
         else
             deal_leaves(leaves_of_one_surface(input.options.threshold), shares_of_one_surface_);
+        const std::size_t cells = hemisphere.cells().size() * input.mesh.patches().size();
+        if (density_ && cells <= most_kept_cells && !input.monitor.interrupted)
+            keep_dealt(input, workers);
     }
 
     void deal(std::uint32_t patch, std::vector<CellShare>& shares) const override {
@@ -43,9 +49,10 @@ class HemisphereStrategy final : public Strategy {
             shares = shares_of_one_surface_;
             return;
         }
-        thread_local std::vector<DensityLeaf> leaves;
-        density_->leaves(patch, leaves);
-        deal_leaves(leaves, shares);
+        if (!dealt_.empty())
+            shares = dealt_[patch];
+        else
+            deal_densities(patch, shares);
     }
 
     [[nodiscard]] std::uint64_t density_rays() const override {
@@ -59,6 +66,25 @@ class HemisphereStrategy final : public Strategy {
     }
 
   private:
+    /// In a small scene what is dealt is kept, 1.5 kB a patch: patches shoot few rays at a time,
+    /// and walking their trees each time takes a tenth of the run. Large scenes need but the bytes.
+    static constexpr std::size_t most_kept_cells = 2'000'000;
+
+    void keep_dealt(const SolverInput& input, const Workers& workers) {
+        dealt_.resize(input.mesh.patches().size());
+        workers.for_chunks(dealt_.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+                if (input.needs.power(i))
+                    deal_densities(i, dealt_[i]);
+        });
+    }
+
+    void deal_densities(std::uint32_t patch, std::vector<CellShare>& shares) const {
+        thread_local std::vector<DensityLeaf> leaves;
+        density_->leaves(patch, leaves);
+        deal_leaves(leaves, shares);
+    }
+
     /// What a patch of a convex enclosure would count: one surface in each direction.
     [[nodiscard]] std::vector<DensityLeaf> leaves_of_one_surface(double threshold) const {
         const int level = threshold < 1 ? hemisphere_.depth() : 0;
@@ -73,7 +99,7 @@ class HemisphereStrategy final : public Strategy {
         shares.clear();
         double average = 0; // D_average
         for (const DensityLeaf& leaf : leaves) {
-            shares.push_back({leaf.cell, area_share(leaf.cell), 0});
+            shares.push_back({leaf.cell, area_shares_[leaf.cell], 0});
             average += shares.back().power * leaf.density;
         }
         deal_rays(leaves, average, shares);
@@ -85,10 +111,9 @@ class HemisphereStrategy final : public Strategy {
     static constexpr double least_density = 1, least_share = 0.25;
 
     /// A_tr / A_hemi
-    [[nodiscard]] double area_share(std::uint16_t cell) const {
-        const Hemisphere::Cell& c = hemisphere_.cells()[cell];
-        return literal_ ? c.solid_angle / (2 * std::numbers::pi)
-                        : c.projected_solid_angle / std::numbers::pi;
+    [[nodiscard]] double area_share(const Hemisphere::Cell& cell) const {
+        return literal_ ? cell.solid_angle / (2 * std::numbers::pi)
+                        : cell.projected_solid_angle / std::numbers::pi;
     }
 
     void deal_rays(const std::vector<DensityLeaf>& leaves, double average,
@@ -103,12 +128,14 @@ class HemisphereStrategy final : public Strategy {
         if (!(sum > 0)) // literal, and nothing was seen: no ray is shot, as printed
             return;
         for (CellShare& share : shares)
-            share.rays /= sum;
+            share.rays *= 1 / sum;
     }
 
     const Hemisphere& hemisphere_;
     bool literal_;
+    std::vector<double> area_shares_; ///< by cell
     std::optional<DensityMap> density_;
+    std::vector<std::vector<CellShare>> dealt_;    ///< by patch, in small scenes
     std::vector<CellShare> shares_of_one_surface_; ///< of all patches, where there is no density_
 };
 
