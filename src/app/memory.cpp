@@ -18,9 +18,9 @@ constexpr double bytes_of_program = 12e6;
 /// Arrays that grow keep the old one until the new one is filled.
 constexpr double growth = 2;
 /// Per triangle: boxes while the tree is built, and a leaf's share.
-constexpr double bytes_per_triangle = 300;
+constexpr double bytes_per_triangle = 150;
 /// Of a stepwise method: solution, spread, one step.
-constexpr double bytes_per_solution = 300;
+constexpr double bytes_per_solution = 200;
 /// Of a matrix of form factors: index, value, and the counts that they come from, with room to
 /// grow.
 constexpr double bytes_per_factor = 32;
@@ -107,9 +107,10 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
     const auto vertices = static_cast<double>(scene.vertices.size());
     MemoryNeed need;
     need.scene = bytes_of_program + growth * (sizeof(Vec3) * vertices + sizeof(Facet) * facets);
-    need.mesh = growth * sizeof(Patch) * patches + sizeof(Vec3) * vertices +
-                (sizeof(FacetCorners) + 48) * facets;
-    need.tree = 2 * bytes_per_triangle * facets;
+    need.mesh =
+        sizeof(Patch) * patches + sizeof(Vec3) * vertices + (sizeof(FacetCorners) + 48) * facets;
+    for (const Facet& facet : scene.facets)
+        need.tree += bytes_per_triangle * (facet.is_triangle() ? 1 : 2);
     for (const Method* const method : methods)
         need.method = std::max(need.method, bytes_of(*method, options, patches));
     return need;

@@ -4,9 +4,11 @@
 #include "app/settings.h"
 #include "radiosity/scene.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -21,7 +23,8 @@ struct MemoryNeed {
     double mesh = 0;   ///< patches
     double tree = 0;   ///< for the rays
     double method = 0; ///< of several, the greediest
-    [[nodiscard]] double all() const { return scene + mesh + tree + method; }
+    /// The list of patches grows by being copied, before there is anything else.
+    [[nodiscard]] double all() const { return scene + std::max(2 * mesh, mesh + tree + method); }
 };
 
 /// Patches that a division of the faces will make, at the most.
