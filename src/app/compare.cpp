@@ -112,7 +112,7 @@ int finish(const Contest& contest, std::vector<MethodRuns> results) {
                             : "interrupted; the results are those of the steps that were done");
     if (!report.failed.empty())
         return exit_output;
-    return contest.monitor.interrupted ? exit_interrupted : exit_done;
+    return contest.monitor.interrupted ? exit_code_of_signal() : exit_done;
 }
 
 } // namespace
@@ -124,8 +124,8 @@ int compare(const CompareSettings& settings) {
     check_own_options(settings.options, methods);
     make_folder(settings.folder);
     Monitor monitor;
-    const InterruptGuard guard(monitor.interrupted);
-    const LoadedMesh loaded = load_mesh(settings.scene, settings.talk);
+    InterruptGuard guard;
+    const LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk);
     const Mesh& mesh = loaded.mesh;
     check_exact(settings.options, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
@@ -135,12 +135,13 @@ int compare(const CompareSettings& settings) {
     const Stopwatch building;
     const Needs needs = needs_of(mesh, settings.options);
     const auto [tracer, tree] = make_tracer(mesh, needs, settings.options.threads);
+    guard.watch(monitor.interrupted);
     say(settings.talk, Talk::verbose, tracer_text(tree, building.seconds()));
     if (!reference)
         reference = compute_reference(settings, mesh, *tracer, needs, monitor);
     if (!reference) {
         say(settings.talk, Talk::quiet, "interrupted before there was a reference");
-        return exit_interrupted;
+        return exit_code_of_signal();
     }
     reference->detail = std::move(detail);
     const Contest contest{mesh, *tracer, settings, *reference, monitor, needs};

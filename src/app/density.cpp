@@ -171,7 +171,7 @@ int density(const DensitySettings& settings) {
                          Workers(settings.options.threads), monitor);
     if (monitor.interrupted) {
         say(settings.talk, Talk::quiet, "interrupted; nothing was written");
-        return exit_interrupted;
+        return exit_code_of_signal();
     }
     const Preprocessed made{settings, mesh, bvh, hemisphere, map, monitor};
     const PatchDensities densities = summarise(made);

@@ -11,7 +11,8 @@ enum ExitCode : int {
     exit_usage = 1,
     exit_input = 2,
     exit_output = 3, ///< or the system failed
-    exit_interrupted = 130
+    exit_interrupted = 130,
+    exit_terminated = 143
 };
 
 /// What the user asked for cannot be done, whatever the scene: what() says what to write instead.

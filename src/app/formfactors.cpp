@@ -78,7 +78,7 @@ int formfactors(const FormFactorSettings& settings) {
     const auto matrix = compute(settings, mesh, samples, workers, monitor);
     if (!matrix) {
         say(settings.talk, Talk::quiet, "interrupted; nothing was written");
-        return exit_interrupted;
+        return exit_code_of_signal();
     }
     say_quality(settings.talk, judge_matrix(*matrix, mesh, samples));
     WriteReport report;

@@ -1,6 +1,7 @@
 #include "app/load.h"
 
 #include "app/exit_code.h"
+#include "app/memory.h"
 #include "app/names.h"
 #include "app/stopwatch.h"
 #include "app/summary.h"
@@ -91,12 +92,16 @@ Needs needs_of(const Mesh& mesh, const SolveOptions& options) {
     return options.keep_all ? everything_needed : find_needs(mesh);
 }
 
-LoadedMesh load_mesh(const SceneSettings& settings, Talk talk) {
+LoadedMesh load_mesh(const SceneSettings& settings, const SolveOptions& options,
+                     std::span<const Method* const> methods, Talk talk) {
     const Stopwatch reading;
+    check_memory_to_read(settings.path, settings.memory);
     ReadResult read = load_scene(settings);
     say_warnings(talk, read.warnings);
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
+    check_memory(memory_need(read.scene, settings.mesh, options, methods), settings.memory,
+                 settings.path);
     LoadedMesh loaded{divide_scene(std::move(read.scene), settings), seconds};
     say(talk, Talk::verbose, mesh_text(loaded.mesh));
     return loaded;

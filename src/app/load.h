@@ -4,6 +4,8 @@
 #include "app/settings.h"
 #include "io/obj.h"
 
+#include <span>
+
 namespace hemilux {
 
 /// Reads a scene by its extension and applies what the command line changes in it. Throws
@@ -18,8 +20,10 @@ struct LoadedMesh {
     Mesh mesh;
     double seconds_read;
 };
-/// All of this together, with what there is to say about it.
-[[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, Talk talk);
+/// All of this together, with what there is to say about it. Throws MemoryError where the methods
+/// would need more than they may.
+[[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const SolveOptions& options,
+                                   std::span<const Method* const> methods, Talk talk);
 
 /// What the scene needs, or everything with --keep-all.
 [[nodiscard]] Needs needs_of(const Mesh& mesh, const SolveOptions& options);

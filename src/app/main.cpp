@@ -5,9 +5,11 @@
 #include "app/exit_code.h"
 #include "app/formfactors.h"
 #include "app/options.h"
+#include "app/signals.h"
 #include "io/error.h"
 
 #include <cstdio>
+#include <iostream>
 #include <new>
 
 namespace hemilux {
@@ -39,8 +41,12 @@ int run_program(int argc, const char* const* argv) {
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) // --help and --version
-            return program.exit(error);
+        if (error.get_exit_code() == 0) { // --help and --version
+            const int code = program.exit(error);
+            if (!std::cout.flush())
+                throw OutputError("standard output", "cannot be written");
+            return code;
+        }
         throw UsageError(error.what());
     }
     if (solve_command->parsed())
@@ -72,4 +78,7 @@ int guarded_main(int argc, const char* const* argv) {
 } // namespace
 } // namespace hemilux
 
-int main(int argc, char** argv) { return hemilux::guarded_main(argc, argv); }
+int main(int argc, char** argv) {
+    hemilux::prepare_process();
+    return hemilux::guarded_main(argc, argv);
+}

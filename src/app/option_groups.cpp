@@ -1,6 +1,7 @@
 #include "app/option_groups.h"
 
 #include "app/exit_code.h"
+#include "app/memory.h"
 #include "app/option_kinds.h"
 
 #include <limits>
@@ -45,6 +46,15 @@ void add_scene_options(CLI::App& app, SceneSettings& scene) {
         ->group("Scene");
     add_override(app, "--reflectance", scene.reflectance, reflectance_range,
                  "what a material reflects, 0 to below 1; * for all; repeatable")
+        ->group("Scene");
+}
+
+void add_memory_option(CLI::App& app, SceneSettings& scene) {
+    add_parsed(
+        app, "--memory", "BYTES", "stop before a scene needs more; k, M, G or T may follow",
+        "a number of bytes such as 800M or 1.5G",
+        [](const std::string& text) { return parse_bytes(text); },
+        [&scene](std::uint64_t bytes) { scene.memory = bytes; })
         ->group("Scene");
 }
 

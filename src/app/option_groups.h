@@ -13,6 +13,8 @@ CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string&
                       std::string& target, const std::string& help);
 /// SCENE and what changes it.
 void add_scene_options(CLI::App& app, SceneSettings& scene);
+/// --memory, of the subcommands that solve.
+void add_memory_option(CLI::App& app, SceneSettings& scene);
 /// --depth and --threshold: how hemispheres are divided.
 void add_division_options(CLI::App& app, SolveOptions& options);
 /// --seed and --threads.

@@ -121,6 +121,19 @@ void add_output_options(CLI::App& app, SolveSettings& settings) {
     add_view_options(app, settings.view);
 }
 
+void add_checkpoint_options(CLI::App& app, CheckpointSettings& checkpoint) {
+    const std::string group = "Checkpoints";
+    add_text(app, "--checkpoint", "FILE", checkpoint.path,
+             "keep what was computed in a file, after steps and at the end")
+        ->group(group);
+    add_number(app, "--every", "SECONDS", checkpoint.every, non_negative,
+               "of the time between two checkpoints; 0: after each step [60]")
+        ->group(group);
+    add_text(app, "--resume", "FILE", checkpoint.resumed,
+             "go on from a checkpoint: the same scene and method, the same bytes in the end")
+        ->group(group);
+}
+
 void add_detail_option(CLI::App& app, std::vector<std::string>& detail) {
     repeatable(app.add_option("--detail", detail,
                               "groups whose error is also reported apart [detail...]; "
@@ -182,6 +195,8 @@ Examples:
   hemilux solve map.obj --emission 'Lava=8,2,.3' --reflectance '*=.6' -o map.ply
   hemilux solve room.obj --method matrix -o reference.csv
   hemilux solve room.obj --reference reference.csv --steps-log steps.csv
+  hemilux solve room.obj --steps 999 -o room.csv --checkpoint room.saved
+  hemilux solve room.obj --steps 999 -o room.csv --checkpoint room.saved --resume room.saved
 )";
 
 constexpr const char* compare_examples = R"(
@@ -198,18 +213,20 @@ constexpr const char* info_examples = R"(Examples:
 
 constexpr const char* exit_codes = R"(
 Exit codes: 0 done, 1 wrong usage, 2 bad input, 3 output or system failure,
-130 interrupted (what was computed has been written).)";
+130 interrupted by Ctrl-C and 143 by SIGTERM (what was computed has been written).)";
 
 } // namespace
 
 CLI::App* add_solve_command(CLI::App& program, SolveSettings& settings) {
     CLI::App* const app = program.add_subcommand("solve", "solve a scene, write the results");
     add_scene_options(*app, settings.scene);
+    add_memory_option(*app, settings.scene);
     add_method_option(*app, settings.method);
     add_method_options(*app, settings.options);
     add_own_options(*app, settings.options);
     add_stop_options(*app, settings.stop);
     add_output_options(*app, settings);
+    add_checkpoint_options(*app, settings.checkpoint);
     add_comparison_options(*app, settings);
     add_talk_options(*app, settings.talk);
     app->footer(methods_text() + solve_examples + exit_codes);
@@ -220,6 +237,7 @@ CLI::App* add_compare_command(CLI::App& program, CompareSettings& settings) {
     CLI::App* const app = program.add_subcommand(
         "compare", "error against run time of several methods, side by side");
     add_scene_options(*app, settings.scene);
+    add_memory_option(*app, settings.scene);
     add_methods_option(*app, settings.methods);
     add_method_options(*app, settings.options);
     add_own_options(*app, settings.options);

@@ -72,11 +72,19 @@ void check_outputs(const SolveSettings& settings) {
         throw UsageError("nothing would be written; add an output such as -o picture.png");
     if (settings.every_step && std::ranges::none_of(settings.outputs, is_picture, &Output::kind))
         throw UsageError("--every-step is for pictures; add -o picture.png");
+    const CheckpointSettings& checkpoint = settings.checkpoint;
+    if (!checkpoint.path.empty())
+        paths.push_back(checkpoint.path);
+    if (checkpoint.resumed != checkpoint.path && !checkpoint.resumed.empty())
+        paths.push_back(checkpoint.resumed);
     if (!settings.reference.empty())
         paths.push_back(settings.reference); // must not be overwritten
+    paths.push_back(settings.scene.path);
     check_distinct(paths);
     for (const std::string& path : output_paths(settings))
         check_writable(path);
+    if (!checkpoint.path.empty())
+        check_writable(checkpoint.path);
 }
 
 WriteReport write_results(const SolveSettings& settings, const Results& results) {

@@ -20,6 +20,7 @@ struct SceneSettings {
     std::string path;
     std::vector<Override> emission, reflectance;
     MeshOptions mesh;
+    std::optional<std::uint64_t> memory; ///< bytes that a run may need
 };
 
 /// How much is said on stderr.
@@ -30,6 +31,13 @@ struct ViewSettings {
     std::optional<Camera> camera; ///< empty: chosen by the program
     PixelSize size{800, 600};
     std::optional<double> exposure; ///< empty: from the picture
+};
+
+/// --checkpoint, --every, --resume.
+struct CheckpointSettings {
+    std::string path, resumed;   ///< empty: none
+    std::optional<double> every; ///< seconds between two
+    static constexpr double usually_every = 60;
 };
 
 struct SolveSettings {
@@ -43,6 +51,7 @@ struct SolveSettings {
     bool every_step = false;           ///< pictures also after every step
     std::string reference;             ///< path of a patch table; empty: none
     std::vector<std::string> detail;   ///< groups; empty: those that begin with `detail`
+    CheckpointSettings checkpoint;
     Talk talk = Talk::normal;
 };
 

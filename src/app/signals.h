@@ -1,18 +1,32 @@
 #pragma once
-// Ctrl-C. The first one asks the solver to stop, so that what was computed is still written; the
-// second one ends the program at once.
+// Ctrl-C and SIGTERM. The first one asks the solver to stop, so that what was computed is still
+// written; the second one ends the program at once.
 
 #include <atomic>
 
 namespace hemilux {
 
-/// While it lives, SIGINT sets the flag; one at a time.
+/// While it lives, SIGINT and SIGTERM are its own; one at a time.
 class InterruptGuard {
   public:
+    /// As long as there is nothing to save, a signal ends the program at once.
+    InterruptGuard();
+    /// A signal sets the flag.
     explicit InterruptGuard(std::atomic<bool>& flag);
     ~InterruptGuard();
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+    /// From now on a signal sets the flag.
+    void watch(std::atomic<bool>& flag);
 };
+
+/// How the program ends after the first signal: 130 or 143.
+[[nodiscard]] int exit_code_of_signal();
+
+/// For main: writing to a pipe that nobody reads or beyond the limit of a file's size is an error
+/// to be reported, not a death; and no file is ever opened in the place of a closed stdout or
+/// stderr.
+void prepare_process();
 
 } // namespace hemilux

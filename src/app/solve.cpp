@@ -1,5 +1,6 @@
 // hemilux solve: read, divide, build, run, write.
 
+#include "app/checkpointing.h"
 #include "app/commands.h"
 #include "app/exit_code.h"
 #include "app/load.h"
@@ -82,20 +83,23 @@ int finish(const SolveSettings& settings, const Results& results, const WriteRep
                 : "interrupted before the first step was done; the outputs hold emission alone");
     if (!report.failed.empty())
         return exit_output;
-    return interrupted ? exit_interrupted : exit_done;
+    return interrupted ? exit_code_of_signal() : exit_done;
 }
 
 } // namespace
 
 int solve(const SolveSettings& settings) {
     check_outputs(settings);
-    check_own_options(settings.options, std::span(&settings.method, 1));
+    const std::span methods(&settings.method, 1);
+    check_own_options(settings.options, methods);
+    check_checkpoint_options(settings);
     const StopRule stop = stop_rule(settings);
     Monitor monitor;
-    const InterruptGuard guard(monitor.interrupted);
+    InterruptGuard guard;
     Statistics statistics;
 
-    const LoadedMesh loaded = load_mesh(settings.scene, settings.talk);
+    const std::optional<Checkpoint> resumed = read_resumed(settings);
+    const LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk);
     const Mesh& mesh = loaded.mesh;
     check_exact(settings.options, mesh.patches().size());
     statistics.seconds_read = loaded.seconds_read;
@@ -107,6 +111,7 @@ int solve(const SolveSettings& settings) {
     const Needs needs = needs_of(mesh, settings.options);
     const auto [tracer, tree] = make_tracer(mesh, needs, settings.options.threads);
     statistics.seconds_bvh = building.seconds();
+    guard.watch(monitor.interrupted);
     say(settings.talk, Talk::verbose, tracer_text(tree, statistics.seconds_bvh));
 
     Progress progress(monitor, share_of(stop),
@@ -115,9 +120,16 @@ int solve(const SolveSettings& settings) {
     const SolverInput input{mesh, *tracer, settings.options, monitor, needs};
     const std::unique_ptr<Solver> solver = settings.method->make(input);
     std::vector<StepRow> rows;
+    Before before;
+    if (resumed) {
+        before = resume(*resumed, settings, mesh, *solver);
+        rows = resumed->rows;
+    }
+    Checkpointer checkpointer(settings, mesh, *solver);
     StepPictures step_pictures(settings, mesh, *tracer);
-    const bool completed =
-        run(*solver, input, stop, [&](const StepRecord& record, const Solution& solution) {
+    const bool completed = run(
+        *solver, input, stop,
+        [&](const StepRecord& record, const Solution& solution) {
             rows.push_back({std::string(settings.method->name), 0, record, std::nullopt});
             if (reference)
                 rows.back().error = reference->error(mesh, solution.radiosity);
@@ -126,15 +138,20 @@ int solve(const SolveSettings& settings) {
                 step_pictures.write(solution.radiosity, record.step);
             if (settings.talk == Talk::verbose)
                 progress.say(step_text(rows.back()));
-        });
-    const double seconds_solver = solving.seconds();
+            checkpointer.step_done(rows, record.seconds);
+        },
+        before);
+    const double seconds_solver = solving.seconds() + (resumed ? resumed->seconds : 0);
     progress.close();
+    checkpointer.finish(rows, seconds_solver);
 
     fill(statistics, settings, mesh, solver->solution(), seconds_solver);
     statistics.left_out = left_out(needs, *settings.method, solver->solution());
     statistics.bytes_peak = peak_memory_bytes();
-    return finish(settings, {mesh, *tracer, solver->solution(), statistics, rows},
-                  step_pictures.report(), reference, !completed);
+    WriteReport of_run = step_pictures.report();
+    of_run.add(checkpointer.report());
+    return finish(settings, {mesh, *tracer, solver->solution(), statistics, rows}, of_run,
+                  reference, !completed);
 }
 
 } // namespace hemilux

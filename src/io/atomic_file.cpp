@@ -62,19 +62,35 @@ void AtomicFile::write(std::string_view bytes) {
         flush();
 }
 
-void AtomicFile::commit() {
+void AtomicFile::commit(Durable durable) {
     flush();
+    if (durable == Durable::yes && !temporary_.empty() && ::fsync(descriptor_) != 0)
+        fail("write");
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
     const bool renamed =
         closed == 0 && (temporary_.empty() || ::rename(temporary_.c_str(), target_.c_str()) == 0);
-    if (renamed)
+    if (renamed) {
+        if (durable == Durable::yes)
+            sync_folder();
         return;
+    }
     const int error = errno;
     if (!temporary_.empty())
         ::unlink(temporary_.c_str());
     errno = error;
     fail(closed == 0 ? "rename" : "write");
+}
+
+/// The new name too. Some file systems cannot do that for folders; the file itself is safe then.
+void AtomicFile::sync_folder() const {
+    const std::string parent = fs::path(target_).parent_path().string();
+    const int folder =
+        ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0)
+        return;
+    ::fsync(folder);
+    ::close(folder);
 }
 
 void AtomicFile::flush() {

@@ -19,11 +19,14 @@ class AtomicFile {
 
     /// Throws OutputError.
     void write(std::string_view bytes);
-    /// Gives the file its name; nothing can be written afterwards. Throws OutputError.
-    void commit();
+    enum class Durable { no, yes };
+    /// Gives the file its name; nothing can be written afterwards. Durable: it is on the disk by
+    /// then, so that not even a loss of power leaves less than the old file. Throws OutputError.
+    void commit(Durable durable = Durable::no);
 
   private:
     void flush();
+    void sync_folder() const;
     [[noreturn]] void fail(const char* action) const;
 
     std::string path_;      ///< as the user named it, for messages

@@ -1,19 +1,37 @@
 #include "radiosity/mesh.h"
 #include "radiosity/solver.h"
 
+#include <algorithm>
 #include <chrono>
+#include <stdexcept>
 
 namespace hemilux {
 
+void Solver::save(StateWriter&) const {
+    throw std::logic_error("this method cannot save its state");
+}
+
+void Solver::load(StateReader&) { throw std::logic_error("this method cannot load a state"); }
+
 bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
-         const std::function<void(const StepRecord&, const Solution&)>& after_step) {
+         const std::function<void(const StepRecord&, const Solution&)>& after_step,
+         const Before& before) {
     const auto start = std::chrono::steady_clock::now();
     const auto elapsed = [&] {
         const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start;
-        return solver.solution().seconds_density + d.count();
+        return solver.solution().seconds_density + before.seconds + d.count();
     };
-    double before = elapsed(), longest = 0;
-    for (std::uint32_t step = 1;; ++step) {
+    double last = elapsed(), longest = 0;
+    const auto done = [&](std::uint32_t step, double seconds, double error) {
+        return solver.finished() || (stop.steps && step >= *stop.steps) ||
+               (stop.error && error <= *stop.error) ||
+               // A step that would end too late is not begun.
+               (stop.seconds && seconds + longest > *stop.seconds);
+    };
+    if (before.steps > 0 &&
+        done(before.steps, last, estimated_error(input.mesh, solver.solution())))
+        return true;
+    for (std::uint32_t step = before.steps + 1;; ++step) {
         if (input.monitor.interrupted || !solver.step())
             return false;
         const Solution& solution = solver.solution();
@@ -21,12 +39,9 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
                                 estimated_error(input.mesh, solution)};
         if (after_step)
             after_step(record, solution);
-        longest = std::max(longest, record.seconds - before);
-        before = record.seconds;
-        if (solver.finished() || (stop.steps && step >= *stop.steps) ||
-            (stop.error && record.estimated_error <= *stop.error) ||
-            // A step that would end too late is not begun.
-            (stop.seconds && record.seconds + longest > *stop.seconds))
+        longest = std::max(longest, record.seconds - last);
+        last = record.seconds;
+        if (done(step, record.seconds, record.estimated_error))
             return true;
     }
 }

@@ -75,6 +75,9 @@ struct Monitor {
     std::atomic<const char*> phase{"starting"}; ///< a word for the progress bar
 };
 
+class StateWriter;
+class StateReader;
+
 class Solver {
   public:
     virtual ~Solver() = default;
@@ -84,6 +87,14 @@ class Solver {
     [[nodiscard]] virtual const Solution& solution() const = 0;
     /// The solver's own stop, e.g. nothing is left to shoot.
     [[nodiscard]] virtual bool finished() const { return false; }
+
+    /// Between two steps: all that the next ones depend on and that a new solver of the same scene
+    /// and options would not find again by itself. Only where Method::can_resume() holds; else
+    /// std::logic_error.
+    virtual void save(StateWriter& state) const;
+    /// Of a new solver: goes on where the saved one was. Throws StateError for what save() cannot
+    /// have written; the solver is then of no use.
+    virtual void load(StateReader& state);
 };
 
 /// What a solver works on; all of it outlives the solver.
@@ -112,6 +123,9 @@ struct Method {
     std::unique_ptr<Solver> (*make)(const SolverInput&);
     MakeStrategy strategy = nullptr; ///< what it shoots with; nullptr if it is no shooting method
     MethodWork work = {};            ///< what it does that a scene may not need
+    bool saves = false;              ///< save and load are there; all shooting methods have them
+
+    [[nodiscard]] bool can_resume() const { return saves || strategy; }
 };
 
 /// All methods, one per file of strategies/ and solvers/, in alphabetical order.
@@ -127,9 +141,16 @@ struct StepRecord {
     double estimated_error;
 };
 
+/// What a resumed run did before, which counts for the stop rule and the records.
+struct Before {
+    std::uint32_t steps = 0;
+    double seconds = 0; ///< but for those of Solution::seconds_density
+};
+
 /// Steps until the rule or the monitor ends the run. `after_step` sees each new solution.
 /// Returns false when interrupted.
 bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
-         const std::function<void(const StepRecord&, const Solution&)>& after_step = {});
+         const std::function<void(const StepRecord&, const Solution&)>& after_step = {},
+         const Before& before = {});
 
 } // namespace hemilux

@@ -2,6 +2,7 @@
 
 #include "radiosity/mesh.h"
 #include "radiosity/shot.h"
+#include "radiosity/state.h"
 
 #include <algorithm>
 #include <limits>
@@ -112,6 +113,43 @@ void StepwiseSolver::combine(const StepResult& result) {
     const double to_world = input_.mesh.frame().area_to_world(1.0);
     solution_.energy.absorbed = to_world / n * power_absorbed_;
     solution_.energy.escaped = to_world / n * power_escaped_;
+}
+
+/// Emission, densities and the order of patches follow from the scene and are found again.
+void StepwiseSolver::save(StateWriter& state) const {
+    state.add(std::uint64_t{solution_.steps});
+    state.add(solution_.rays_energy);
+    state.add(solution_.seconds_density);
+    state.add(std::uint64_t{solution_.variance.has_value()});
+    state.add(solution_.variance.value_or(0));
+    for (const Vec3& power :
+         {power_absorbed_, power_escaped_, solution_.energy.absorbed, solution_.energy.escaped})
+        state.add(power);
+    state.add(ray_power_);
+    state.add(std::span<const Vec3>(solution_.radiosity));
+    state.add(std::span<const Vec3>(solution_.standard_error));
+    state.add(std::span<const Vec3>(squares_));
+    state.add(std::span<const std::uint64_t>(solution_.hits));
+}
+
+void StepwiseSolver::load(StateReader& state) {
+    const std::uint64_t steps = state.whole();
+    if (steps > std::numeric_limits<std::uint32_t>::max())
+        throw StateError("the number of steps is too large");
+    solution_.steps = static_cast<std::uint32_t>(steps);
+    solution_.rays_energy = state.whole();
+    solution_.seconds_density += state.number(); // both were spent
+    const bool has_variance = state.whole() != 0;
+    const double variance = state.number();
+    solution_.variance = has_variance ? std::optional(variance) : std::nullopt;
+    for (Vec3* power :
+         {&power_absorbed_, &power_escaped_, &solution_.energy.absorbed, &solution_.energy.escaped})
+        state.get(*power);
+    ray_power_ = state.number();
+    state.get(std::span(solution_.radiosity));
+    state.get(std::span(solution_.standard_error));
+    state.get(std::span(squares_));
+    state.get(std::span(solution_.hits));
 }
 
 } // namespace hemilux

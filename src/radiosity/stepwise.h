@@ -27,6 +27,8 @@ class StepwiseSolver : public Solver {
     [[nodiscard]] bool finished() const final {
         return !input_.needs.bounces && solution_.steps > 0;
     }
+    void save(StateWriter& state) const final;
+    void load(StateReader& state) final;
 
   protected:
     /// Without equal rays there is no power per ray: each patch shoots as many rays as any other.

@@ -141,6 +141,7 @@ const Method monte_carlo_method{
     .make = make_monte_carlo,
     .strategy = nullptr,
     .work = {.passes = true},
+    .saves = true,
 };
 
 } // namespace hemilux

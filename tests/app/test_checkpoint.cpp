@@ -1,0 +1,222 @@
+// --checkpoint and --resume: the same bytes as without an interruption, and no checkpoint that is
+// not of this run.
+#include "app/program.h"
+#include "app/running.h"
+
+#include <catch2/catch.hpp>
+
+#include <random>
+
+using Catch::Contains;
+using test::Running;
+using test::wait_for;
+using test::Workplace;
+
+namespace {
+
+const std::string run_of_8 = "solve room.obj --rays 20 --max-edge .3 --steps 8 -o ";
+
+void check_refused(const Workplace& place, const std::string& arguments,
+                   const std::string& message) {
+    CAPTURE(arguments);
+    const auto outcome = place.hemilux(arguments + " -o refused.csv");
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains(message));
+    CHECK_FALSE(place.has("refused.csv"));
+}
+
+std::size_t lines_of(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Starts the run again and again, each time killed at a random moment, until it ends by itself.
+void check_kills(const Workplace& place, int kills, const std::string& run, double longest_ms) {
+    REQUIRE(place.hemilux(run + " -o whole.csv -o whole.ply").code == 0);
+    std::mt19937 random(7); // milliseconds: statistics of no other test depend on it
+    std::uniform_real_distribution<double> moment(0, longest_ms);
+    const std::string kept = run + " --checkpoint saved --every 0 -o parts.csv -o parts.ply";
+    int resumed = 0;
+    for (int kill = 0; kill < kills; ++kill) {
+        const bool resumes = place.has("saved");
+        resumed += resumes;
+        Running running(place, kept + (resumes ? " --resume saved" : ""),
+                        place.path("talk.txt").c_str());
+        std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(moment(random)));
+        running.send(SIGKILL);
+        const int code = running.wait();
+        CAPTURE(kill, place.read("talk.txt"));
+        REQUIRE((code == -1 || code == 0));
+    }
+    CHECK(resumed > 0);
+    const auto last = place.hemilux(kept + (place.has("saved") ? " --resume saved" : ""));
+    CAPTURE(last.err);
+    REQUIRE(last.code == 0);
+    CHECK(place.read("parts.csv") == place.read("whole.csv"));
+    CHECK(place.read("parts.ply") == place.read("whole.ply"));
+}
+
+} // namespace
+
+TEST_CASE("a resumed run ends with the bytes of one that was not interrupted") {
+    const Workplace place;
+    place.write_room();
+    const std::string method = GENERATE("hemisphere", "hemisphere --literal", "hemisphere-1997",
+                                        "monte-carlo", "progressive-monte-carlo", "stratified");
+    CAPTURE(method);
+    const std::string run = "solve room.obj --rays 20 --method " + method;
+    REQUIRE(place.hemilux(run + " --steps 6 -o whole.csv --steps-log whole_steps.csv").code == 0);
+    REQUIRE(place.hemilux(run + " --steps 1 --checkpoint saved -o a.csv").code == 0);
+    REQUIRE(place.hemilux(run + " --steps 4 --resume saved --checkpoint saved -o a.csv").code == 0);
+    REQUIRE(place
+                .hemilux(run + " --steps 6 --resume saved -t 3 -o a.csv --steps-log steps.csv "
+                               "--stats a.json")
+                .code == 0);
+    CHECK(place.read("a.csv") == place.read("whole.csv"));
+    CHECK(lines_of(place.read("steps.csv")) == lines_of(place.read("whole_steps.csv")));
+    CHECK_THAT(place.read("a.json"), Contains("\"steps\": 6"));
+
+    SECTION("nothing is left to do") {
+        REQUIRE(place.hemilux(run + " --steps 6 --resume saved --checkpoint saved -o a.csv").code ==
+                0);
+        REQUIRE(place.hemilux(run + " --steps 6 --resume saved -o again.csv").code == 0);
+        CHECK(place.read("again.csv") == place.read("whole.csv"));
+    }
+}
+
+TEST_CASE("a run to an error resumes, and the time before counts") {
+    const Workplace place;
+    place.write_room();
+    const std::string run = "solve room.obj --rays 20 --error .03";
+    REQUIRE(place.hemilux(run + " -o whole.csv").code == 0);
+    REQUIRE(place.hemilux("solve room.obj --rays 20 --steps 3 --checkpoint saved -o a.csv").code ==
+            0);
+    REQUIRE(place.hemilux(run + " --resume saved -o a.csv").code == 0);
+    CHECK(place.read("a.csv") == place.read("whole.csv"));
+
+    const std::string timed = "solve room.obj --rays 2000 --time .5 --checkpoint saved -o a.csv";
+    REQUIRE(place.hemilux(timed).code == 0);
+    const std::string before = place.read("a.csv");
+    REQUIRE(place
+                .hemilux("solve room.obj --rays 2000 --time .5 --resume saved -o a.csv "
+                         "--steps-log steps.csv")
+                .code == 0);
+    const std::string log = place.read("steps.csv"); // of .5 seconds in all, as far as steps fit
+    const std::size_t last = log.rfind("hemisphere,0,");
+    double seconds = 0;
+    std::sscanf(log.c_str() + last, "hemisphere,0,%*u,%*u,%lf", &seconds);
+    CHECK(seconds < 1.0);
+    CHECK(seconds > 0);
+}
+
+TEST_CASE("Ctrl-C leaves a checkpoint of all steps that were done") {
+    const Workplace place;
+    place.write_room();
+    const std::string run = "solve room.obj --rays 20";
+    Running running(place, run + " --steps 4000000000 -v --checkpoint saved -o a.csv",
+                    place.path("talk.txt").c_str());
+    REQUIRE(wait_for(place, "talk.txt", "step 3:"));
+    running.interrupt();
+    CHECK(running.wait() == 130);
+    const std::string there = place.read("a.csv");
+    REQUIRE(place.hemilux(run + " --steps 1 --resume saved -o b.csv").code == 0);
+    CHECK(place.read("b.csv") == there);
+}
+
+TEST_CASE("checkpoints of other runs are refused") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place.hemilux(run_of_8 + "a.csv --checkpoint saved").code == 0);
+    const std::string same = "solve room.obj --rays 20 --max-edge .3 --steps 8 --resume saved";
+    for (const char* option : {"--seed 2", "--depth 1", "--threshold 3", "--literal", "--keep-all",
+                               "--method stratified"})
+        check_refused(place, same + " " + option,
+                      "is a checkpoint of another run: expected " +
+                          std::string(option).substr(0, std::string(option).find(' ')));
+    check_refused(place, "solve room.obj --rays 21 --max-edge .3 --resume saved",
+                  "expected --rays 21, it has 20");
+    for (const char* arguments :
+         {"solve room.obj --rays 20 --resume saved",
+          "solve room.obj --rays 20 --max-edge .2 --resume saved",
+          "solve room.obj --rays 20 --max-edge .3 --two-sided --resume saved",
+          "solve room.obj --rays 20 --max-edge .3 --reflectance white=.51 --resume saved",
+          "solve room.obj --rays 20 --max-edge .3 --emission lamp=1 --resume saved"})
+        check_refused(place, arguments, "saved: is a checkpoint of another scene");
+    check_refused(place, "solve room.obj --resume nothing", "nothing: cannot read");
+    check_refused(place, "solve room.obj --resume room.mtl",
+                  "expected a checkpoint written by hemilux --checkpoint");
+    check_refused(place, "solve room.obj --resume .", "no regular file");
+    check_refused(place, "solve room.obj --resume /dev/zero", "no regular file");
+}
+
+TEST_CASE("damaged checkpoints are refused") {
+    const Workplace place;
+    place.write_room();
+    const std::string run = "solve room.obj --rays 5 --steps 2";
+    REQUIRE(place.hemilux(run + " -o a.csv --checkpoint saved").code == 0);
+    const std::string good = place.read("saved");
+    for (const std::size_t length : {std::size_t{0}, std::size_t{5}, std::size_t{28},
+                                     std::size_t{31}, good.size() / 2, good.size() - 1}) {
+        place.write("saved", good.substr(0, length));
+        check_refused(place, run + " --resume saved", "saved: ");
+    }
+    place.write("saved", good + "x");
+    check_refused(place, run + " --resume saved", "is a damaged checkpoint: its length");
+    std::string other = good;
+    other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
+    place.write("saved", other);
+    check_refused(place, run + " --resume saved", "is a damaged checkpoint: its checksum");
+    other = good;
+    other[good.find('\n') - 1] = '2';
+    place.write("saved", other);
+    check_refused(place, run + " --resume saved", "another version");
+}
+
+TEST_CASE("a checkpoint that cannot be written leaves the one before and ends with 3") {
+    const Workplace place;
+    place.write_room();
+    const std::string run = "solve room.obj --rays 5 --max-edge .05 --checkpoint saved --every 0";
+    REQUIRE(place.hemilux(run + " --steps 1 -o a.png --size 16x12").code == 0);
+    const std::string good = place.read("saved");
+    // Files of at most a few blocks: the picture fits, the checkpoint does not.
+    const std::string limited = "(ulimit -f 40; exec '" HEMILUX_PROGRAM "' " + run +
+                                " --steps 2 --resume saved -o b.png --size 16x12) 2>talk.txt";
+    const int status = std::system(("cd '" + place.path("").string() + "' && " + limited).c_str());
+    CHECK(WEXITSTATUS(status) == 3);
+    CHECK_THAT(place.read("talk.txt"), Contains("saved: cannot write"));
+    CHECK(place.has("b.png"));
+    CHECK(place.read("saved") == good);
+    for (const auto& entry : std::filesystem::directory_iterator(place.path("")))
+        CHECK_THAT(entry.path().filename().string(), !Contains(".tmp"));
+}
+
+TEST_CASE("what contradicts a checkpoint is wrong usage") {
+    const Workplace place;
+    place.write_room();
+    const auto check_usage = [&](const std::string& arguments, const std::string& message) {
+        CAPTURE(arguments);
+        const auto outcome = place.hemilux("solve room.obj -o a.png " + arguments);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains(message));
+    };
+    check_usage("--every 3", "add it");
+    check_usage("--checkpoint c --every -1", "--every");
+    check_usage("--checkpoint a.png", "named twice");
+    check_usage("--checkpoint room.obj", "named twice");
+    check_usage("--resume a.png", "named twice");
+    check_usage("--method matrix --checkpoint c", "these do: hemisphere, ");
+    check_usage("--method matrix --resume c", "monte-carlo");
+    check_usage("--every-step --resume c", "--camera and --exposure");
+    CHECK(place.hemilux("solve room.obj -o a.png --checkpoint no/where").code == 3);
+}
+
+TEST_CASE("runs killed at random moments resume") {
+    const Workplace place;
+    place.write_room();
+    check_kills(place, 6, "solve room.obj --rays 100 --max-edge .15 --steps 12", 250);
+}
+
+TEST_CASE("runs killed at 50 random moments resume", "[slow]") {
+    const Workplace place;
+    place.write_room();
+    check_kills(place, 50, "solve room.obj --rays 100 --max-edge .1 --steps 150", 300);
+}

@@ -1,0 +1,63 @@
+// Solver::save and load, for all methods that say that they have them.
+
+#include "radiosity/state.h"
+#include "support/scenes.h"
+#include "support/solve.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstring>
+
+using namespace hemilux;
+
+namespace {
+
+bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+}
+
+} // namespace
+
+TEST_CASE("a solver that loads a state goes on as the one that saved it", "[state]") {
+    const test::Model model(test::open_scene());
+    SolveOptions options{.rays = 10};
+    options.seed = 5;
+    Monitor monitor;
+    const SolverInput input{model.mesh, model.bvh, options, monitor};
+    int resumable = 0;
+    for (const Method* const method : methods()) {
+        CAPTURE(method->name);
+        const auto first = method->make(input);
+        StateWriter saved;
+        if (!method->can_resume()) {
+            StateReader nothing("");
+            CHECK_THROWS_AS(first->save(saved), std::logic_error);
+            CHECK_THROWS_AS(first->load(nothing), std::logic_error);
+            continue;
+        }
+        ++resumable;
+        run(*first, input, test::steps(3));
+        first->save(saved);
+        const auto second = method->make(input);
+        StateReader state(saved.bytes());
+        second->load(state);
+        CHECK_NOTHROW(state.expect_end());
+        for (const auto& solver : {first.get(), second.get()})
+            for (int step = 0; step < 2; ++step)
+                REQUIRE(solver->step());
+        const Solution &a = first->solution(), &b = second->solution();
+        CHECK(same_bits(a.radiosity, b.radiosity));
+        CHECK(same_bits(a.standard_error, b.standard_error));
+        CHECK(a.hits == b.hits);
+        CHECK(a.steps == b.steps);
+        CHECK(a.rays_energy == b.rays_energy);
+        CHECK(a.rays_density == b.rays_density);
+        CHECK(a.variance == b.variance);
+        CHECK(a.energy.escaped == b.energy.escaped);
+
+        const std::string half = saved.bytes().substr(0, saved.bytes().size() / 2);
+        StateReader truncated(half);
+        CHECK_THROWS_AS(method->make(input)->load(truncated), StateError);
+    }
+    CHECK(resumable >= 5);
+}
