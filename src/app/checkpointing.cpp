@@ -68,6 +68,8 @@ void check_checkpoint_options(const SolveSettings& settings) {
         throw UsageError("--checkpoint and --resume: --method " +
                          std::string(settings.method->name) +
                          " does not keep its state; these do: " + resumable_methods());
+    if (settings.options.guide == Guide::learned)
+        throw UsageError("--checkpoint and --resume: what --guide learned has learned is not kept");
     if (!asked.resumed.empty() && settings.every_step &&
         !(settings.view.camera && settings.view.exposure))
         throw UsageError("--every-step after --resume needs --camera and --exposure, which the "

@@ -1,5 +1,6 @@
 #include "app/compare_run.h"
 
+#include "app/memory.h"
 #include "app/stopwatch.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ class Runner {
   public:
     Runner(const Contest& contest, const Method& method, std::uint32_t run, const Budget& budget)
         : contest_(contest), method_(method), run_(run), budget_(budget),
-          options_(contest.settings.options) {
+          options_(with_memory(contest.settings.options, contest.settings.scene)) {
         options_.seed += run;
         options_.literal = options_.literal && method.has_literal;
         const Stopwatch preparing;

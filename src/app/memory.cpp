@@ -116,6 +116,11 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
     return need;
 }
 
+SolveOptions with_memory(SolveOptions options, const SceneSettings& scene) {
+    options.memory = scene.memory.value_or(0) / 2;
+    return options;
+}
+
 void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);

@@ -33,6 +33,9 @@ struct MemoryNeed {
                                      const SolveOptions& options,
                                      std::span<const Method* const> methods);
 
+/// With the part of --memory that a method may fill by and by.
+[[nodiscard]] SolveOptions with_memory(SolveOptions options, const SceneSettings& scene);
+
 /// A scene too large. Ends with exit code 3.
 struct MemoryError : std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/exit_code.h"
 #include "app/load.h"
+#include "app/memory.h"
 #include "app/method_options.h"
 #include "app/progress.h"
 #include "app/reference.h"
@@ -117,7 +118,8 @@ int solve(const SolveSettings& settings) {
     Progress progress(monitor, share_of(stop),
                       settings.talk != Talk::quiet && stderr_is_terminal());
     const Stopwatch solving;
-    const SolverInput input{mesh, *tracer, settings.options, monitor, needs};
+    const SolveOptions options = with_memory(settings.options, settings.scene);
+    const SolverInput input{mesh, *tracer, options, monitor, needs};
     const std::unique_ptr<Solver> solver = settings.method->make(input);
     std::vector<StepRow> rows;
     Before before;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t patches_per_chunk = 16;
 
 /// Emitters that together are more than this share of all surface are found by rays at random.
-constexpr double largest_share = .1;
+constexpr double largest_share = .3;
 
 /// More emitters are drawn by their power, wherever the receiver is.
 constexpr std::size_t most_weighed = 4096;

@@ -48,7 +48,7 @@ struct SolveOptions {
     bool literal = false;
     /// `matrix`: factors without chance where patches see each other fully. For small scenes.
     bool exact = false;
-    ProgressiveOptions progressive;
+    ProgressiveOptions progressive = {};
     Guide guide = Guide::density; ///< `hemisphere`; not with `literal`
     std::uint64_t seed = 1;
     /// Bytes that `gathering` may use for its rays; 0: as many as it needs.
