@@ -63,7 +63,7 @@ Vec3 SphericalTriangle::sample_rejection(Uniform&& uniform) const {
     for (int i = 0; i < most_tries; ++i) {
         const double u = uniform(), v = uniform();
         // The second half is folded onto the first. No branches: they would be guessed wrong.
-        const double fold = hull_is_half_ & (u + v > 1) ? 1 : 0;
+        const auto fold = static_cast<double>(hull_is_half_ & (u + v > 1));
         const Vec2 p =
             hull_corner_ + std::abs(fold - u) * hull_edge_[0] + std::abs(fold - v) * hull_edge_[1];
         const double z_squared = 1.0 - glm::dot(p, p);
