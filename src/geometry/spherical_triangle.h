@@ -63,13 +63,14 @@ Vec3 SphericalTriangle::sample_rejection(Uniform&& uniform) const {
     for (int i = 0; i < most_tries; ++i) {
         const double u = uniform(), v = uniform();
         // The second half is folded onto the first. No branches: they would be guessed wrong.
-        const double fold = hull_is_half_ & (u + v > 1) ? 1 : 0;
+        const auto fold = static_cast<double>(hull_is_half_ & (u + v > 1));
         const Vec2 p =
             hull_corner_ + std::abs(fold - u) * hull_edge_[0] + std::abs(fold - v) * hull_edge_[1];
         const double z_squared = 1.0 - glm::dot(p, p);
         const Vec3 d(p, std::sqrt(std::max(z_squared, 0.0)));
-        if ((z_squared > 0) & (glm::dot(normal_[0], d) >= 0) & (glm::dot(normal_[1], d) >= 0) &
-            (glm::dot(normal_[2], d) >= 0))
+        const double inside = std::min(std::min(glm::dot(normal_[0], d), glm::dot(normal_[1], d)),
+                                       glm::dot(normal_[2], d));
+        if (z_squared > 0 && inside >= 0)
             return d;
     }
     const double u = uniform();

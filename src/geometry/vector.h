@@ -1,5 +1,5 @@
 #pragma once
-// The vectors of the whole library: double precision. Only bounding boxes of the BVH are float.
+// The vectors of the whole library: double precision. Floats are found in trees of boxes only.
 
 #include <glm/glm.hpp>
 
