@@ -104,7 +104,7 @@ void MaterialTable::define(const std::string& file, const MtlMaterial& material)
     const std::string where = file + ":" + std::to_string(material.line);
     const std::uint32_t index = index_of(material.name);
     if (entries_[index].defined) {
-        if (std::exchange(entries_[index].redefined, true))
+        if (std::exchange(entries_[index].redefined_in, file) == file)
             return;
         warnings.push_back(where + ": material " + in_quotes(material.name) + " is defined in " +
                            sources[index] + " already, which is taken");

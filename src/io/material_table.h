@@ -36,7 +36,7 @@ class MaterialTable {
     struct Entry {
         std::size_t first_use = 0; ///< line of the OBJ file
         bool used = false, defined = false;
-        bool redefined = false; ///< which was said
+        std::string redefined_in; ///< file, which was said
     };
     [[nodiscard]] std::uint32_t index_of(const std::string& name);
     [[nodiscard]] std::string find_library(std::string_view name) const;
