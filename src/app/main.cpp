@@ -4,6 +4,7 @@
 #include "app/density.h"
 #include "app/exit_code.h"
 #include "app/formfactors.h"
+#include "app/names.h"
 #include "app/options.h"
 #include "app/signals.h"
 #include "io/error.h"
@@ -18,6 +19,28 @@ namespace {
 int fail(int code, const char* message, const char* advice = "") {
     std::fprintf(stderr, "hemilux: %s%s\n", message, advice);
     return code;
+}
+
+/// What the parser did not understand, with the nearest name that it would.
+std::string unknown_argument(const CLI::App& program, const std::string& otherwise) {
+    const std::vector<CLI::App*> parsed = program.get_subcommands();
+    const CLI::App& command = parsed.empty() ? program : *parsed.front();
+    const std::vector<std::string> left = command.remaining();
+    if (left.empty())
+        return otherwise;
+    const bool is_option = left.front().starts_with("-");
+    if (!is_option && !parsed.empty())
+        return otherwise;
+    std::vector<std::string> names;
+    if (is_option)
+        for (const CLI::Option* const option : command.get_options())
+            for (const std::string& name : option->get_lnames())
+                names.push_back("--" + name);
+    else
+        for (const CLI::App* const subcommand : program.get_subcommands({}))
+            names.push_back(subcommand->get_name());
+    const std::string word = left.front().substr(0, left.front().find('='));
+    return unknown_name(is_option ? "option" : "subcommand", word, names);
 }
 
 int run_program(int argc, const char* const* argv) {
@@ -47,7 +70,7 @@ int run_program(int argc, const char* const* argv) {
                 throw OutputError("standard output", "cannot be written");
             return code;
         }
-        throw UsageError(error.what());
+        throw UsageError(unknown_argument(program, error.what()));
     }
     if (solve_command->parsed())
         return solve(solve_settings);

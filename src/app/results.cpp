@@ -77,10 +77,12 @@ void check_outputs(const SolveSettings& settings) {
         paths.push_back(checkpoint.path);
     if (checkpoint.resumed != checkpoint.path && !checkpoint.resumed.empty())
         paths.push_back(checkpoint.resumed);
-    if (!settings.reference.empty())
-        paths.push_back(settings.reference); // must not be overwritten
-    paths.push_back(settings.scene.path);
-    check_distinct(paths);
+    for (const std::string& read : {settings.scene.path, settings.reference}) {
+        std::vector<std::string> with_it = paths;
+        if (!read.empty())
+            with_it.push_back(read); // must not be overwritten
+        check_distinct(with_it);
+    }
     for (const std::string& path : output_paths(settings))
         check_writable(path);
     if (!checkpoint.path.empty())

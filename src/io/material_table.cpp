@@ -3,11 +3,18 @@
 #include "io/text_words.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace hemilux {
 namespace {
 
-std::string in_quotes(std::string_view name) { return '"' + std::string(name) + '"'; }
+/// For messages.
+std::string shortened(const std::string& text) {
+    constexpr std::size_t longest = 100;
+    return text.size() <= longest ? text : text.substr(0, longest) + "...";
+}
+
+std::string in_quotes(std::string_view name) { return '"' + shortened(std::string(name)) + '"'; }
 
 std::string counted_materials(std::size_t count) {
     return std::to_string(count) + (count == 1 ? " material" : " materials");
@@ -50,8 +57,7 @@ std::string MaterialTable::find_library(std::string_view name) const {
     const std::filesystem::path given(plain);
     for (const std::filesystem::path& candidate : {folder / given, folder / given.filename()}) {
         std::error_code ignored;
-        if (std::filesystem::exists(candidate, ignored) &&
-            !std::filesystem::is_directory(candidate, ignored))
+        if (std::filesystem::is_regular_file(candidate, ignored)) // a pipe might never end
             return candidate.string();
     }
     return {};
@@ -61,7 +67,8 @@ void MaterialTable::read_libraries(std::string_view names, std::size_t line) {
     const std::string where = path_ + ":" + std::to_string(line) + ": ";
     const std::string_view whole = name_in(names);
     if (whole.empty()) {
-        warnings.push_back(where + "no file name after mtllib");
+        if (libraries_missed_.insert("").second)
+            warnings.push_back(where + "no file name after mtllib");
         return;
     }
     if (const std::string file = find_library(whole); !file.empty()) {
@@ -80,8 +87,8 @@ void MaterialTable::read_libraries(std::string_view names, std::size_t line) {
         missing = in_quotes(whole);
     for (const std::string& file : found)
         read_library(file);
-    if (!missing.empty())
-        warnings.push_back(where + "material library " + missing + " not found");
+    if (!missing.empty() && libraries_missed_.insert(shortened(missing)).second)
+        warnings.push_back(where + "material library " + shortened(missing) + " not found");
 }
 
 void MaterialTable::read_library(const std::string& file) {
@@ -97,6 +104,8 @@ void MaterialTable::define(const std::string& file, const MtlMaterial& material)
     const std::string where = file + ":" + std::to_string(material.line);
     const std::uint32_t index = index_of(material.name);
     if (entries_[index].defined) {
+        if (std::exchange(entries_[index].redefined_in, file) == file)
+            return;
         warnings.push_back(where + ": material " + in_quotes(material.name) + " is defined in " +
                            sources[index] + " already, which is taken");
         return;

@@ -36,6 +36,7 @@ class MaterialTable {
     struct Entry {
         std::size_t first_use = 0; ///< line of the OBJ file
         bool used = false, defined = false;
+        std::string redefined_in; ///< file, which was said
     };
     [[nodiscard]] std::uint32_t index_of(const std::string& name);
     [[nodiscard]] std::string find_library(std::string_view name) const;
@@ -46,6 +47,7 @@ class MaterialTable {
 
     std::string path_;
     std::set<std::filesystem::path> libraries_read_;
+    std::set<std::string> libraries_missed_; ///< which was said
     std::unordered_map<std::string, std::uint32_t> index_;
     std::vector<Entry> entries_;
     std::size_t textured_ = 0, textured_without_colour_ = 0;

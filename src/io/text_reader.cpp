@@ -32,7 +32,7 @@ std::string content_of(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file)
         throw InputError(path, std::string("cannot read: ") + std::strerror(errno));
-    constexpr std::size_t chunk = std::size_t{1} << 20;
+    constexpr std::size_t chunk = std::size_t{1} << 14; // most files are small
     std::string content;
     while (file) {
         const std::size_t size = content.size();

@@ -20,7 +20,8 @@ bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 TEST_CASE("a solver that loads a state goes on as the one that saved it", "[state]") {
     const test::Model model(test::open_scene());
-    SolveOptions options{.rays = 10};
+    SolveOptions options;
+    options.rays = 10;
     options.seed = 5;
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor};

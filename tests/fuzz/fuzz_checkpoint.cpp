@@ -1,0 +1,70 @@
+// Any bytes as a checkpoint, as they are and with a first line, length and checksum that are right:
+// refused by InputError, or read and written again to the same bytes; its state loads or is
+// refused.
+
+#include "bvh/brute_force.h"
+#include "io/checkpoint.h"
+#include "io/checksum.h"
+#include "io/error.h"
+#include "radiosity/mesh.h"
+#include "radiosity/solver.h"
+#include "radiosity/state.h"
+
+#include <cstdlib>
+
+namespace {
+
+using namespace hemilux;
+
+Scene one_triangle() {
+    Scene scene;
+    scene.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    scene.materials = {{"lamp", Vec3(.5), Vec3(1)}};
+    scene.groups = {"default"};
+    scene.facets = {{{0, 1, 2, 2}, 0, 0, 0}};
+    return scene;
+}
+
+std::string sealed(std::string_view content) {
+    StateWriter length, sum;
+    length.add(std::uint64_t{content.size()});
+    std::string bytes = "hemilux checkpoint, format 1\n" + length.bytes() + std::string(content);
+    Checksum checksum;
+    checksum.add(bytes);
+    sum.add(checksum.value());
+    return bytes + sum.bytes();
+}
+
+void load(std::string_view state) {
+    static const Mesh mesh(one_triangle());
+    static const BruteForce tracer(mesh.soup());
+    static const SolveOptions options;
+    static Monitor monitor;
+    const auto solver = find_method("progressive-monte-carlo")
+                            ->make({mesh, tracer, options, monitor, everything_needed});
+    try {
+        StateReader reader(state);
+        solver->load(reader);
+    } catch (const StateError&) {
+    }
+}
+
+void read(const std::string& bytes) {
+    try {
+        const Checkpoint checkpoint = checkpoint_from(bytes, "saved");
+        load(checkpoint.state);
+        if (to_bytes(checkpoint_from(to_bytes(checkpoint), "saved")) != to_bytes(checkpoint))
+            std::abort();
+    } catch (const InputError&) {
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string bytes(reinterpret_cast<const char*>(data), size);
+    read(bytes);
+    read(sealed(bytes));
+    load(bytes);
+    return 0;
+}
