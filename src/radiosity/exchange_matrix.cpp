@@ -12,8 +12,11 @@ namespace {
 constexpr std::size_t rows_per_chunk = 64;
 
 /// Scaling goes on until all rows are closed to this, or so often.
-constexpr double closed = 1e-9;
-constexpr int most_scalings = 60;
+constexpr double closed = 1e-7;
+constexpr int most_scalings = 40;
+
+/// Fewer entries are read sooner than other threads would be started.
+constexpr std::size_t entries_for_one_thread = 400'000;
 
 } // namespace
 
@@ -83,10 +86,11 @@ void ExchangeMatrix::merge(std::span<const RayCounts> sets) {
 /// 1967). As S is symmetric, r and c end as multiples of each other, and g is their geometric mean.
 void ExchangeMatrix::close(const Workers& workers) {
     const std::size_t n = area_.size();
+    const Workers readers = column_.size() < entries_for_one_thread ? Workers(1) : workers;
     scale_.assign(n, 1.0);
     std::vector<double> before(n, 1.0), after(n), off(n);
     for (int k = 0; k < most_scalings; ++k) {
-        workers.for_chunks(n, rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+        readers.for_chunks(n, rows_per_chunk, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 double sum = 0;
                 for (std::size_t e = row_begin_[i]; e < row_begin_[i + 1]; ++e)
@@ -108,7 +112,8 @@ void ExchangeMatrix::close(const Workers& workers) {
 
 void ExchangeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y,
                               const Workers& workers) const {
-    workers.for_chunks(y.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    const Workers readers = column_.size() < entries_for_one_thread ? Workers(1) : workers;
+    readers.for_chunks(y.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Vec3 sum(0.0);
             for (std::size_t e = row_begin_[i]; e < row_begin_[i + 1]; ++e) {

@@ -1,0 +1,76 @@
+// Closed rooms that reflect nearly all: there the tail of the series of bounces is the solution,
+// and the smallest loss of energy between patches would be multiplied by 1 / (1 - rho).
+#include "support/scenes.h"
+#include "support/solve.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace hemilux;
+using test::Model;
+
+namespace {
+
+/// Without chance: in a convex room all factors are known.
+Solution exact_solution(const Model& model) {
+    SolveOptions options;
+    options.exact = true;
+    return test::solve(model, *find_method("matrix"), options, test::steps(1));
+}
+
+double relative_error(const Model& model, const Solution& s, const Solution& exact) {
+    return true_error(model.mesh, s.radiosity, exact.radiosity).all;
+}
+
+} // namespace
+
+TEST_CASE("Gathering is as exact in bright rooms as in dim ones, with the same rays") {
+    for (const double rho : {.5, .9, .99, .999, .9999}) {
+        const Model model(test::cube_with_lit_floor(6, rho));
+        const Solution exact = exact_solution(model);
+        const Solution s = test::solve(model, *find_method("gathering"), {}, test::steps(3));
+        CAPTURE(rho, s.rays_energy);
+        CHECK(relative_error(model, s, exact) < .01);
+        CHECK(s.rays_energy < 300 * model.mesh.patches().size());
+        // What the reference itself is held to: absorbed is emitted.
+        for (int c = 0; c < 3; ++c) {
+            CHECK(s.energy.absorbed[c] == Approx(s.energy.emitted[c]).epsilon(.01));
+            CHECK(exact.energy.absorbed[c] == Approx(exact.energy.emitted[c]).epsilon(1e-6));
+        }
+    }
+}
+
+TEST_CASE("Bright rooms of which parts are black, or no two patches alike") {
+    for (const double rho : {.99, .9999}) {
+        Scene scene = test::cube_with_lit_floor(5, rho);
+        scene.materials.push_back({"black", Vec3(0.0), Vec3(0.0)});
+        scene.materials.push_back({"red", Vec3(rho, .1, 0), Vec3(0.0)});
+        for (std::size_t f = 30; f < scene.facets.size(); f += 7)
+            scene.facets[f].material = f % 2 == 0 ? 2 : 3;
+        const Model model(scene);
+        const Solution exact = exact_solution(model);
+        const Solution s = test::solve(model, *find_method("gathering"), {}, test::steps(4));
+        CAPTURE(rho);
+        CHECK(relative_error(model, s, exact) < .02);
+    }
+}
+
+TEST_CASE("All methods hold in a room of reflectance .99", "[slow]") {
+    const Model model(test::cube_with_lit_floor(3, .99));
+    const Solution exact = exact_solution(model);
+    for (const Method* const method : methods()) {
+        SolveOptions options;
+        options.rays = 256;
+        options.seed = 2;
+        const StopRule stop = method->default_stop.error
+                                  ? StopRule{.steps = {}, .seconds = {}, .error = .01}
+                                  : test::steps(40);
+        const Solution s = test::solve(model, *method, options, stop);
+        const double off = relative_error(model, s, exact);
+        const double told = estimated_error(model.mesh, s);
+        CAPTURE(method->name, off, told);
+        CHECK(off < .06);
+        CHECK(off < 3.5 * told + 1e-6);
+    }
+}
