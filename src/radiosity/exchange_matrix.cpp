@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t rows_per_chunk = 64;
 
 /// Scaling goes on until all rows are closed to this, or so often.
-constexpr double closed = 1e-7;
-constexpr int most_scalings = 40;
+constexpr double closed = 1e-9;
+constexpr int most_scalings = 60;
 
 /// Fewer entries are read sooner than other threads would be started.
 constexpr std::size_t entries_for_one_thread = 400'000;

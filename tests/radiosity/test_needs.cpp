@@ -293,7 +293,8 @@ TEST_CASE("Without the rays of black patches factors agree within the standard e
         far += std::abs(z) > 4;
     }
     REQUIRE(count > 10);
-    CHECK(std::abs(mean / static_cast<double>(count)) < .6);
+    // Errors that all patches share show in the mean; four sets tell them roughly.
+    CHECK(std::abs(mean / static_cast<double>(count)) < (name == "matrix" ? .6 : 1.5));
     CHECK(far <= (name == "matrix" ? 0 : count / 20)); // with four sets errors are rough
     for (int c = 0; c < 3; ++c) {
         const double balance = with.energy.absorbed[c] + with.energy.escaped[c];

@@ -43,6 +43,10 @@ constexpr double most_rays = 1u << 20;
 /// variance.
 constexpr double worth_doubling = .35;
 
+/// The share of the emitted power within which it must be known how much is lost, for the rest to
+/// be taken for what arrives.
+constexpr double surely_lost = 1e-3;
+
 /// Bytes that are needed to put counts together, for each byte of them.
 constexpr double merging = 5;
 
@@ -220,9 +224,29 @@ class GatheringSolver final : public Solver {
             for (const DirectLight& light : direct)
                 d[i] += light.irradiance(i) / static_cast<double>(direct.size());
         }
+        balance(factors, d);
         solve_by_gradients(factors, area_, reflectance_, d, incident, workers_,
                            {.tolerance = tolerance});
         return factors;
+    }
+
+    /// What arrives from the emitters in all is what they sent, less what was lost. In bright rooms
+    /// an error of it would be the error of the whole solution.
+    void balance(const ExchangeMatrix& factors, std::vector<Vec3>& d) const {
+        Vec3 sent(0.0), arrived(0.0), all_sent(0.0), uncertain(0.0);
+        for (std::uint32_t i = 0; i < area_.size(); ++i) {
+            const Vec3 power = area_[i] * emission_[i];
+            const LostShare share = factors.lost(i);
+            const double lost = share.escaped + share.absorbed;
+            all_sent += power;
+            sent += (1 - lost) * power;
+            arrived += area_[i] * d[i];
+            uncertain += power * power * (lost * (1 - lost) / std::max(rays_[i], 1u));
+        }
+        for (int c = 0; c < 3; ++c)
+            if (arrived[c] > 0 && std::sqrt(uncertain[c]) < surely_lost * all_sent[c])
+                for (Vec3& incident : d)
+                    incident[c] *= sent[c] / arrived[c];
     }
 
     void combine(const ExchangeMatrix& all) {
