@@ -32,7 +32,7 @@ struct Solution {
     std::uint64_t rays_density = 0;
     std::uint64_t rays_density_spared = 0; ///< below triangles that were not divided
     std::uint64_t bytes_density = 0;       ///< of the density store; 0 where a method keeps none
-    std::uint64_t bytes_transport = 0; ///< of the rays that `gathering` keeps
+    std::uint64_t bytes_transport = 0;     ///< of the rays that `gathering` keeps
     double seconds_density = 0;            ///< spent before the first step
 };
 

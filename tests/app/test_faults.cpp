@@ -55,7 +55,8 @@ void write_large(const Workplace& place, int n) {
     text += "v 0 9 0\nv " + side + " 9 0\nv " + side + " 9 " + side + "\nv 0 9 " + side +
             "\nusemtl lamp\nf -4 -3 -2 -1\n";
     place.write("large.obj", text);
-    place.write("large.mtl", "newmtl white\nKd .5 .5 .5\nKe 1 1 1\nnewmtl lamp\nKe 1e-6 0 0\nKd 0 0 0\n");
+    place.write("large.mtl",
+                "newmtl white\nKd .5 .5 .5\nKe 1 1 1\nnewmtl lamp\nKe 1e-6 0 0\nKd 0 0 0\n");
 }
 
 std::ptrdiff_t lines_of_message(const std::string& text) {

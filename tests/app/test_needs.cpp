@@ -48,8 +48,9 @@ TEST_CASE("solve records what it left out, and --keep-all leaves out nothing") {
 TEST_CASE("compare leaves out the same, with the same errors as --keep-all") {
     const Workplace place;
     place.write_room();
-    const std::string compare = "compare room.obj --runs 1 --budget-rays 5000 --rays 16 "
-                                "--reference-error .3 --size 40x30 --methods stratified,hemisphere -q -o ";
+    const std::string compare =
+        "compare room.obj --runs 1 --budget-rays 5000 --rays 16 "
+        "--reference-error .3 --size 40x30 --methods stratified,hemisphere -q -o ";
     const auto with = place.hemilux(compare + "with"),
                all = place.hemilux(compare + "all --keep-all");
     CHECK(with.code == 0);

@@ -17,8 +17,7 @@
 // worth. --one-shot makes a step of each shot and ends with the first pass, --ambient shows what is
 // still unshot, --overshoot shoots ahead (ProgressiveOptions in solver.h).
 //
-// The standard error holds that of the sampling at each patch; the light that its errors bring into
-// the room or take from it, and the light that is still missing, both spread evenly.
+// The standard error holds that of each patch, and that of all light together spread evenly.
 //
 // Good for a first picture after few shots, and for the shadows of few small lamps. Bad with many
 // patches and high reflectances, as each patch shoots many times. No memory to speak of. Not
@@ -260,12 +259,11 @@ class ProgressiveSolver final : public Solver {
         }
         std::vector<std::uint32_t> receivers;
         find_receivers(rays, input_.mesh, input_.tracer, receivers);
-        for (const std::uint32_t receiver : receivers) {
+        for (const std::uint32_t receiver : receivers)
             if (receiver == escaped)
                 tally_.escaped += each;
             else if (receiver == absorbed || !input_.needs.power(receiver))
                 tally_.absorbed += each;
-        }
         points_ += count;
         rays_ += count;
         input_.monitor.rays += count;
