@@ -229,7 +229,7 @@ class Builder {
 } // namespace
 
 Bvh::Bvh(const FacetSoup& soup, const BvhOptions& options)
-    : quads_(options.quads), vertices_(soup.vertices.begin(), soup.vertices.end()) {
+    : vertices_(soup.vertices.begin(), soup.vertices.end()) {
     Builder builder(soup, options, nodes_);
     builder.build();
     facets_.reserve(builder.items().size());

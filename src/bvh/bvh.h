@@ -20,7 +20,6 @@ struct BvhOptions {
     double cost_facet = 1.0;
     int bins = 16;              ///< candidates per axis; more: slightly better trees, longer builds
     std::uint32_t max_leaf = 8; ///< facets in a leaf at most
-    bool quads = true;          ///< false: all are triangles, so a second half is not looked for
 };
 
 class Bvh final : public Tracer {
@@ -48,14 +47,6 @@ class Bvh final : public Tracer {
     template <class Leaf>
     void traverse(const Ray& ray, const double& t_max, Leaf&& leaf) const;
 
-    template <bool quads>
-    [[nodiscard]] std::optional<Hit> closest_of(const Ray& ray) const;
-    template <bool quads>
-    [[nodiscard]] bool occluded_of(const Ray& ray, std::uint32_t target) const;
-    template <bool quads>
-    [[nodiscard]] std::uint32_t count_of(const Ray& ray) const;
-
-    bool quads_;
     std::vector<Vec3> vertices_;
     std::vector<FacetCorners> facets_; ///< in the order of the leaves
     std::vector<std::uint32_t> order_; ///< leaf slot -> facet as given

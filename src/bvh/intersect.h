@@ -19,8 +19,7 @@ struct FacetSoup {
 };
 
 /// True, and the hit filled in, when facet `corners` is struck at a t in (ray.t_min, t_max].
-/// Without `quads` all facets are triangles.
-template <EdgeRule rule, bool quads = true>
+template <EdgeRule rule>
 [[nodiscard]] inline bool hit_facet(std::span<const Vec3> vertices, const FacetCorners& corners,
                                     const ShearedRay& sheared, double t_min, double t_max,
                                     Hit& hit) {
@@ -30,7 +29,7 @@ template <EdgeRule rule, bool quads = true>
     TriangleHit found;
     bool second_half = false;
     if (!hit_triangle<rule>(p0, p1, p2, t_min, t_max, found)) {
-        if (!quads || corners[2] == corners[3])
+        if (corners[2] == corners[3])
             return false;
         const Vec3 p3 = sheared.transform(vertices[corners[3]]);
         if (!hit_triangle<rule>(p0, p2, p3, t_min, t_max, found))

@@ -108,16 +108,15 @@ void Bvh::traverse(const Ray& ray, const double& t_max, Leaf&& leaf) const {
     }
 }
 
-template <bool quads>
-std::optional<Hit> Bvh::closest_of(const Ray& ray) const {
+std::optional<Hit> Bvh::closest(const Ray& ray) const {
     const ShearedRay sheared(ray.origin, ray.direction);
     Hit best{none, ray.t_max, 0, 0, false, false};
     traverse(ray, best.t, [&](std::uint32_t slot) {
         Hit hit{};
         const std::uint32_t facet = order_[slot];
         if (facet != ray.from &&
-            hit_facet<EdgeRule::inclusive, quads>(vertices_, facets_[slot], sheared, ray.t_min,
-                                                  best.t, hit) &&
+            hit_facet<EdgeRule::inclusive>(vertices_, facets_[slot], sheared, ray.t_min, best.t,
+                                           hit) &&
             comes_before(hit.t, facet, best)) {
             best = hit;
             best.facet = facet;
@@ -127,45 +126,31 @@ std::optional<Hit> Bvh::closest_of(const Ray& ray) const {
     return best.facet == none ? std::nullopt : std::optional(best);
 }
 
-template <bool quads>
-bool Bvh::occluded_of(const Ray& ray, std::uint32_t target) const {
+bool Bvh::occluded(const Ray& ray, std::uint32_t target) const {
     const ShearedRay sheared(ray.origin, ray.direction);
     bool blocked = false;
     traverse(ray, ray.t_max, [&](std::uint32_t slot) {
         Hit hit{};
         const std::uint32_t facet = order_[slot];
         blocked = facet != ray.from && facet != target &&
-                  hit_facet<EdgeRule::inclusive, quads>(vertices_, facets_[slot], sheared,
-                                                        ray.t_min, ray.t_max, hit);
+                  hit_facet<EdgeRule::inclusive>(vertices_, facets_[slot], sheared, ray.t_min,
+                                                 ray.t_max, hit);
         return blocked;
     });
     return blocked;
 }
 
-template <bool quads>
-std::uint32_t Bvh::count_of(const Ray& ray) const {
+std::uint32_t Bvh::count(const Ray& ray) const {
     const ShearedRay sheared(ray.origin, ray.direction);
     std::uint32_t pierced = 0;
     traverse(ray, ray.t_max, [&](std::uint32_t slot) {
         Hit hit{};
         pierced += order_[slot] != ray.from &&
-                   hit_facet<EdgeRule::half_open, quads>(vertices_, facets_[slot], sheared,
-                                                         ray.t_min, ray.t_max, hit);
+                   hit_facet<EdgeRule::half_open>(vertices_, facets_[slot], sheared, ray.t_min,
+                                                  ray.t_max, hit);
         return false;
     });
     return pierced;
-}
-
-std::optional<Hit> Bvh::closest(const Ray& ray) const {
-    return quads_ ? closest_of<true>(ray) : closest_of<false>(ray);
-}
-
-bool Bvh::occluded(const Ray& ray, std::uint32_t target) const {
-    return quads_ ? occluded_of<true>(ray, target) : occluded_of<false>(ray, target);
-}
-
-std::uint32_t Bvh::count(const Ray& ray) const {
-    return quads_ ? count_of<true>(ray) : count_of<false>(ray);
 }
 
 } // namespace hemilux

@@ -29,12 +29,16 @@ class Builder {
   public:
     Builder(const FacetSoup& soup, unsigned threads) : soup_(soup), workers_(threads) {}
 
-    Built run() {
+    Built run(bool hierarchy) {
         Built built;
         find_bounds(built);
         make_items();
         if (items_.empty())
             return built;
+        if (!hierarchy && items_.size() <= width) {
+            make_only_leaf(built);
+            return built;
+        }
         const auto n = static_cast<std::uint32_t>(items_.size());
         job_size_ = std::max(small_job, n / jobs_at_least);
         const Range all = range_of(items_, 0, n);
@@ -94,6 +98,15 @@ class Builder {
         const Vec3 p = shrink_ * soup_.vertices[a], q = shrink_ * soup_.vertices[b],
                    r = shrink_ * soup_.vertices[c];
         items_.emplace_back(glm::min(p, glm::min(q, r)), glm::max(p, glm::max(q, r)), slot);
+    }
+
+    void make_only_leaf(Built& built) const {
+        Part part;
+        const Range all = range_of(items_, 0, static_cast<std::uint32_t>(items_.size()));
+        make_leaf(part, all);
+        built.leaves = HugeArray<Leaf>(1);
+        *built.leaves.data() = part.leaves[0];
+        describe(part, {}, std::max(all.box.half_area(), 1e-30f), built);
     }
 
     /// Divides a range into up to eight and makes them the children of a node.
@@ -181,15 +194,16 @@ class Builder {
         }
     }
 
-    std::uint32_t make_leaf(Part& part, const Range& range) {
+    std::uint32_t make_leaf(Part& part, const Range& range) const {
         Leaf leaf{};
         std::fill(std::begin(leaf.slot), std::end(leaf.slot), no_facet);
         // By slot: the same leaf whatever the order of the items.
         std::array<std::uint32_t, width> slots;
-        for (std::uint32_t i = 0; i < range.size(); ++i)
+        const std::uint32_t size = std::min(range.size(), width);
+        for (std::uint32_t i = 0; i < size; ++i)
             slots[i] = items_[range.begin + i].slot();
-        std::sort(slots.begin(), slots.begin() + range.size());
-        for (unsigned k = 0; k < range.size(); ++k)
+        std::sort(slots.begin(), slots.begin() + size);
+        for (unsigned k = 0; k < size; ++k)
             write_slot(leaf, k, slots[k]);
         part.cost += static_cast<double>(range.box.half_area());
         part.leaves.push_back(leaf);
@@ -293,6 +307,8 @@ double size_of(const Vec3& low, const Vec3& high) {
     return std::ldexp(1.0, std::clamp(exponent, -1000, 1000));
 }
 
-Built build(const FacetSoup& soup, unsigned threads) { return Builder(soup, threads).run(); }
+Built build(const FacetSoup& soup, unsigned threads, bool hierarchy) {
+    return Builder(soup, threads).run(hierarchy);
+}
 
 } // namespace hemilux::wide

@@ -14,8 +14,8 @@
 namespace hemilux::wide {
 
 struct Built {
-    HugeArray<Node> nodes;
-    HugeArray<Leaf> leaves;
+    HugeArray<Node> nodes;    ///< none: the only leaf is the root
+    HugeArray<Leaf> leaves;   ///< none: nothing to strike
     Vec3 low{0.0}, high{0.0}; ///< of all facets, in the soup's units
     BvhQuality quality;
 };
@@ -23,7 +23,8 @@ struct Built {
 /// The power of two that the soup's coordinates are divided by, at least the largest of them.
 [[nodiscard]] double size_of(const Vec3& low, const Vec3& high);
 
-/// Facets with coordinates that are not finite are left out. threads == 0: one per core.
-[[nodiscard]] Built build(const FacetSoup& soup, unsigned threads);
+/// Facets with coordinates that are not finite are left out. threads == 0: one per core. Without
+/// `hierarchy` up to eight triangles are one leaf with no node above it.
+[[nodiscard]] Built build(const FacetSoup& soup, unsigned threads, bool hierarchy = true);
 
 } // namespace hemilux::wide

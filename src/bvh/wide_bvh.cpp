@@ -98,7 +98,8 @@ wide::Judge judge(Query& query) { return {&query, closer, struck, counts}; }
 
 WideBvh::WideBvh(const FacetSoup& soup, const WideBvhOptions& options)
     : soup_(soup), kernels_(&wide::find_kernels(options.kernels)),
-      built_(wide::build(soup, options.threads)), space_{built_.low, built_.high, 1} {
+      built_(wide::build(soup, options.threads, options.hierarchy)), space_{built_.low, built_.high,
+                                                                            1} {
     space_.size = wide::size_of(built_.low, built_.high);
 }
 
@@ -153,11 +154,12 @@ Hit WideBvh::locate(const Ray& ray, std::uint32_t facet) const {
 wide::Tree WideBvh::tree() const {
     constexpr std::size_t small = 1 << 19, cache = 1 << 20;
     const std::size_t bytes = built_.quality.bytes;
-    return {built_.nodes.data(), built_.leaves.data(), bytes < small ? 0u : 3u, bytes > cache};
+    return {built_.nodes.data(), built_.leaves.data(), built_.nodes.size() == 0 ? flag : 0u,
+            bytes < small ? 0u : 3u, bytes > cache};
 }
 
 Fit WideBvh::fit_ray(const Ray& ray, FloatRay& scaled) const {
-    return built_.nodes.size() == 0 ? Fit::misses : scale_ray(ray, space_, scaled);
+    return built_.leaves.size() == 0 ? Fit::misses : scale_ray(ray, space_, scaled);
 }
 
 /// Some rays of a stream, ready for the kernels. Those that they cannot take end before they begin.
@@ -182,7 +184,7 @@ struct WideBvh::Block {
 };
 
 void WideBvh::closest_stream(std::span<const Ray> rays, std::span<Struck> out) const {
-    if (built_.nodes.size() == 0) {
+    if (built_.leaves.size() == 0) {
         std::fill_n(out.begin(), rays.size(), Struck{});
         return;
     }
@@ -206,7 +208,7 @@ void WideBvh::closest_stream(std::span<const Ray> rays, std::span<Struck> out) c
 
 void WideBvh::occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
                               std::span<std::uint8_t> out) const {
-    if (built_.nodes.size() == 0) {
+    if (built_.leaves.size() == 0) {
         std::fill_n(out.begin(), rays.size(), std::uint8_t{0});
         return;
     }

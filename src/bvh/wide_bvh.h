@@ -12,6 +12,7 @@ namespace hemilux {
 
 struct WideBvhOptions {
     unsigned threads = 0;         ///< that build the tree; 0: one per core
+    bool hierarchy = true;        ///< false: up to eight triangles are tested at once, no boxes
     std::string_view kernels{""}; ///< "baseline", "avx2", "avx512"; "": the machine's best
 };
 

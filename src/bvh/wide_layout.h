@@ -33,8 +33,9 @@ struct alignas(64) Leaf {
 };
 
 struct Tree {
-    const Node* nodes; ///< null: nothing to strike
+    const Node* nodes;
     const Leaf* leaves;
+    std::uint32_t root; ///< 0, a node; or the only leaf
     /// So many rays of a packet go on alone. In a small tree they have too little to do for that.
     unsigned few;
     bool large; ///< does not fit the cache of a core, so what is needed next is fetched ahead

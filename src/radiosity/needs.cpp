@@ -10,10 +10,12 @@
 namespace hemilux {
 namespace {
 
-/// With more facets than these a ray finds its way sooner through the tree (measured;
+/// So many are one leaf of the tree, tested at once; with more of them boxes pay (measured;
 /// docs/results.md).
-constexpr std::size_t most_facets_without_tree = 8;
-constexpr const char* few_facets = "there are 8 faces or fewer";
+constexpr std::size_t most_triangles_without_tree = 8;
+constexpr const char* few_triangles =
+    "all are tested at once, as there are no more than 8 triangles "
+    "(or halves of quads)";
 
 bool is_grey(const Vec3& v) { return v.r == v.g && v.g == v.b; }
 bool is_black(const Vec3& v) { return !glm::any(glm::greaterThan(v, Vec3(0.0))); }
@@ -24,6 +26,14 @@ std::vector<bool> materials_in_use(const Scene& scene) {
     for (const Facet& facet : scene.facets)
         used[facet.material] = true;
     return used;
+}
+
+/// A quad is two.
+std::size_t count_triangles(const Scene& scene) {
+    std::size_t count = 0;
+    for (const Facet& facet : scene.facets)
+        count += facet.is_triangle() ? 1 : 2;
+    return count;
 }
 
 void find_idle_patches(const Mesh& mesh, Needs& needs) {
@@ -73,10 +83,7 @@ std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
                         "all steps but one, and the search for their length"});
     add_idle_patches(needs, work, list);
     if (!needs.tree)
-        list.push_back({"the bounding volume hierarchy", few_facets, "building and visiting it"});
-    if (needs.tree && !needs.quads)
-        list.push_back({"tests of quads", "all faces are triangles",
-                        "a comparison for each triangle that a ray misses"});
+        list.push_back({"the bounding volume hierarchy", few_triangles, "visits to boxes"});
     return list;
 }
 
@@ -94,8 +101,7 @@ Needs find_needs(const Mesh& mesh) {
             needs.bounces |= !is_black(material.reflectance);
         }
     needs.densities = needs.visibility = !is_convex_enclosure(mesh);
-    needs.tree = scene.facets.size() > most_facets_without_tree;
-    needs.quads = !std::ranges::all_of(scene.facets, &Facet::is_triangle);
+    needs.tree = count_triangles(scene) > most_triangles_without_tree;
     find_idle_patches(mesh, needs);
     return needs;
 }

@@ -20,8 +20,7 @@ struct Needs {
     bool densities = true;  ///< false: a convex enclosure, one surface in each direction
     bool visibility = true; ///< false: the same, nothing stands between two patches
     bool bounces = true;    ///< false: nothing reflects
-    bool tree = true;       ///< false: so few facets that a ray tests them all sooner
-    bool quads = true;      ///< false: all facets are triangles
+    bool tree = true;       ///< false: so few triangles that a ray tests them all at once
 
     /// Whether a patch may ever hold power to be shot. If not it needs no rays and no hemisphere.
     [[nodiscard]] bool power(std::uint32_t patch) const { return idle.empty() || !idle[patch]; }

@@ -134,10 +134,10 @@ void check_bundles(const WideBvh& bvh, const Soup& soup, std::size_t bundles) {
     CHECK(count_differ == 0);
 }
 
-void check_soup(const Soup& soup, std::size_t rays) {
+void check_soup(const Soup& soup, std::size_t rays, bool hierarchy = true) {
     const BruteForce referee(soup.view());
     for (const wide::Kernels* kernels : wide::available_kernels()) {
-        const WideBvh wide_bvh(soup.view(), {.kernels = kernels->name});
+        const WideBvh wide_bvh(soup.view(), {.hierarchy = hierarchy, .kernels = kernels->name});
         CHECK(wide_bvh.kernels() == kernels->name);
         const Differences found(wide_bvh, referee, rays_for(soup, rays, 99));
         check_streams(wide_bvh, rays_for(soup, rays / 2, 98));
@@ -264,6 +264,39 @@ TEST_CASE("The wide tree's own figures") {
     CHECK(q.nodes < q.leaves);
     CHECK(q.depth < 20);
     CHECK(q.bytes == q.nodes * sizeof(wide::Node) + q.leaves * sizeof(wide::Leaf));
+}
+
+// So a scene of triangles alone has no test of second halves.
+TEST_CASE("A triangle takes one slot of a leaf, a quad two") {
+    const auto slots = [](const wide::Built& built) {
+        std::array<std::size_t, 2> found{}; // without and with the flag of second halves
+        for (std::size_t i = 0; i < built.leaves.size(); ++i)
+            for (const std::uint32_t slot : built.leaves.data()[i].slot)
+                if (slot != wide::no_facet)
+                    ++found[(slot & wide::flag) != 0];
+        return found;
+    };
+    Soup soup = test::random_soup(1000, 3);
+    std::size_t quads = 0;
+    for (const FacetCorners& corners : soup.facets)
+        quads += corners[2] != corners[3];
+    REQUIRE(quads > 100);
+    CHECK(slots(wide::build(soup.view(), 1)) == std::array{soup.facets.size(), quads});
+    for (FacetCorners& corners : soup.facets)
+        corners[3] = corners[2];
+    CHECK(slots(wide::build(soup.view(), 1)) == std::array{soup.facets.size(), std::size_t{0}});
+}
+
+TEST_CASE("Eight triangles need no tree") {
+    for (const std::size_t facets : {1u, 3u, 4u}) {
+        const Soup soup = test::random_soup(facets, 7 + facets);
+        const BvhQuality flat = WideBvh(soup.view(), {.hierarchy = false}).quality();
+        CHECK(flat.nodes == 0);
+        CHECK(flat.leaves == 1);
+        check_soup(soup, 2000, false);
+    }
+    const Soup more = test::random_soup(20, 1);
+    CHECK(WideBvh(more.view(), {.hierarchy = false}).quality().nodes > 0);
 }
 
 TEST_CASE("Kernels are chosen by name") {

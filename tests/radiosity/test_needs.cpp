@@ -229,8 +229,8 @@ TEST_CASE("What is left out changes no byte of the solution") {
     };
     const std::vector<Case> cases{
         {grey_cube(), {}, {"colour", "densities", "visibility"}},
-        {test::cube_with_lit_floor(1, .5), {.max_edge = .4}, {"colour", "hierarchy"}},
-        {test::sphere(2, 1, .5, 1), {}, {"densities", "tests of quads"}},
+        {test::sphere(0, 1, .5, 1), {.max_edge = .4}, {"colour", "hierarchy"}},
+        {test::sphere(2, 1, .5, 1), {}, {"densities"}},
         {test::room_with_block(), {.two_sided = true}, {"no light"}},
         {test::open_scene(), {}, {}},
         {with_reflectance(test::room_with_block(), Vec3(0.0)), {}, {"passes", "reflect"}},
@@ -371,8 +371,8 @@ TEST_CASE("A full density store has the same leaves as one of the divided triang
     }
 }
 
-TEST_CASE("Few facets are traced without a tree, with the same hits") {
-    const Mesh few(test::cube_with_lit_floor(1, .5)), many(test::cube_with_lit_floor(2, .5));
+TEST_CASE("Few triangles are traced without a tree, with the same hits") {
+    const Mesh few(test::sphere(0, 1, .5, 1)), many(test::cube_with_lit_floor(1, .5));
     CHECK_FALSE(find_needs(few).tree);
     CHECK(find_needs(many).tree);
     const MadeTracer flat = make_tracer(few, find_needs(few));

@@ -66,7 +66,7 @@ struct FromErrands {
                 continue;
             const Packet& packet = packets[k / packet_size];
             errands.ray[k] = lane_of(packet, k % packet_size);
-            walker.take(errands.ray[k], k, packet.high[k % packet_size]);
+            walker.take(errands.ray[k], k, packet.high[k % packet_size], 0);
             for (unsigned i = n; i-- > 0;)
                 walker.stack.push_one(errands.child[k][i], errands.enter[k][i]);
             if (walker.pop<rays>()) {

@@ -84,6 +84,8 @@ inline bool set_slabs(Packet* packets, unsigned rays) {
 /// when the hits of its first ones are known.
 template <Rays rays, class OnLeaf, class OnFew>
 inline void walk_packet(const Tree& tree, const Packet& packet, OnLeaf&& on_leaf, OnFew&& on_few) {
+    if (tree.root & flag)
+        return on_leaf(tree.leaves[tree.root & ~flag], packet.lanes);
     const Pyramid pyramid(packet);
     PacketStack stack;
     Bits alone = 0; // lanes that have left the packet

@@ -131,7 +131,7 @@ inline void closest_from(const Tree& tree, std::uint32_t root, const FloatRay& r
 
 inline void closest(const Tree& tree, const FloatRay& ray, unsigned index, Nearest& nearest,
                     const Judge& judge) {
-    closest_from(tree, 0, ray, index, nearest, judge);
+    closest_from(tree, tree.root, ray, index, nearest, judge);
 }
 
 /// Whether anything in a leaf but `target` is struck before t.
@@ -152,7 +152,7 @@ inline bool blocks(const Leaf& leaf, const FloatRay& ray, unsigned index, float 
 inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
                      float t_high, std::uint32_t target, const Judge& judge) {
     bool blocked = false;
-    walk<Rays::stop>(tree, 0, ray, t_high, [&](const Leaf& leaf) {
+    walk<Rays::stop>(tree, tree.root, ray, t_high, [&](const Leaf& leaf) {
         blocked = blocks(leaf, ray, index, t_low, t_high, target, judge);
         return blocked;
     });
@@ -192,7 +192,7 @@ inline std::uint32_t count_from(const Tree& tree, std::uint32_t root, const Floa
 
 inline std::uint32_t count(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
                            float t_high, const Judge& judge) {
-    return count_from(tree, 0, ray, index, t_low, t_high, judge);
+    return count_from(tree, tree.root, ray, index, t_low, t_high, judge);
 }
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

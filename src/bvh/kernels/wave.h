@@ -15,11 +15,11 @@ struct alignas(64) Walker {
     float t_max;         ///< shrinks
     Stack stack;
 
-    void take(const FloatRay& of, std::uint32_t index_, float t_max_) {
+    void take(const FloatRay& of, std::uint32_t index_, float t_max_, std::uint32_t root) {
         ray = &of;
         slabs.set(of);
         index = index_;
-        next = 0;
+        next = root;
         t_max = t_max_;
         stack.clear();
     }
@@ -94,12 +94,13 @@ struct FromArray {
     const FloatRay* rays;
     unsigned count;
     const Nearest* nearest;
+    std::uint32_t root;
     unsigned& started;
 
     bool operator()(Walker& walker) const {
         if (started == count)
             return false;
-        walker.take(rays[started], started, nearest[started].high);
+        walker.take(rays[started], started, nearest[started].high, root);
         ++started;
         return true;
     }
@@ -118,7 +119,7 @@ inline void closest_in(const Leaf& leaf, const FloatRay& ray, unsigned index, Ne
 inline void closest_stream(const Tree& tree, const FloatRay* rays, unsigned count, Nearest* nearest,
                            const Judge& judge) {
     unsigned started = 0;
-    wave<Rays::stop>(tree, FromArray{rays, count, nearest, started},
+    wave<Rays::stop>(tree, FromArray{rays, count, nearest, tree.root, started},
                      [&](Walker& walker, const Leaf& leaf) {
                          closest_in(leaf, *walker.ray, walker.index, nearest[walker.index], judge);
                          walker.t_max = nearest[walker.index].high;
@@ -133,7 +134,7 @@ inline void occluded_stream(const Tree& tree, const FloatRay* rays, unsigned cou
         blocked[k] = 0;
     unsigned started = 0;
     wave<Rays::stop>(
-        tree, FromArray{rays, count, t, started}, [&](Walker& walker, const Leaf& leaf) {
+        tree, FromArray{rays, count, t, tree.root, started}, [&](Walker& walker, const Leaf& leaf) {
             const unsigned k = walker.index;
             blocked[k] = blocks(leaf, *walker.ray, k, t[k].low, t[k].high, targets[k], judge);
             return blocked[k] != 0;

@@ -1,0 +1,75 @@
+// What the tree costs where all triangles fit one of its leaves: nanoseconds a ray with the tree and
+// without it (radiosity/needs.h leaves it out there), one thread.
+//
+//     few_facets
+#include "bvh/wide_bvh.h"
+#include "contest.h"
+#include "radiosity/rng.h"
+#include "radiosity/shot.h"
+
+#include <cstdio>
+
+using namespace hemilux;
+
+namespace {
+
+struct Room {
+    std::vector<Vec3> vertices;
+    std::vector<FacetCorners> facets;
+
+    void add_quad(const Vec3& corner, const Vec3& u, const Vec3& v) {
+        const auto first = static_cast<std::uint32_t>(vertices.size());
+        vertices.insert(vertices.end(), {corner, corner + u, corner + u + v, corner + v});
+        facets.push_back({first, first + 1, first + 2, first + 3});
+    }
+    [[nodiscard]] FacetSoup soup() const { return {vertices, facets}; }
+};
+
+/// Sides of the unit cube, then small quads within.
+Room make_room(unsigned facets) {
+    Room room;
+    const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), origin(0.0), far(1.0);
+    for (const auto& [u, v] : {std::pair(x, z), std::pair(z, y), std::pair(y, x)}) {
+        if (room.facets.size() < facets)
+            room.add_quad(origin, u, v);
+        if (room.facets.size() < facets)
+            room.add_quad(far, -v, -u);
+    }
+    Rng rng(facets);
+    const auto point = [&] { return Vec3(rng.uniform(), rng.uniform(), rng.uniform()); };
+    while (room.facets.size() < facets) {
+        const Vec3 u = .1 * (point() - .5), v = .1 * (point() - .5);
+        room.add_quad(.1 + .7 * point(), u, v);
+    }
+    return room;
+}
+
+std::vector<Ray> make_rays(std::size_t count) {
+    Rng rng(1);
+    std::vector<Ray> rays(count);
+    for (Ray& ray : rays) {
+        ray.origin = {rng.uniform(), rng.uniform(), rng.uniform()};
+        ray.direction = sample_cosine(rng);
+    }
+    return rays;
+}
+
+} // namespace
+
+int main() {
+    constexpr std::size_t count = 100'000;
+    constexpr int rounds = 31;
+    const std::vector<Ray> rays = make_rays(count);
+    std::vector<Struck> struck(count);
+    std::printf("facets  tree [ns]  all [ns]\n");
+    for (const unsigned facets : {1u, 2u, 3u, 4u, 5u, 6u}) {
+        const Room room = make_room(facets);
+        const WideBvh tree(room.soup(), {.threads = 1});
+        const WideBvh all(room.soup(), {.threads = 1, .hierarchy = false});
+        const auto seconds = bench::contest(
+            {[&] { tree.closest_stream(rays, struck); }, [&] { all.closest_stream(rays, struck); }},
+            rounds);
+        std::printf("%6u  %9.0f  %8.0f\n", facets, 1e9 * seconds[0] / count,
+                    1e9 * seconds[1] / count);
+    }
+}
