@@ -3,8 +3,9 @@
 //
 // Rays at random find a small lamp by luck. Here a sample is a point of the receiver, an emitter,
 // and a point of that: well-distributed in five dimensions (sobol.h). The emitter is drawn by the
-// light that it would send without obstacles; its contribution is the closed form of point and
-// polygon times the visibility along one ray inside it (point_to_patch.h).
+// light that it would send without obstacles; its contribution is the kernel of form factors times
+// the visibility along one ray (point_to_patch.h): the closed form of point and polygon, or of two
+// points where the emitter looks small.
 
 #include "bvh/tracer.h"
 #include "geometry/vector.h"
@@ -24,31 +25,38 @@ struct Monitor;
 /// few or small, so that they fill little of what others see. The rest is left to rays at random.
 [[nodiscard]] std::vector<std::uint32_t> small_emitters(const Mesh& mesh);
 
+/// Several estimates at once, independent of each other.
 class DirectLight {
   public:
-    /// Different seeds: independent estimates. What is referred to outlives this.
+    /// An estimate for each seed. What is referred to outlives this.
     DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
-                std::span<const std::uint32_t> emitters, std::uint64_t seed);
+                std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds);
 
-    /// Goes on until each patch has so many samples. Returns the number of rays
+    /// Goes on until each patch has so many samples in each estimate. Returns the number of rays
     /// traced now; void if the monitor was interrupted meanwhile.
     std::uint64_t sample_up_to(std::span<const std::uint32_t> samples, const Workers& workers,
                                Monitor& monitor);
 
-    /// Mean over the samples [W/m2 arriving].
-    [[nodiscard]] Vec3 irradiance(std::uint32_t patch) const {
+    [[nodiscard]] std::size_t estimates() const { return seeds_.size(); }
+    /// Mean over the samples of one estimate [W/m2 arriving].
+    [[nodiscard]] Vec3 irradiance(std::uint32_t patch, std::size_t estimate) const {
         const std::uint32_t n = samples_[patch];
-        return n > 0 ? sum_[patch] / static_cast<double>(n) : Vec3(0.0);
+        return n > 0 ? sum_[patch * seeds_.size() + estimate] / static_cast<double>(n) : Vec3(0.0);
     }
+    /// Mean over all.
+    [[nodiscard]] Vec3 irradiance(std::uint32_t patch) const;
+    /// Of this patch in each estimate.
     [[nodiscard]] std::uint32_t samples(std::uint32_t patch) const { return samples_[patch]; }
     /// Samples of this patch that brought light.
     [[nodiscard]] std::uint32_t hits(std::uint32_t patch) const { return hits_[patch]; }
     [[nodiscard]] std::uint64_t bytes() const {
-        return sum_.size() * (sizeof(Vec3) + 2 * sizeof(std::uint32_t));
+        return sum_.size() * sizeof(Vec3) + 2 * samples_.size() * sizeof(std::uint32_t);
     }
 
   private:
-    std::uint64_t sample(std::uint32_t patch, std::uint32_t end, std::vector<double>& sent);
+    struct Volley;
+    void sample(std::uint32_t patch, std::uint32_t end, std::vector<double>& sent, Volley& volley);
+    void send(Volley& volley);
     /// Running sums of the light that the emitters would send to this patch.
     void unobstructed(std::uint32_t patch, std::vector<double>& sums) const;
 
@@ -56,9 +64,10 @@ class DirectLight {
     const Tracer& tracer_;
     const Needs& needs_;
     std::span<const std::uint32_t> emitters_;
-    std::uint64_t seed_;
-    std::vector<Vec3> sum_;
+    std::vector<std::uint64_t> seeds_;
+    std::vector<Vec3> sum_; ///< by patch and estimate
     std::vector<std::uint32_t> samples_, hits_;
+    std::vector<double> radii_;  ///< of the emitters, from their centres
     std::vector<double> powers_; ///< running sums, for emitters too many to weigh one by one
 };
 

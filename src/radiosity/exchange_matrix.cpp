@@ -10,19 +10,81 @@ namespace hemilux {
 namespace {
 
 constexpr std::size_t rows_per_chunk = 64;
+/// Each takes most of what is missing away. In open scenes no symmetric matrix may agree with all
+/// that was lost, and no number would be enough.
+constexpr int scalings = 6;
 
-/// Scaling goes on until all rows are closed to this, or so often.
-constexpr double closed = 1e-9;
-constexpr int most_scalings = 60;
+/// Chunks of rows that are merged with one accumulator.
+constexpr std::size_t merging_chunks = 16;
 
 /// Fewer entries are read sooner than other threads would be started.
 constexpr std::size_t entries_for_one_thread = 400'000;
+
+/// Puts the hits of one row together. The order of the columns is that in which they come.
+class Accumulator {
+  public:
+    explicit Accumulator(std::size_t columns) : hits_(columns) {}
+
+    void add(const RayCounts::Count& count) {
+        if (hits_[count.patch] == 0)
+            touched_.push_back(count.patch);
+        hits_[count.patch] += count.hits;
+    }
+    /// visit(column, hits); and is empty again.
+    template <class Visit>
+    void flush(const Visit& visit) {
+        for (const std::uint32_t column : touched_)
+            visit(column, std::exchange(hits_[column], 0));
+        touched_.clear();
+    }
+
+  private:
+    std::vector<std::uint64_t> hits_;
+    std::vector<std::uint32_t> touched_;
+};
+
+/// What other patches counted of each: the counts, transposed.
+struct Incoming {
+    std::vector<std::size_t> begin; ///< one more than rows
+    std::vector<RayCounts::Count> counts;
+
+    Incoming(std::span<const RayCounts> sets, std::size_t n) : begin(n + 1) {
+        for_all(sets, n, [&](std::uint32_t, const auto& count) { ++begin[count.patch + 1]; });
+        for (std::size_t i = 0; i < n; ++i)
+            begin[i + 1] += begin[i];
+        counts.resize(begin[n]);
+        std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+        for_all(sets, n, [&](std::uint32_t i, const auto& count) {
+            counts[next[count.patch]++] = {i, count.hits};
+        });
+    }
+    [[nodiscard]] std::span<const RayCounts::Count> row(std::size_t i) const {
+        return std::span(counts).subspan(begin[i], begin[i + 1] - begin[i]);
+    }
+
+  private:
+    template <class Visit>
+    static void for_all(std::span<const RayCounts> sets, std::size_t n, const Visit& visit) {
+        for (const RayCounts& set : sets)
+            for (std::uint32_t i = 0; i < n; ++i)
+                for (const RayCounts::Count& count : set.row(i))
+                    visit(i, count);
+    }
+};
 
 } // namespace
 
 ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, std::span<const RayCounts> sets,
                                const Workers& workers)
     : lost_(mesh.patches().size()) {
+    for (const Patch& patch : mesh.patches())
+        area_.push_back(patch.area);
+    find_lost(sets);
+    merge(sets, workers);
+    close(find_scale(workers), workers);
+}
+
+void ExchangeMatrix::find_lost(std::span<const RayCounts> sets) {
     for (std::uint32_t i = 0; i < lost_.size(); ++i) {
         double rays = 0;
         for (const RayCounts& set : sets) {
@@ -34,95 +96,108 @@ ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, std::span<const RayCounts> sets
             lost_[i].escaped /= rays;
             lost_[i].absorbed /= rays;
         }
-        area_.push_back(mesh.patches()[i].area);
         rays_per_area_.push_back(area_[i] > 0 ? rays / area_[i] : 0);
     }
-    merge(sets);
-    close(workers);
 }
 
-/// Rows are visited in order, so what they put into other rows arrives there in order too.
-void ExchangeMatrix::merge(std::span<const RayCounts> sets) {
+void ExchangeMatrix::merge(std::span<const RayCounts> sets, const Workers& workers) {
     const std::size_t n = area_.size();
-    std::vector<std::size_t> places(n + 1);
-    for (const RayCounts& set : sets)
-        for (std::uint32_t i = 0; i < n; ++i)
-            for (const RayCounts::Count& count : set.row(i)) {
-                ++places[i + 1];
-                ++places[count.patch + 1];
-            }
-    for (std::size_t i = 0; i < n; ++i)
-        places[i + 1] += places[i];
-    std::vector<RayCounts::Count> all(places[n]);
-    std::vector<std::size_t> next(places.begin(), places.end() - 1);
-    for (const RayCounts& set : sets)
-        for (std::uint32_t i = 0; i < n; ++i)
-            for (const auto& [j, hits] : set.row(i)) {
-                all[next[i]++] = {j, hits};
-                all[next[j]++] = {i, hits};
-            }
-    row_begin_.assign(1, 0);
-    column_.reserve(all.size());
-    value_.reserve(all.size());
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto begin = all.begin() + static_cast<std::ptrdiff_t>(places[i]);
-        const auto end = all.begin() + static_cast<std::ptrdiff_t>(places[i + 1]);
-        std::sort(begin, end, [](const auto& a, const auto& b) { return a.patch < b.patch; });
-        for (auto count = begin; count != end;) {
-            const std::uint32_t j = count->patch;
-            double hits = 0;
-            for (; count != end && count->patch == j; ++count)
-                hits += count->hits;
-            column_.push_back(j);
-            value_.push_back(static_cast<float>(hits / (rays_per_area_[i] + rays_per_area_[j])));
-        }
-        row_begin_.push_back(column_.size());
+    const Incoming incoming(sets, n);
+    row_begin_.assign(n + 1, 0);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        std::size_t most = incoming.row(i).size();
+        for (const RayCounts& set : sets)
+            most += set.row(i).size();
+        row_begin_[i + 1] = row_begin_[i] + most;
     }
-    column_.shrink_to_fit();
-    value_.shrink_to_fit();
+    entry_ = std::make_unique_for_overwrite<Entry[]>(row_begin_[n]);
+    row_size_.resize(n);
+    workers.for_chunks(n, n / merging_chunks + 1, [&](std::size_t begin, std::size_t end) {
+        Accumulator sum(n);
+        for (std::size_t i = begin; i < end; ++i) {
+            for (const RayCounts& set : sets)
+                for (const RayCounts::Count& count : set.row(static_cast<std::uint32_t>(i)))
+                    sum.add(count);
+            for (const RayCounts::Count& count : incoming.row(i))
+                sum.add(count);
+            Entry* next = &entry_[row_begin_[i]];
+            sum.flush([&](std::uint32_t j, std::uint64_t hits) {
+                const double worth = rays_per_area_[i] + rays_per_area_[j];
+                *next++ = {j, static_cast<float>(static_cast<double>(hits) / worth)};
+            });
+            row_size_[i] = static_cast<std::uint32_t>(next - &entry_[row_begin_[i]]);
+        }
+    });
+}
+
+Workers ExchangeMatrix::readers(const Workers& workers) const {
+    return row_begin_.back() < entries_for_one_thread ? Workers(1) : workers;
+}
+
+double ExchangeMatrix::due(std::size_t i) const {
+    return rays_per_area_[i] > 0
+               ? area_[i] * std::max(1 - lost_[i].escaped - lost_[i].absorbed, 0.0)
+               : -1;
 }
 
 /// Rows are closed by c = due / (S r), then by r = due / (S c), and so on (Sinkhorn and Knopp
 /// 1967). As S is symmetric, r and c end as multiples of each other, and g is their geometric mean.
-void ExchangeMatrix::close(const Workers& workers) {
+std::vector<double> ExchangeMatrix::find_scale(const Workers& workers) const {
     const std::size_t n = area_.size();
-    const Workers readers = column_.size() < entries_for_one_thread ? Workers(1) : workers;
-    scale_.assign(n, 1.0);
-    std::vector<double> before(n, 1.0), after(n), off(n);
-    for (int k = 0; k < most_scalings; ++k) {
-        readers.for_chunks(n, rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> scale(n, 1.0), before(n, 1.0), after(n);
+    for (int k = 0; k < scalings; ++k) {
+        readers(workers).for_chunks(n, rows_per_chunk, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 double sum = 0;
-                for (std::size_t e = row_begin_[i]; e < row_begin_[i + 1]; ++e)
-                    sum += static_cast<double>(value_[e]) * scale_[column_[e]];
-                const double share = 1 - lost_[i].escaped - lost_[i].absorbed;
+                for (const auto& [j, value] : row(i))
+                    sum += static_cast<double>(value) * scale[j];
                 after[i] = 1; // where the patch itself has not looked, what others saw is all
-                if (rays_per_area_[i] > 0)
-                    after[i] = sum > 0 ? std::max(share, 0.0) * area_[i] / sum : 0;
-                off[i] = after[i] > 0 ? std::abs(before[i] / after[i] - 1) : 0;
+                if (due(i) >= 0)
+                    after[i] = sum > 0 ? due(i) / sum : 0;
             }
         });
-        before = std::exchange(scale_, after);
-        if (*std::ranges::max_element(off) < closed)
-            break;
+        before = std::exchange(scale, after);
     }
     for (std::size_t i = 0; i < n; ++i)
-        scale_[i] = std::sqrt(scale_[i] * before[i]);
+        scale[i] = std::sqrt(scale[i] * before[i]);
+    return scale;
+}
+
+void ExchangeMatrix::close(const std::vector<double>& scale, const Workers& workers) {
+    self_.assign(area_.size(), 0.0);
+    readers(workers).for_chunks(
+        area_.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                double sum = 0;
+                for (std::size_t e = row_begin_[i]; e < row_begin_[i] + row_size_[i]; ++e) {
+                    auto& [j, value] = entry_[e];
+                    value = static_cast<float>(static_cast<double>(value) * (scale[i] * scale[j]));
+                    sum += static_cast<double>(value);
+                }
+                if (sum > 0 && due(i) >= 0)
+                    self_[i] = due(i) - sum;
+            }
+        });
+}
+
+void ExchangeMatrix::multiply_emission(std::span<const Vec3> x, std::span<Vec3> y,
+                                       const Workers& workers) const {
+    readers(workers).for_chunks(y.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Vec3 sum(0.0);
+            for (const auto& [j, value] : row(i))
+                sum += static_cast<double>(value) * x[j];
+            y[i] = area_[i] > 0 ? sum / area_[i] : Vec3(0.0);
+        }
+    });
 }
 
 void ExchangeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y,
                               const Workers& workers) const {
-    const Workers readers = column_.size() < entries_for_one_thread ? Workers(1) : workers;
-    readers.for_chunks(y.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            Vec3 sum(0.0);
-            for (std::size_t e = row_begin_[i]; e < row_begin_[i + 1]; ++e) {
-                const std::uint32_t j = column_[e];
-                sum += static_cast<double>(value_[e]) * scale_[j] * x[j];
-            }
-            y[i] = area_[i] > 0 ? scale_[i] / area_[i] * sum : Vec3(0.0);
-        }
-    });
+    multiply_emission(x, y, workers);
+    for (std::size_t i = 0; i < y.size(); ++i)
+        if (area_[i] > 0)
+            y[i] += self_[i] / area_[i] * x[i];
 }
 
 } // namespace hemilux

@@ -4,13 +4,16 @@
 // S_ij = A_i F_ij is symmetric, so rays from i to j and from j to i tell the same number; weighted
 // by what each is worth, S_ij = (c_ij + c_ji) / (N_i / A_i + N_j / A_j), c being counts and N the
 // rays of a patch. Rows must sum to A_i less what the patch's own rays lost. Scaling S_ij by g_i
-// g_j makes them so and leaves S symmetric (Sinkhorn and Knopp 1967): then no energy is made or
-// lost between patches, however reflective, and furnaces are exact.
+// g_j makes them so and leaves S symmetric (Sinkhorn and Knopp 1967). The little that is still
+// missing after some scalings, or too much, is what a patch exchanges with itself: so rows are
+// closed and S is symmetric to the last bits, no energy is made or lost between patches, however
+// reflective, and furnaces are exact.
 
 #include "radiosity/ray_counts.h"
 #include "radiosity/sampled_form_factors.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,20 +26,38 @@ class ExchangeMatrix {
 
     /// y_i = sum_j F_ij x_j
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
+    /// The same without what patches exchange with themselves: lamps are too bright to be taken for
+    /// what is missing beside them.
+    void multiply_emission(std::span<const Vec3> x, std::span<Vec3> y,
+                           const Workers& workers) const;
     [[nodiscard]] LostShare lost(std::uint32_t patch) const { return lost_[patch]; }
-    [[nodiscard]] std::size_t entries() const { return column_.size(); }
-    [[nodiscard]] std::uint64_t bytes() const {
-        return entries() * (sizeof(float) + sizeof(std::uint32_t));
-    }
+    [[nodiscard]] std::uint64_t bytes() const { return row_begin_.back() * sizeof(Entry); }
 
   private:
-    void merge(std::span<const RayCounts> sets);
-    void close(const Workers& workers);
+    struct Entry {
+        std::uint32_t column;
+        float value; ///< S_ij; the same number in both rows
+    };
+    struct Row {
+        const Entry *begin_, *end_;
+        [[nodiscard]] const Entry* begin() const { return begin_; }
+        [[nodiscard]] const Entry* end() const { return end_; }
+    };
+    [[nodiscard]] Row row(std::size_t i) const {
+        return {&entry_[row_begin_[i]], &entry_[row_begin_[i]] + row_size_[i]};
+    }
+    void find_lost(std::span<const RayCounts> sets);
+    void merge(std::span<const RayCounts> sets, const Workers& workers);
+    [[nodiscard]] std::vector<double> find_scale(const Workers& workers) const;
+    void close(const std::vector<double>& scale, const Workers& workers);
+    /// What the row i is to sum to; less than 0: unknown, as the patch itself has not looked.
+    [[nodiscard]] double due(std::size_t i) const;
+    [[nodiscard]] Workers readers(const Workers& workers) const;
 
-    std::vector<std::size_t> row_begin_; ///< one more than rows
-    std::vector<std::uint32_t> column_;
-    std::vector<float> value_;  ///< S_ij before scaling
-    std::vector<double> scale_; ///< g
+    std::vector<std::size_t> row_begin_; ///< one more than rows; rows have room for more
+    std::vector<std::uint32_t> row_size_;
+    std::unique_ptr<Entry[]> entry_;
+    std::vector<double> self_; ///< S_ii, which closes the row
     std::vector<double> area_;
     std::vector<double> rays_per_area_;
     std::vector<LostShare> lost_;

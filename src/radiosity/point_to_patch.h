@@ -11,9 +11,22 @@
 namespace hemilux {
 
 class Mesh;
+struct Patch;
 
-/// The form factor from a random point of the patch `from` to the whole patch `to` if a random ray
-/// between them arrives, else 0; its mean over u in [0,1)^4 is F_from,to [-]. Adds to `rays` if a
+/// A random look from a patch to another.
+struct Sight {
+    double factor = 0; ///< [-] if nothing stands between them; 0: the point does not face the patch
+    Ray ray{};         ///< ends short of the target; set if the factor is not 0
+};
+
+/// The mean of the factors of all sights that nothing blocks, over u in [0,1)^4, is F_from,to.
+/// Near, the factor is that from a random point to the whole patch, so that only shadows make it
+/// noisy; `distant`, it is that to a random point of the patch, which is much sooner said and
+/// almost as good where the target looks small.
+[[nodiscard]] Sight look_at(const Mesh& mesh, std::uint32_t from, std::uint32_t to,
+                            const std::array<double, 4>& u, bool distant = false);
+
+/// The same with its ray traced: the factor, or 0 if something stands between. Adds to `rays` if a
 /// ray had to be traced. `visibility`: false where nothing can stand between two patches.
 [[nodiscard]] double point_to_patch(const Mesh& mesh, const Tracer& tracer, std::uint32_t from,
                                     std::uint32_t to, const std::array<double, 4>& u,

@@ -1,5 +1,6 @@
 #include "radiosity/ray_counts.h"
 
+#include "geometry/polygon_sampler.h"
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
 #include "radiosity/shot.h"
@@ -14,52 +15,81 @@ namespace {
 
 constexpr std::size_t rows_per_chunk = 16;
 
+/// A row with more of them is traced in parts.
+constexpr std::uint32_t rays_in_burst = 1u << 14;
+
 } // namespace
 
 RayCounts::RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed)
     : mesh_(mesh), tracer_(tracer), seed_(seed), rows_(mesh.patches().size()) {}
 
+/// Rays of some rows that are not traced yet.
+struct RayCounts::Volley {
+    struct Burst {
+        std::uint32_t patch, rays;
+    };
+    std::vector<Burst> bursts;
+    std::vector<Ray> rays;
+    std::vector<std::uint32_t> receivers, struck;
+    std::uint64_t traced = 0;
+};
+
 std::uint64_t RayCounts::trace_up_to(std::span<const std::uint32_t> rays, const Workers& workers,
                                      Monitor& monitor) {
     std::atomic<std::uint64_t> traced{0};
     workers.for_chunks(rows_.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-        Scratch scratch;
-        std::uint64_t count = 0;
-        for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
-            if (rays[i] <= rows_[i].rays)
-                continue;
-            count += rays[i] - rows_[i].rays;
-            trace_row(static_cast<std::uint32_t>(i), rays[i], scratch);
-        }
-        traced += count;
-        monitor.rays += count;
+        Volley volley;
+        for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
+            if (rays[i] > rows_[i].rays)
+                draw_row(static_cast<std::uint32_t>(i), rays[i], volley);
+        trace(volley);
+        traced += volley.traced;
+        monitor.rays += volley.traced;
     });
     return traced;
 }
 
-void RayCounts::trace_row(std::uint32_t patch, std::uint32_t end, Scratch& scratch) {
+void RayCounts::draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley) {
     const Patch& from = mesh_.patches()[patch];
+    const PolygonSampler origins(from.shape);
     const Frame frame = mesh_.hemisphere_frame(patch);
     const std::uint64_t seed = hash_words({seed_, patch});
-    Row& row = rows_[patch];
-    auto& [rays, struck] = scratch;
-    rays.clear();
-    struck.clear();
-    for (std::uint32_t k = row.rays; k < end; ++k) {
-        // Of the four dimensions the first two are the best distributed.
-        const auto u = sobol4(k, seed);
-        Ray ray{from.shape.sample({u[2], u[3]}), frame.to_world(cosine_direction({u[0], u[1]}))};
-        ray.from = from.facet;
-        rays.push_back(ray);
+    while (rows_[patch].rays < end) {
+        const std::uint32_t first = rows_[patch].rays;
+        const std::uint32_t last = first + std::min(end - first, rays_in_burst);
+        for (std::uint32_t k = first; k < last; ++k) {
+            // Of the four dimensions the first two are the best distributed.
+            const auto u = sobol4(k, seed);
+            Ray ray{origins.sample({u[2], u[3]}), frame.to_world(cosine_direction({u[0], u[1]}))};
+            ray.from = from.facet;
+            volley.rays.push_back(ray);
+        }
+        volley.bursts.push_back({patch, last - first});
+        rows_[patch].rays = last;
+        if (volley.rays.size() >= rays_at_a_time)
+            trace(volley);
     }
-    find_receivers(rays, mesh_, tracer_, struck);
-    row.escaped += static_cast<std::uint32_t>(std::ranges::count(struck, hemilux::escaped));
-    row.absorbed += static_cast<std::uint32_t>(std::ranges::count(struck, hemilux::absorbed));
-    std::erase_if(struck, [](std::uint32_t patch_struck) {
-        return patch_struck == hemilux::escaped || patch_struck == hemilux::absorbed;
-    });
-    row.add(struck);
-    row.rays = end;
+}
+
+void RayCounts::trace(Volley& volley) {
+    volley.receivers.clear();
+    find_receivers(volley.rays, mesh_, tracer_, volley.receivers);
+    auto next = volley.receivers.cbegin();
+    for (const auto& [patch, rays] : volley.bursts) {
+        volley.struck.clear();
+        for (const auto end = next + rays; next != end; ++next) {
+            if (*next == hemilux::escaped)
+                ++rows_[patch].escaped;
+            else if (*next == hemilux::absorbed)
+                ++rows_[patch].absorbed;
+            else
+                volley.struck.push_back(*next);
+        }
+        rows_[patch].add(volley.struck);
+    }
+    volley.traced += volley.rays.size();
+    volley.rays.clear();
+    volley.bursts.clear();
 }
 
 void RayCounts::Row::add(std::vector<std::uint32_t>& struck) {

@@ -48,11 +48,9 @@ class RayCounts {
         std::uint32_t rays = 0, escaped = 0, absorbed = 0;
         void add(std::vector<std::uint32_t>& struck);
     };
-    struct Scratch {
-        std::vector<Ray> rays;
-        std::vector<std::uint32_t> struck;
-    };
-    void trace_row(std::uint32_t patch, std::uint32_t end, Scratch& scratch);
+    struct Volley;
+    void draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley);
+    void trace(Volley& volley);
 
     const Mesh& mesh_;
     const Tracer& tracer_;

@@ -165,7 +165,7 @@ TEST_CASE("Direct light is unbiased: many emitters, some hidden") {
     rays.emplace_back(model.mesh, model.bvh, 99);
     rays.back().trace_up_to(std::vector<std::uint32_t>(n, 1u << 14), workers, monitor);
     ExchangeMatrix(model.mesh, rays, workers).multiply(emission, seen, workers);
-    DirectLight light(model.mesh, model.bvh, everything_needed, emitters, 5);
+    DirectLight light(model.mesh, model.bvh, everything_needed, emitters, {5});
     light.sample_up_to(std::vector<std::uint32_t>(n, 1024), workers, monitor);
     double error = 0, value = 0;
     for (std::uint32_t i = 0; i < n; ++i) {

@@ -29,11 +29,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace hemilux {
 namespace {
 
-constexpr std::size_t sets = 4;
+constexpr unsigned sets = 4;
 
 /// Rays per patch and set at which the run ends whatever the error.
 constexpr double most_rays = 1u << 20;
@@ -55,6 +56,9 @@ constexpr double trust = .5, area_exponent = .42;
 
 /// Black emitters count as if they reflected this: their rays tell where their light goes.
 constexpr double least_reflectance = .1;
+
+/// Residuals of the system; the sets alone tell no more than the error.
+constexpr double precisely = 1e-10, roughly = 1e-3;
 
 class GatheringSolver final : public Solver {
   public:
@@ -82,6 +86,7 @@ class GatheringSolver final : public Solver {
             direct_weights_.push_back(area * glm::length(reflectance_[i]));
             weights_.push_back(area * std::max(glm::length(reflectance_[i]), least_reflectance));
         }
+        some_unsampled_ = !emitters_.empty() && std::ranges::count(direct_weights_, 0.0) > 0;
         prior_weights_ = weights_;
         incident_.assign(sets + 1, std::vector<Vec3>(patches.size(), Vec3(0.0)));
         solution_.radiosity = emission_;
@@ -101,21 +106,20 @@ class GatheringSolver final : public Solver {
             mean_samples_ = mean_samples;
             begin_generation();
         }
+        input_.monitor.phase = "rays";
         for (std::size_t s = 0; s < sets; ++s) {
-            input_.monitor.phase = "rays";
             traced_ += counts_[s].trace_up_to(rays, workers_, input_.monitor);
-            traced_ += direct_[s].sample_up_to(samples, workers_, input_.monitor);
-            input_.monitor.step_share = static_cast<double>(s + 1) / (sets + 1);
+            input_.monitor.step_share = static_cast<double>(s + 1) / (sets + 2);
             if (input_.monitor.interrupted)
                 return false;
         }
+        traced_ += direct_->sample_up_to(samples, workers_, input_.monitor);
+        if (input_.monitor.interrupted)
+            return false;
         rays_ = rays;
         samples_ = samples;
         input_.monitor.phase = "solving";
-        for (std::size_t s = 0; s < sets; ++s)
-            solve(std::span(&counts_[s], 1), std::span(&direct_[s], 1), incident_[s], 1e-6);
-        const ExchangeMatrix all = solve(counts_, direct_, incident_[sets], 1e-10);
-        combine(all);
+        solve_all();
         return true;
     }
 
@@ -128,13 +132,28 @@ class GatheringSolver final : public Solver {
     /// New rays, independent of all before.
     void renew() {
         counts_.clear();
-        direct_.clear();
+        std::vector<std::uint64_t> seeds;
         for (std::uint64_t s = 0; s < sets; ++s) {
             const std::uint64_t seed = hash_words({input_.options.seed, s, generation_});
             counts_.emplace_back(input_.mesh, input_.tracer, hash_words({seed, 0}));
-            direct_.emplace_back(input_.mesh, input_.tracer, input_.needs, emitters_,
-                                 hash_words({seed, 1}));
+            seeds.push_back(hash_words({seed, 1}));
         }
+        direct_.emplace(input_.mesh, input_.tracer, input_.needs, emitters_, std::move(seeds));
+    }
+
+    /// The whole and each set alone, which together take as long: with two threads one of them
+    /// solves the whole, the other the sets; further threads help with the whole.
+    void solve_all() {
+        std::optional<ExchangeMatrix> all;
+        const unsigned busy = std::min(unsigned{sets}, workers_.threads() - 1);
+        const Workers alone(1), helped(workers_.threads() - busy);
+        workers_.for_chunks(sets + 1, 1, [&](std::size_t task, std::size_t) {
+            if (task == 0)
+                all = solve(counts_, sets, helped, precisely);
+            else
+                solve(std::span(&counts_[task - 1], 1), task - 1, alone, roughly);
+        });
+        combine(*all);
     }
 
     /// What is known is kept as a solution, and its rays are forgotten.
@@ -210,23 +229,23 @@ class GatheringSolver final : public Solver {
                     prior_weights_[i] * (trust * spread[i] * sum_of_weights / sum + 1 - trust);
     }
 
-    /// What arrives at each patch in the end, from these sets together.
-    ExchangeMatrix solve(std::span<const RayCounts> counts, std::span<const DirectLight> direct,
-                         std::vector<Vec3>& incident, double tolerance) {
-        ExchangeMatrix factors(input_.mesh, counts, workers_);
+    /// What arrives at each patch in the end, from the rays of a set or (`set` == sets) of all.
+    ExchangeMatrix solve(std::span<const RayCounts> counts, std::size_t set, const Workers& workers,
+                         double residual) {
+        ExchangeMatrix factors(input_.mesh, counts, workers);
         const std::size_t n = area_.size();
         std::vector<Vec3> d(n), seen(n);
-        factors.multiply(seen_emission_, d, workers_);
-        factors.multiply(emission_, seen, workers_);
+        factors.multiply_emission(seen_emission_, d, workers);
+        if (some_unsampled_)
+            factors.multiply_emission(emission_, seen, workers);
         for (std::uint32_t i = 0; i < n; ++i) {
-            if (direct[0].samples(i) == 0) // black: rays at random tell well enough what it absorbs
+            if (some_unsampled_ && direct_->samples(i) == 0)
                 d[i] = seen[i];
-            for (const DirectLight& light : direct)
-                d[i] += light.irradiance(i) / static_cast<double>(direct.size());
+            d[i] += set == sets ? direct_->irradiance(i) : direct_->irradiance(i, set);
         }
         balance(factors, d);
-        solve_by_gradients(factors, area_, reflectance_, d, incident, workers_,
-                           {.tolerance = tolerance});
+        solve_by_gradients(factors, area_, reflectance_, d, incident_[set], workers,
+                           {.tolerance = residual});
         return factors;
     }
 
@@ -252,23 +271,21 @@ class GatheringSolver final : public Solver {
     void combine(const ExchangeMatrix& all) {
         variance_ = direct_variance_ = 0;
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
-            Vec3 mean(0.0), squares(0.0), direct_mean(0.0), direct_squares(0.0);
-            std::uint64_t hits = 0;
+            Vec3 mean(0.0), squares(0.0), direct_squares(0.0);
+            const Vec3 direct_mean = direct_->irradiance(i);
             for (std::size_t s = 0; s < sets; ++s) {
                 mean += incident(s, i) / double(sets);
-                direct_mean += direct_[s].irradiance(i) / double(sets);
-                hits += direct_[s].hits(i);
             }
             for (std::size_t s = 0; s < sets; ++s) {
                 const Vec3 off = incident(s, i) - mean;
-                const Vec3 direct_off = direct_[s].irradiance(i) - direct_mean;
+                const Vec3 direct_off = direct_->irradiance(i, s) - direct_mean;
                 squares += off * off;
                 direct_squares += direct_off * direct_off;
             }
             const Vec3 rho = reflectance_[i];
             solution_.radiosity[i] = emission_[i] + rho * incident(sets, i);
             solution_.standard_error[i] = rho * glm::sqrt(squares / double(sets * (sets - 1)));
-            solution_.hits[i] = hits + std::uint64_t{rays_[i]} * sets;
+            solution_.hits[i] = direct_->hits(i) + std::uint64_t{rays_[i]} * sets;
             variance_ += area_[i] * glm::dot(rho * rho, squares);
             direct_variance_ +=
                 area_[i] * glm::dot(rho * rho, direct_squares) / double(generation_ + 1);
@@ -277,9 +294,9 @@ class GatheringSolver final : public Solver {
         weigh(all);
         account(all);
         solution_.rays_energy = traced_;
-        solution_.bytes_transport = all.bytes();
-        for (std::size_t s = 0; s < sets; ++s)
-            solution_.bytes_transport += counts_[s].bytes() + direct_[s].bytes();
+        solution_.bytes_transport = all.bytes() + direct_->bytes();
+        for (const RayCounts& set : counts_)
+            solution_.bytes_transport += set.bytes();
         ++solution_.steps;
     }
 
@@ -297,11 +314,13 @@ class GatheringSolver final : public Solver {
     SolverInput input_;
     Workers workers_;
     std::vector<std::uint32_t> emitters_; ///< those reached by shadow rays
+    /// Not from black patches: rays at random tell well enough what these absorb.
+    bool some_unsampled_ = false;
     std::vector<double> area_;
     std::vector<Vec3> reflectance_, emission_;
     std::vector<Vec3> seen_emission_; ///< of those that rays at random are to find
     std::vector<RayCounts> counts_;
-    std::vector<DirectLight> direct_;
+    std::optional<DirectLight> direct_;       ///< an estimate for each set
     std::vector<std::vector<Vec3>> incident_; ///< of each set, at last of all together
     std::vector<std::vector<Vec3>> finished_; ///< sums over the generations before
     std::uint64_t generation_ = 0;
