@@ -141,18 +141,21 @@ class GatheringSolver final : public Solver {
         direct_.emplace(input_.mesh, input_.tracer, input_.needs, emitters_, std::move(seeds));
     }
 
-    /// The whole and each set alone, which together take as long: with two threads one of them
-    /// solves the whole, the other the sets; further threads help with the whole.
+    /// Each set by a thread of its own, while another puts the whole together; then the whole by
+    /// all threads.
     void solve_all() {
         std::optional<ExchangeMatrix> all;
-        const unsigned busy = std::min(unsigned{sets}, workers_.threads() - 1);
-        const Workers alone(1), helped(workers_.threads() - busy);
+        const unsigned busy = std::min(sets, workers_.threads() - 1);
         workers_.for_chunks(sets + 1, 1, [&](std::size_t task, std::size_t) {
-            if (task == 0)
-                all = solve(counts_, sets, helped, precisely);
-            else
-                solve(std::span(&counts_[task - 1], 1), task - 1, alone, roughly);
+            if (task == 0) {
+                all.emplace(input_.mesh, counts_, Workers(workers_.threads() - busy));
+                return;
+            }
+            const std::size_t set = task - 1;
+            const Workers alone(1);
+            solve({input_.mesh, std::span(&counts_[set], 1), alone}, set, alone, roughly);
         });
+        solve(*all, sets, workers_, precisely);
         combine(*all);
     }
 
@@ -229,10 +232,9 @@ class GatheringSolver final : public Solver {
                     prior_weights_[i] * (trust * spread[i] * sum_of_weights / sum + 1 - trust);
     }
 
-    /// What arrives at each patch in the end, from the rays of a set or (`set` == sets) of all.
-    ExchangeMatrix solve(std::span<const RayCounts> counts, std::size_t set, const Workers& workers,
-                         double residual) {
-        ExchangeMatrix factors(input_.mesh, counts, workers);
+    /// What arrives at each patch in the end, by the factors of a set or (`set` == sets) of all.
+    void solve(const ExchangeMatrix& factors, std::size_t set, const Workers& workers,
+               double residual) {
         const std::size_t n = area_.size();
         std::vector<Vec3> d(n), seen(n);
         factors.multiply_emission(seen_emission_, d, workers);
@@ -246,7 +248,6 @@ class GatheringSolver final : public Solver {
         balance(factors, d);
         solve_by_gradients(factors, area_, reflectance_, d, incident_[set], workers,
                            {.tolerance = residual});
-        return factors;
     }
 
     /// What arrives from the emitters in all is what they sent, less what was lost. In bright rooms
