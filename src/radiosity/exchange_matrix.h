@@ -23,7 +23,8 @@ class ExchangeMatrix {
 
     /// y_i = sum_j F_ij x_j
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
-    [[nodiscard]] LostShare lost(std::uint32_t patch) const { return lost_[patch]; }
+    /// By patch.
+    [[nodiscard]] std::span<const LostShare> lost() const { return lost_; }
     [[nodiscard]] std::size_t entries() const { return column_.size(); }
     [[nodiscard]] std::uint64_t bytes() const {
         return entries() * (sizeof(float) + sizeof(std::uint32_t));

@@ -16,8 +16,10 @@
 // fewer rays than shooting, most where light is even and surfaces reflect much. Costs 8 bytes per
 // patch and patch that it saw, and as many to solve.
 
+#include "geometry/compensated_sum.h"
 #include "radiosity/conjugate_gradients.h"
 #include "radiosity/direct_light.h"
+#include "radiosity/energy_closing.h"
 #include "radiosity/exchange_matrix.h"
 #include "radiosity/mesh.h"
 #include "radiosity/ray_counts.h"
@@ -45,7 +47,7 @@ constexpr double worth_doubling = .35;
 
 /// The share of the emitted power within which it must be known how much is lost, for the rest to
 /// be taken for what arrives.
-constexpr double surely_lost = 1e-3;
+constexpr double surely_lost = 1e-3; // as in energy_closing.cpp
 
 /// Bytes that are needed to put counts together, for each byte of them.
 constexpr double merging = 5;
@@ -66,15 +68,17 @@ class GatheringSolver final : public Solver {
         std::vector<bool> small(patches.size());
         for (const std::uint32_t e : emitters_)
             small[e] = true;
+        CompensatedSum<Vec3> emitted;
         for (std::uint32_t i = 0; i < patches.size(); ++i) {
             const Material& material = input.mesh.material(i);
             area_.push_back(patches[i].area);
             reflectance_.push_back(material.reflectance);
             emission_.push_back(material.emission);
             seen_emission_.push_back(small[i] ? Vec3(0.0) : material.emission);
-            solution_.energy.emitted +=
-                input.mesh.frame().area_to_world(patches[i].area) * material.emission;
+            emitted += patches[i].area * material.emission;
         }
+        solution_.energy.emitted = input.mesh.frame().area_to_world(1.0) * emitted.value();
+        solution_.energy.unshot = solution_.energy.emitted;
         rays_.resize(patches.size());
         samples_.resize(patches.size());
         for (std::uint32_t i = 0; i < patches.size(); ++i) {
@@ -142,6 +146,8 @@ class GatheringSolver final : public Solver {
         for (std::size_t s = 0; s <= sets; ++s)
             for (std::size_t i = 0; i < area_.size(); ++i)
                 finished_[s][i] += incident_[s][i];
+        finished_energy_.absorbed += energy_.absorbed;
+        finished_energy_.escaped += energy_.escaped;
         ++generation_;
         renew();
     }
@@ -227,6 +233,11 @@ class GatheringSolver final : public Solver {
         balance(factors, d);
         solve_by_gradients(factors, area_, reflectance_, d, incident, workers_,
                            {.tolerance = tolerance});
+        std::vector<double> rays(n);
+        for (std::uint32_t i = 0; i < n; ++i)
+            for (const RayCounts& set : counts)
+                rays[i] += set.rays(i);
+        energy_ = close_energy({area_, emission_, reflectance_, factors.lost(), rays}, incident);
         return factors;
     }
 
@@ -236,7 +247,7 @@ class GatheringSolver final : public Solver {
         Vec3 sent(0.0), arrived(0.0), all_sent(0.0), uncertain(0.0);
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
             const Vec3 power = area_[i] * emission_[i];
-            const LostShare share = factors.lost(i);
+            const LostShare share = factors.lost()[i];
             const double lost = share.escaped + share.absorbed;
             all_sent += power;
             sent += (1 - lost) * power;
@@ -275,7 +286,7 @@ class GatheringSolver final : public Solver {
         }
         variance_ = std::max(variance_, direct_variance_);
         weigh(all);
-        account(all);
+        account();
         solution_.rays_energy = traced_;
         solution_.bytes_transport = all.bytes();
         for (std::size_t s = 0; s < sets; ++s)
@@ -283,15 +294,14 @@ class GatheringSolver final : public Solver {
         ++solution_.steps;
     }
 
-    void account(const ExchangeMatrix& all) {
-        solution_.energy.absorbed = solution_.energy.escaped = Vec3(0.0);
-        for (std::uint32_t i = 0; i < area_.size(); ++i) {
-            const double area = input_.mesh.frame().area_to_world(area_[i]);
-            const LostShare lost = all.lost(i);
-            solution_.energy.absorbed += area * ((1.0 - reflectance_[i]) * incident(sets, i) +
-                                                 lost.absorbed * solution_.radiosity[i]);
-            solution_.energy.escaped += area * lost.escaped * solution_.radiosity[i];
-        }
+    /// Mean over the generations, as of the light that arrives.
+    void account() {
+        const double to_world = input_.mesh.frame().area_to_world(1.0);
+        const double generations = double(generation_ + 1);
+        solution_.energy = {to_world * energy_.emitted,
+                            to_world / generations * (finished_energy_.absorbed + energy_.absorbed),
+                            to_world / generations * (finished_energy_.escaped + energy_.escaped),
+                            Vec3(0.0)};
     }
 
     SolverInput input_;
@@ -304,6 +314,7 @@ class GatheringSolver final : public Solver {
     std::vector<DirectLight> direct_;
     std::vector<std::vector<Vec3>> incident_; ///< of each set, at last of all together
     std::vector<std::vector<Vec3>> finished_; ///< sums over the generations before
+    EnergyBalance energy_, finished_energy_;  ///< of what was solved last; of those sums; local
     std::uint64_t generation_ = 0;
     double mean_rays_ = 0, mean_samples_ = 0; ///< per patch and set
     std::vector<std::uint32_t> rays_, samples_;

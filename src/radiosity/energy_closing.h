@@ -1,0 +1,30 @@
+#pragma once
+// The balance of energy of a solution by stored or explicit transport, and its closing.
+//
+// The factors of such a solution come from counts, so that patches may receive a little more or
+// less than was sent. Where it is well known how much is lost, all light that arrives is scaled by
+// the one number that makes emitted = absorbed + escaped: in bright rooms an error of the whole is
+// nearly all of the error. Else the light as it is tells more than the count of rays that were
+// lost: what left and did not arrive was lost.
+
+#include "radiosity/ray_counts.h"
+#include "radiosity/sampled_form_factors.h"
+#include "radiosity/solution.h"
+
+#include <span>
+
+namespace hemilux {
+
+/// All by patch.
+struct Transport {
+    std::span<const double> area;
+    std::span<const Vec3> emission, reflectance;
+    std::span<const LostShare> lost;
+    std::span<const double> rays; ///< that the lost share was found with; 0 where there were none
+};
+
+/// `incident` [W/m2 arriving] is what was solved for, B = E + rho incident; it may be scaled.
+/// Powers in units of area times incident.
+[[nodiscard]] EnergyBalance close_energy(const Transport& transport, std::span<Vec3> incident);
+
+} // namespace hemilux
