@@ -1,6 +1,7 @@
 #include "radiosity/energy_closing.h"
 
 #include "geometry/compensated_sum.h"
+#include "radiosity/solve_error.h"
 
 #include <cmath>
 
@@ -70,6 +71,13 @@ EnergyBalance close_energy(const Transport& transport, std::span<Vec3> incident)
         energy.absorbed[c] += (1 - share) * lost;
     }
     return energy;
+}
+
+void require_more_rays(bool may_have_more) {
+    if (!may_have_more)
+        throw SolveError("there is no solution: as far as all rays tell, light cannot leave the "
+                         "scene and nothing absorbs it",
+                         0);
 }
 
 } // namespace hemilux

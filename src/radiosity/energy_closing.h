@@ -27,4 +27,13 @@ struct Transport {
 /// Powers in units of area times incident.
 [[nodiscard]] EnergyBalance close_energy(const Transport& transport, std::span<Vec3> incident);
 
+/// Whether light comes to an end at all. Where reflectances are 1 few rays may have found no way
+/// out of the scene, and there is no solution with their factors.
+[[nodiscard]] inline bool is_drained(const EnergyBalance& energy) {
+    return !(energy.imbalance() >= .5);
+}
+
+/// Throws SolveError where they cannot be had.
+void require_more_rays(bool may_have_more);
+
 } // namespace hemilux

@@ -3,6 +3,7 @@
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
 #include "radiosity/shot.h"
+#include "radiosity/solve_error.h"
 
 #include <algorithm>
 #include <chrono>
@@ -52,6 +53,8 @@ bool ShootingSolver::solve_once(std::uint64_t stream, StepResult& result) {
         double left = 0;
         for (const Vec3& power : unshot)
             left += mean_of_channels(power);
+        check_finite(input_.mesh, unshot, "the power to be shot", step_under_way());
+        check_bounces(bounces);
         if (!(left > (input_.options.literal ? literal_rest * emitted() : 0.0)))
             return true;
         result.shot += left;

@@ -1,7 +1,9 @@
 #include "radiosity/stepwise.h"
 
+#include "radiosity/check_input.h"
 #include "radiosity/mesh.h"
 #include "radiosity/shot.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/state.h"
 
 #include <algorithm>
@@ -11,6 +13,7 @@ namespace hemilux {
 
 StepwiseSolver::StepwiseSolver(const SolverInput& input, bool equal_rays)
     : input_(input), equal_rays_(equal_rays) {
+    check_input(input);
     const auto patches = input_.mesh.patches();
     const double unknown = input.needs.bounces ? std::numeric_limits<double>::quiet_NaN() : 0;
     solution_.standard_error.assign(patches.size(), Vec3(unknown));
@@ -29,6 +32,7 @@ bool StepwiseSolver::step() {
     StepResult result = fresh_result();
     if (!solve_once(solution_.steps, result))
         return false;
+    check_finite(input_.mesh, result.radiosity, "the radiosity", step_under_way());
     combine(result);
     return true;
 }
@@ -82,6 +86,26 @@ bool StepwiseSolver::find_ray_power() {
     solution_.rays_energy += pilot.rays;
     ray_power_ = pilot.shot / rays;
     return true;
+}
+
+/// Rays die out by chance, which in a room of reflectance .99999 takes about 2e6 bounces.
+void StepwiseSolver::check_bounces(std::uint64_t bounces) const {
+    constexpr std::uint64_t most = 10'000'000;
+    if (bounces <= most)
+        return;
+    const auto unabsorbed = [&](std::uint32_t a, std::uint32_t b) {
+        return mean_of_channels(input_.mesh.material(a).reflectance) <
+               mean_of_channels(input_.mesh.material(b).reflectance);
+    };
+    std::uint32_t brightest = 0;
+    for (std::uint32_t i = 1; i < input_.mesh.patches().size(); ++i)
+        if (unabsorbed(brightest, i))
+            brightest = i;
+    throw SolveError("step " + std::to_string(step_under_way()) +
+                         ": light is still on its way after ten million bounces, as between " +
+                         name_of_patch(input_.mesh, brightest) +
+                         " and others; --method gathering needs no bounces",
+                     input_.mesh.scene().facets[input_.mesh.patches()[brightest].facet].face);
 }
 
 /// What a single ray of all steps so far would add to the patch's radiosity.

@@ -41,8 +41,13 @@ class StepwiseSolver : public Solver {
 
     /// Power that each ray is to carry, mean of channels; infinite without equal rays.
     [[nodiscard]] double ray_power() const { return ray_power_; }
+    /// From 1; the pilot belongs to the first.
+    [[nodiscard]] std::uint64_t step_under_way() const { return solution_.steps + 1; }
     /// Mean of channels, local units.
     [[nodiscard]] double emitted() const;
+
+    /// Throws SolveError after so many that the series seems not to end.
+    void check_bounces(std::uint64_t bounces) const;
 
     /// The stream of the pilot; steps count from 0.
     static constexpr std::uint64_t pilot_stream = ~std::uint64_t{0};

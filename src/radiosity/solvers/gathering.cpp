@@ -17,6 +17,7 @@
 // patch and patch that it saw, and as many to solve.
 
 #include "geometry/compensated_sum.h"
+#include "radiosity/check_input.h"
 #include "radiosity/conjugate_gradients.h"
 #include "radiosity/direct_light.h"
 #include "radiosity/energy_closing.h"
@@ -26,6 +27,7 @@
 #include "radiosity/ray_deal.h"
 #include "radiosity/rng.h"
 #include "radiosity/shot.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
 
 #include <algorithm>
@@ -62,6 +64,7 @@ class GatheringSolver final : public Solver {
   public:
     explicit GatheringSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)) {
+        check_input(input);
         const auto patches = input.mesh.patches();
         renew();
         finished_.assign(sets + 1, std::vector<Vec3>(patches.size(), Vec3(0.0)));
@@ -116,9 +119,18 @@ class GatheringSolver final : public Solver {
         rays_ = rays;
         samples_ = samples;
         input_.monitor.phase = "solving";
-        for (std::size_t s = 0; s < sets; ++s)
+        bool drained = true;
+        for (std::size_t s = 0; s < sets; ++s) {
             solve(std::span(&counts_[s], 1), std::span(&direct_[s], 1), incident_[s], 1e-6);
+            drained = drained && is_drained(energy_);
+        }
         const ExchangeMatrix all = solve(counts_, direct_, incident_[sets], 1e-10);
+        if (!drained || !is_drained(energy_)) {
+            require_more_rays(!finished());
+            return step();
+        }
+        for (const std::vector<Vec3>& incident : incident_)
+            check_finite(input_.mesh, incident, "the light that reaches", solution_.steps + 1);
         combine(all);
         return true;
     }
@@ -174,7 +186,7 @@ class GatheringSolver final : public Solver {
 
     /// How many rays of both kinds the mean patch and set is to have after this step.
     void choose_rays() {
-        if (solution_.steps == 0) {
+        if (mean_rays_ == 0) {
             const double each = input_.options.rays / (sets * (emitters_.empty() ? 1 : 2));
             mean_rays_ = std::clamp(each, 1.0, most_rays);
             mean_samples_ = emitters_.empty() ? 0 : mean_rays_;

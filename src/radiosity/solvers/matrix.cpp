@@ -13,12 +13,14 @@
 // patches^2 faces.
 
 #include "geometry/compensated_sum.h"
+#include "radiosity/check_input.h"
 #include "radiosity/energy_closing.h"
 #include "radiosity/exact_form_factors.h"
 #include "radiosity/gmres.h"
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
 #include "radiosity/sampled_form_factors.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
 
 #include <algorithm>
@@ -50,6 +52,7 @@ class MatrixSolver final : public Solver {
   public:
     explicit MatrixSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads) {
+        check_input(input);
         const auto patches = input.mesh.patches();
         std::vector<std::uint32_t> emitters;
         if (input.options.exact)
@@ -74,7 +77,7 @@ class MatrixSolver final : public Solver {
     }
 
     bool step() override {
-        const std::uint32_t rays = solution_.steps == 0 ? first_rays() : 2 * rays_;
+        const std::uint32_t rays = rays_ == 0 ? first_rays() : 2 * rays_;
         for (std::size_t r = 0; r < replicates; ++r) {
             input_.monitor.phase = "rays";
             traced_ += factors_[r].trace_up_to(rays, workers_, input_.monitor);
@@ -85,14 +88,23 @@ class MatrixSolver final : public Solver {
         rays_of_step_ = rays;
         input_.monitor.phase = "solving";
         CompensatedSum<Vec3> absorbed, escaped;
+        bool drained = true;
         for (std::size_t r = 0; r < replicates; ++r) {
             const EnergyBalance energy = solve(factors_[r], guesses_[r]);
             absorbed += energy.absorbed;
             escaped += energy.escaped;
+            drained = drained && is_drained(energy);
             if (input_.monitor.interrupted)
                 return false;
         }
         rays_ = rays;
+        if (!drained) {
+            require_more_rays(!finished());
+            guesses_.assign(replicates, solution_.radiosity);
+            return step();
+        }
+        for (const std::vector<Vec3>& guess : guesses_)
+            check_finite(input_.mesh, guess, "the radiosity", solution_.steps + 1);
         combine(absorbed.value() / double(replicates), escaped.value() / double(replicates));
         return true;
     }

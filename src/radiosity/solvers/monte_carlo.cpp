@@ -18,6 +18,7 @@
 #include "geometry/frame.h"
 #include "radiosity/largest_first.h"
 #include "radiosity/shot.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/stepwise.h"
 #include "radiosity/workers.h"
 
@@ -52,6 +53,8 @@ class MonteCarloSolver final : public StepwiseSolver {
             const auto shooter = static_cast<std::uint32_t>(order.index_of_largest());
             const Vec3 power = std::exchange(unshot[shooter], {}).value();
             order.set(shooter, 0);
+            check_finite(input_.mesh, shooter, power, "the power to be shot", step_under_way());
+            check_bounces(shots / patches);
             result.shot += mean_of_channels(power);
             const Vec3 each =
                 shoot(shooter, power, hash_words({input_.options.seed, stream, shots}));

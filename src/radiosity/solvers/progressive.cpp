@@ -24,6 +24,7 @@
 // unbiased: after a finite number of shots some light is missing.
 
 #include "geometry/compensated_sum.h"
+#include "radiosity/check_input.h"
 #include "radiosity/estimate.h"
 #include "radiosity/largest_first.h"
 #include "radiosity/mesh.h"
@@ -31,6 +32,7 @@
 #include "radiosity/rng.h"
 #include "radiosity/shot.h"
 #include "radiosity/shot_balance.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
 #include "radiosity/workers.h"
 
@@ -74,6 +76,7 @@ class ProgressiveSolver final : public Solver {
     explicit ProgressiveSolver(const SolverInput& input)
         : input_(input), options_(input.options.progressive), workers_(input.options.threads),
           sights_(input.mesh.patches().size()), brightest_(sights_.size()), hits_(sights_.size()) {
+        check_input(input);
         CompensatedSum<Vec3> emitted;
         for (std::uint32_t i = 0; i < sights_.size(); ++i) {
             const double area = input.mesh.patches()[i].area;
@@ -176,6 +179,7 @@ class ProgressiveSolver final : public Solver {
             shot += later;
             unshot_[shooter] = -later;
         }
+        check_finite(input_.mesh, shooter, shot, "the radiosity to be shot", solution_.steps + 1);
         brightest_.set(shooter, unshot_power(shooter));
         look_from_all(shooter, shot);
         if (input_.monitor.interrupted)
@@ -313,6 +317,7 @@ class ProgressiveSolver final : public Solver {
     }
 
     void publish(const Estimate& estimate) {
+        check_finite(input_.mesh, estimate.radiosity, "the radiosity", solution_.steps + 1);
         solution_.radiosity = estimate.radiosity;
         solution_.standard_error.clear();
         for (const Vec3& variance : estimate.variance)
