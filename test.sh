@@ -5,12 +5,13 @@
 #   ./test.sh           all tests: optimised build with assertions
 #   ./test.sh --fast    without the slow tests
 #   ./test.sh --asan    fast tests under the address and undefined-behaviour sanitizers
+#   ./test.sh --tsan    fast tests that use threads under the thread sanitizer
 #   ./test.sh --clang   fast tests of a build by clang++
 set -eu
 cd "$(dirname "$0")"
 
 usage() {
-    sed -n '2,9s/^# \{0,1\}//p' "$0"
+    sed -n '2,10s/^# \{0,1\}//p' "$0"
 }
 preset=dev
 slow=yes
@@ -20,6 +21,7 @@ case ${1-} in
 '') ;;
 --fast) slow=no ;;
 --asan) preset=asan slow=no ;;
+--tsan) preset=tsan slow=no ;;
 --clang) preset=clang slow=no packages="catch2 clang" ;;
 -h | --help) usage; exit 0 ;;
 *) usage >&2; exit 1 ;;

@@ -62,12 +62,13 @@ double own_error(const Mesh& mesh, const Reference& reference) {
     return estimated_error(mesh, solution);
 }
 
-std::vector<MethodRuns> run_with_progress(const Contest& contest) {
+std::vector<MethodRuns> run_with_progress(const Contest& contest,
+                                          std::optional<SolveError>& fault) {
     std::atomic<double> share_done{0};
     Progress progress(
         contest.monitor, [&](const ProgressState&) { return share_done.load(); },
         wants_bar(contest.settings));
-    return run_methods(contest, [&](const StepRow& row, double share) {
+    return run_methods(contest, fault, [&](const StepRow& row, double share) {
         share_done = share;
         const std::string topic = row.method + formatted(", run %u", row.run + 1);
         progress.set_topic(topic);
@@ -117,7 +118,9 @@ int finish(const Contest& contest, std::vector<MethodRuns> results) {
 
 } // namespace
 
-int compare(const CompareSettings& settings) {
+namespace {
+
+int run_comparison(const CompareSettings& settings) {
     std::vector<const Method*> methods = settings.methods;
     if (settings.reference.empty())
         methods.push_back(find_method("matrix"));
@@ -151,7 +154,21 @@ int compare(const CompareSettings& settings) {
         if (!report.failed.empty())
             return exit_output;
     }
-    return finish(contest, run_with_progress(contest));
+    std::optional<SolveError> fault;
+    const int code = finish(contest, run_with_progress(contest, fault));
+    if (fault && code == exit_done)
+        throw SolveError(*fault);
+    return code;
+}
+
+} // namespace
+
+int compare(const CompareSettings& settings) {
+    try {
+        return run_comparison(settings);
+    } catch (const SolveError& error) {
+        throw as_input_error(error, settings.scene.path);
+    }
 }
 
 } // namespace hemilux

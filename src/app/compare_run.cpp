@@ -101,15 +101,15 @@ double mean_share(const Runners& runners, std::size_t of) {
     return sum / static_cast<double>(of);
 }
 
-/// One run of all methods, each until its budget is used up or all are interrupted.
-Runners run_once(const Contest& contest, std::uint32_t run,
-                 const std::function<void(const StepRow&, double share)>& after_step) {
+/// One run of all methods, each until its budget is used up or all are interrupted. The runners
+/// are filled in as they are made, so that they remain when a step cannot be done.
+void run_once(const Contest& contest, std::uint32_t run, Runners& runners,
+              const std::function<void(const StepRow&, double share)>& after_step) {
     const Budget budget = budget_of(contest);
     const std::vector<const Method*>& methods = contest.settings.methods;
-    Runners runners;
     for (const Method* const method : methods) {
         if (contest.monitor.interrupted)
-            return runners;
+            return;
         runners.push_back(std::make_unique<Runner>(contest, *method, run, budget));
     }
     while (!contest.monitor.interrupted) {
@@ -119,22 +119,26 @@ Runners run_once(const Contest& contest, std::uint32_t run,
             break;
         after_step((*least)->last_row(), mean_share(runners, methods.size()));
     }
-    return runners;
 }
 
 } // namespace
 
 std::vector<MethodRuns>
-run_methods(const Contest& contest,
+run_methods(const Contest& contest, std::optional<SolveError>& fault,
             const std::function<void(const StepRow&, double share)>& after_step) {
     std::vector<MethodRuns> results;
     for (const Method* const method : contest.settings.methods)
         results.push_back({method, {}});
     const std::uint32_t runs = contest.settings.runs;
-    for (std::uint32_t run = 0; run < runs && !contest.monitor.interrupted; ++run) {
-        const Runners runners = run_once(contest, run, [&](const StepRow& row, double share) {
-            after_step(row, (run + share) / runs);
-        });
+    for (std::uint32_t run = 0; run < runs && !contest.monitor.interrupted && !fault; ++run) {
+        Runners runners;
+        try {
+            run_once(contest, run, runners, [&](const StepRow& row, double share) {
+                after_step(row, (run + share) / runs);
+            });
+        } catch (const SolveError& error) {
+            fault = error;
+        }
         for (std::size_t m = 0; m < runners.size(); ++m)
             results[m].runs.push_back(runners[m]->result());
     }

@@ -5,6 +5,7 @@
 #include "app/reference.h"
 #include "app/settings.h"
 #include "io/tables.h"
+#include "radiosity/solve_error.h"
 
 #include <functional>
 #include <vector>
@@ -36,8 +37,9 @@ struct Contest {
 };
 
 /// `after_step` is told the share of all runs that is done, 0 to 1.
+/// `fault`: what kept a step from being done; the results are then those of the steps before.
 [[nodiscard]] std::vector<MethodRuns>
-run_methods(const Contest& contest,
+run_methods(const Contest& contest, std::optional<SolveError>& fault,
             const std::function<void(const StepRow&, double share)>& after_step);
 
 } // namespace hemilux

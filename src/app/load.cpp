@@ -78,6 +78,11 @@ void check_solvable(const ReadResult& read, const std::string& path) {
                                    list_names(names));
 }
 
+InputError as_input_error(const SolveError& error, const std::string& path) {
+    const std::size_t line = line_of_face(path, error.face);
+    return line > 0 ? InputError(path, line, error.what()) : InputError(path, error.what());
+}
+
 Mesh divide_scene(Scene scene, const SceneSettings& settings) {
     try {
         return Mesh(std::move(scene), settings.mesh);

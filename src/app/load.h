@@ -2,7 +2,9 @@
 // From a path on the command line to a scene that can be solved.
 
 #include "app/settings.h"
+#include "io/error.h"
 #include "io/obj.h"
+#include "radiosity/solve_error.h"
 
 #include <span>
 
@@ -12,9 +14,12 @@ namespace hemilux {
 /// InputError for the file, UsageError for the changes.
 [[nodiscard]] ReadResult load_scene(const SceneSettings& settings);
 
-/// Throws InputError for what no method can solve: no faces, a material in use that reflects all
-/// light or more, negative emission, or a scene in which nothing emits.
+/// Throws InputError for what no method can solve: no faces, a material in use that reflects
+/// more than all light, negative emission, or a scene in which nothing emits.
 void check_solvable(const ReadResult& read, const std::string& path);
+
+/// What cannot be solved, as an error of the file: with the line of the face, where that is known.
+[[nodiscard]] InputError as_input_error(const SolveError& error, const std::string& path);
 
 struct LoadedMesh {
     Mesh mesh;

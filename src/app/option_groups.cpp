@@ -45,7 +45,7 @@ void add_scene_options(CLI::App& app, SceneSettings& scene) {
                  "what a material emits, W/m2; * for all; repeatable")
         ->group("Scene");
     add_override(app, "--reflectance", scene.reflectance, reflectance_range,
-                 "what a material reflects, 0 to below 1; * for all; repeatable")
+                 "what a material reflects, 0 to 1; * for all; repeatable")
         ->group("Scene");
 }
 

@@ -60,6 +60,14 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
     statistics.energy = solution.energy;
 }
 
+std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverInput& input) {
+    try {
+        return settings.method->make(input);
+    } catch (const SolveError& error) {
+        throw as_input_error(error, settings.scene.path);
+    }
+}
+
 /// The last words; returns the exit code.
 int finish(const SolveSettings& settings, const Results& results, const WriteReport& of_steps,
            const std::optional<Reference>& reference, bool interrupted) {
@@ -120,7 +128,7 @@ int solve(const SolveSettings& settings) {
     const Stopwatch solving;
     const SolveOptions options = with_memory(settings.options, settings.scene);
     const SolverInput input{mesh, *tracer, options, monitor, needs};
-    const std::unique_ptr<Solver> solver = settings.method->make(input);
+    const std::unique_ptr<Solver> solver = make_solver(settings, input);
     std::vector<StepRow> rows;
     Before before;
     if (resumed) {
@@ -129,20 +137,26 @@ int solve(const SolveSettings& settings) {
     }
     Checkpointer checkpointer(settings, mesh, *solver);
     StepPictures step_pictures(settings, mesh, *tracer);
-    const bool completed = run(
-        *solver, input, stop,
-        [&](const StepRecord& record, const Solution& solution) {
-            rows.push_back({std::string(settings.method->name), 0, record, std::nullopt});
-            if (reference)
-                rows.back().error = reference->error(mesh, solution.radiosity);
-            progress.step_done(record);
-            if (settings.every_step)
-                step_pictures.write(solution.radiosity, record.step);
-            if (settings.talk == Talk::verbose)
-                progress.say(step_text(rows.back()));
-            checkpointer.step_done(rows, record.seconds);
-        },
-        before);
+    const auto after_step = [&](const StepRecord& record, const Solution& solution) {
+        rows.push_back({std::string(settings.method->name), 0, record, std::nullopt});
+        if (reference)
+            rows.back().error = reference->error(mesh, solution.radiosity);
+        progress.step_done(record);
+        if (settings.every_step)
+            step_pictures.write(solution.radiosity, record.step);
+        if (settings.talk == Talk::verbose)
+            progress.say(step_text(rows.back()));
+        checkpointer.step_done(rows, record.seconds);
+    };
+    bool completed = false;
+    std::optional<InputError> fault; // in a step; those before it are written
+    try {
+        completed = run(*solver, input, stop, after_step, before);
+    } catch (const SolveError& error) {
+        fault = as_input_error(error, settings.scene.path);
+        if (solver->solution().steps == 0)
+            throw *fault;
+    }
     const double seconds_solver = solving.seconds() + (resumed ? resumed->seconds : 0);
     progress.close();
     checkpointer.finish(rows, seconds_solver);
@@ -152,8 +166,14 @@ int solve(const SolveSettings& settings) {
     statistics.bytes_peak = peak_memory_bytes();
     WriteReport of_run = step_pictures.report();
     of_run.add(checkpointer.report());
-    return finish(settings, {mesh, *tracer, solver->solution(), statistics, rows}, of_run,
-                  reference, !completed);
+    const int code = finish(settings, {mesh, *tracer, solver->solution(), statistics, rows}, of_run,
+                            reference, !completed && !fault);
+    if (!fault || code != exit_done)
+        return code;
+    say(settings.talk, Talk::quiet,
+        std::string("hemilux: ") + fault->what() + "\nthe outputs hold " +
+            counted(solver->solution().steps, "step", "steps") + " before that");
+    return exit_input;
 }
 
 } // namespace hemilux

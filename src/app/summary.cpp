@@ -14,9 +14,10 @@ std::string energy_text(const EnergyBalance& energy) {
     const double emitted = sum(energy.emitted);
     const double absorbed = sum(energy.absorbed) / emitted;
     const double escaped = sum(energy.escaped) / emitted;
+    const double unshot = sum(energy.unshot) / emitted;
     return formatted("energy: %g W emitted, ", emitted) + percent(absorbed) + " absorbed, " +
-           percent(escaped) + " escaped; balance " +
-           formatted("%.3f %%", 100 * (absorbed + escaped));
+           percent(escaped) + " escaped, " + formatted("%.3f %% unshot", 100 * unshot) +
+           formatted("; balance closed to %.0e", energy.imbalance());
 }
 
 } // namespace

@@ -52,7 +52,7 @@ std::vector<bool> find_used_materials(const Scene& scene) {
 }
 
 bool is_reflectance(const Vec3& r) {
-    return r.x >= 0 && r.x < 1 && r.y >= 0 && r.y < 1 && r.z >= 0 && r.z < 1;
+    return r.x >= 0 && r.x <= 1 && r.y >= 0 && r.y <= 1 && r.z >= 0 && r.z <= 1;
 }
 bool emits(const Vec3& e) { return e.x > 0 || e.y > 0 || e.z > 0; }
 
@@ -121,7 +121,7 @@ std::vector<std::string> find_bad_reflectances(const ReadResult& read) {
         const bool has_source = m < read.material_source.size() && !read.material_source[m].empty();
         messages.push_back((has_source ? read.material_source[m] + ": " : "") + "material \"" +
                            material.name + "\" has reflectance " + text_of(material.reflectance) +
-                           "; expected values of at least 0 and below 1");
+                           "; expected values from 0 to 1");
     }
     return messages;
 }

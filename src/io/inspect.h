@@ -31,7 +31,7 @@ struct SceneInfo {
 
 [[nodiscard]] SceneInfo inspect(const ReadResult& read);
 
-/// A message for each material in use whose reflectance is outside [0,1): its name, the value and
+/// A message for each material in use whose reflectance is outside [0,1]: its name, the value and
 /// where it was defined, as far as known. No solution exists with such materials.
 [[nodiscard]] std::vector<std::string> find_bad_reflectances(const ReadResult& read);
 

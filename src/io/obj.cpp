@@ -258,4 +258,17 @@ void ObjReader::collect_warnings() {
 
 ReadResult read_obj(const std::string& path) { return ObjReader(path).read(); }
 
+std::size_t line_of_face(const std::string& path, std::uint32_t face) {
+    try {
+        TextReader reader(read_text_file(path));
+        Statement statement;
+        for (std::uint32_t faces = 0; reader.next(statement);)
+            if ((statement.keyword == "f" || statement.keyword == "fo") && faces++ == face)
+                return statement.line;
+    } catch (const InputError&) {
+        return 0; // not even the same file as before
+    }
+    return 0;
+}
+
 } // namespace hemilux

@@ -10,6 +10,7 @@
 #include "radiosity/scene.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,8 @@ struct ReadResult {
 /// Throws InputError for a file that cannot be read, with file and line for what is wrong in it,
 /// and where no face has an area.
 [[nodiscard]] ReadResult read_obj(const std::string& path);
+
+/// Where a face stands, from 1; 0 where there is no such face any more, or no file.
+[[nodiscard]] std::size_t line_of_face(const std::string& path, std::uint32_t face);
 
 } // namespace hemilux

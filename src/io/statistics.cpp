@@ -39,7 +39,9 @@ Json to_object(const Statistics& s) {
             {"energy",
              {{"emitted", channels(s.energy.emitted)},
               {"absorbed", channels(s.energy.absorbed)},
-              {"escaped", channels(s.energy.escaped)}}},
+              {"escaped", channels(s.energy.escaped)},
+              {"unshot", channels(s.energy.unshot)},
+              {"imbalance", s.energy.imbalance()}}},
             {"left_out", left_out}};
 }
 

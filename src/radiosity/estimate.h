@@ -22,6 +22,7 @@ struct Estimate {
         }
         energy.absorbed = mean(energy.absorbed, other.energy.absorbed);
         energy.escaped = mean(energy.escaped, other.energy.escaped);
+        energy.unshot = mean(energy.unshot, other.energy.unshot);
     }
 };
 

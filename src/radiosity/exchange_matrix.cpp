@@ -180,24 +180,16 @@ void ExchangeMatrix::close(const std::vector<double>& scale, const Workers& work
         });
 }
 
-void ExchangeMatrix::multiply_emission(std::span<const Vec3> x, std::span<Vec3> y,
-                                       const Workers& workers) const {
+void ExchangeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y,
+                              const Workers& workers) const {
     readers(workers).for_chunks(y.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            Vec3 sum(0.0);
+            Vec3 sum = self_[i] * x[i];
             for (const auto& [j, value] : row(i))
                 sum += static_cast<double>(value) * x[j];
             y[i] = area_[i] > 0 ? sum / area_[i] : Vec3(0.0);
         }
     });
-}
-
-void ExchangeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y,
-                              const Workers& workers) const {
-    multiply_emission(x, y, workers);
-    for (std::size_t i = 0; i < y.size(); ++i)
-        if (area_[i] > 0)
-            y[i] += self_[i] / area_[i] * x[i];
 }
 
 } // namespace hemilux

@@ -26,11 +26,8 @@ class ExchangeMatrix {
 
     /// y_i = sum_j F_ij x_j
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
-    /// The same without what patches exchange with themselves: lamps are too bright to be taken for
-    /// what is missing beside them.
-    void multiply_emission(std::span<const Vec3> x, std::span<Vec3> y,
-                           const Workers& workers) const;
-    [[nodiscard]] LostShare lost(std::uint32_t patch) const { return lost_[patch]; }
+    /// By patch.
+    [[nodiscard]] std::span<const LostShare> lost() const { return lost_; }
     [[nodiscard]] std::uint64_t bytes() const { return row_begin_.back() * sizeof(Entry); }
 
   private:

@@ -13,7 +13,7 @@ namespace hemilux {
 /// A diffuse surface. Three channels: red, green, blue.
 struct Material {
     std::string name;
-    Vec3 reflectance{0.5}; ///< rho [-], each channel in [0,1)
+    Vec3 reflectance{0.5}; ///< rho [-], each channel in [0,1]; 1 only where light gets out
     Vec3 emission{0.0};    ///< E [W/m2 leaving]
 };
 

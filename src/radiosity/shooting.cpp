@@ -3,6 +3,7 @@
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
 #include "radiosity/shot.h"
+#include "radiosity/solve_error.h"
 
 #include <algorithm>
 #include <chrono>
@@ -44,17 +45,20 @@ ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strat
 bool ShootingSolver::solve_once(std::uint64_t stream, StepResult& result) {
     strategy_->begin_step(stream); // the pilot's is after all others
     const auto patches = input_.mesh.patches();
-    std::vector<Vec3> unshot(patches.size()), received(patches.size());
+    std::vector<Vec3> unshot(patches.size());
+    Received received(patches.size());
     for (std::uint32_t i = 0; i < patches.size(); ++i)
         unshot[i] = result.radiosity[i] * patches[i].area;
     for (std::uint64_t bounces = 0;; ++bounces) {
         double left = 0;
         for (const Vec3& power : unshot)
             left += mean_of_channels(power);
+        check_finite(input_.mesh, unshot, "the power to be shot", step_under_way());
+        check_bounces(bounces);
         if (!(left > (input_.options.literal ? literal_rest * emitted() : 0.0)))
             return true;
         result.shot += left;
-        std::ranges::fill(received, Vec3(0.0));
+        std::ranges::fill(received, CompensatedSum<Vec3>{});
         const std::uint64_t rays =
             bounce(hash_words({input_.options.seed, stream, bounces}), unshot, received, result);
         if (input_.monitor.interrupted)
@@ -63,8 +67,9 @@ bool ShootingSolver::solve_once(std::uint64_t stream, StepResult& result) {
             return true;
         for (std::uint32_t i = 0; i < patches.size(); ++i) {
             const Vec3& reflectance = input_.mesh.material(i).reflectance;
-            result.absorbed += (1.0 - reflectance) * received[i];
-            unshot[i] = reflectance * received[i];
+            const Vec3 power = received[i].value();
+            result.absorbed += (1.0 - reflectance) * power;
+            unshot[i] = reflectance * power;
             if (patches[i].area > 0)
                 result.radiosity[i] += unshot[i] / patches[i].area;
         }
@@ -72,7 +77,7 @@ bool ShootingSolver::solve_once(std::uint64_t stream, StepResult& result) {
 }
 
 std::uint64_t ShootingSolver::bounce(std::uint64_t stream, const std::vector<Vec3>& unshot,
-                                     std::vector<Vec3>& received, StepResult& result) {
+                                     Received& received, StepResult& result) {
     plan(stream, unshot);
     const double rays_a_piece = cut();
     const std::uint64_t before = result.rays;
@@ -112,24 +117,28 @@ void ShootingSolver::fire(const Piece& piece, std::uint64_t stream, const std::v
 
 /// In the order of patches and rays, whatever thread traced them.
 void ShootingSolver::collect(const Volley& volley, const std::vector<Vec3>& unshot,
-                             std::vector<Vec3>& received, StepResult& result) {
+                             Received& received, StepResult& result) {
     std::size_t ray = 0;
     for (const Burst& burst : volley.bursts) {
         const Vec3 power = burst.ray_power * unshot[burst.patch]; // Phi_ray
         if (strategy_->learns())
             strategy_->learn(burst.patch, burst.cell,
                              std::span(volley.receivers).subspan(ray, burst.rays));
+        std::uint32_t rays_escaped = 0, rays_absorbed = 0;
         for (std::uint32_t k = 0; k < burst.rays; ++k) {
             const std::uint32_t receiver = volley.receivers[ray++];
             if (receiver == escaped) {
-                result.escaped += power;
+                ++rays_escaped;
             } else if (receiver == absorbed) {
-                result.absorbed += power;
+                ++rays_absorbed;
             } else {
                 received[receiver] += power;
                 ++result.hits[receiver];
             }
         }
+        result.sent += double(burst.rays) * power;
+        result.escaped += double(rays_escaped) * power;
+        result.absorbed += double(rays_absorbed) * power;
     }
     result.rays += ray;
 }

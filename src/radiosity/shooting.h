@@ -55,10 +55,12 @@ class ShootingSolver final : public StepwiseSolver {
         std::vector<Ray> waiting;             ///< rays that are not traced yet
     };
 
+    using Received = std::vector<CompensatedSum<Vec3>>; ///< power by patch
+
     bool solve_once(std::uint64_t stream, StepResult& result) override;
     /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
-    std::uint64_t bounce(std::uint64_t stream, const std::vector<Vec3>& unshot,
-                         std::vector<Vec3>& received, StepResult& result);
+    std::uint64_t bounce(std::uint64_t stream, const std::vector<Vec3>& unshot, Received& received,
+                         StepResult& result);
     void plan(std::uint64_t stream, const std::vector<Vec3>& unshot);
     [[nodiscard]] double cut();
     void fire(const Piece& piece, std::uint64_t stream, const std::vector<Vec3>& unshot,
@@ -71,7 +73,7 @@ class ShootingSolver final : public StepwiseSolver {
     [[nodiscard]] static Ray draw(const Patch& from, const Frame& frame, const Aim& aim, Rng& rng);
     void trace(Volley& volley) const;
 
-    void collect(const Volley& volley, const std::vector<Vec3>& unshot, std::vector<Vec3>& received,
+    void collect(const Volley& volley, const std::vector<Vec3>& unshot, Received& received,
                  StepResult& result);
 
     Workers workers_;

@@ -1,5 +1,6 @@
 #include "radiosity/solution.h"
 
+#include "geometry/compensated_sum.h"
 #include "radiosity/mesh.h"
 
 #include <algorithm>
@@ -20,6 +21,23 @@ struct Ratio {
 };
 
 } // namespace
+
+double EnergyBalance::imbalance() const {
+    const double most = std::max({emitted.x, emitted.y, emitted.z});
+    if (!(most > 0))
+        return 0;
+    double largest = 0;
+    for (int c = 0; c < 3; ++c) {
+        CompensatedSum<double> off; // powers may be many times what is emitted
+        for (const double power : {emitted[c], -absorbed[c], -escaped[c], -unshot[c]})
+            off += power;
+        const double share = std::abs(off.value()) / (emitted[c] > 0 ? emitted[c] : most);
+        if (std::isnan(share))
+            return share;
+        largest = std::max(largest, share);
+    }
+    return largest;
+}
 
 RelativeError true_error(const Mesh& mesh, std::span<const Vec3> radiosity,
                          std::span<const Vec3> reference, const std::vector<bool>& detail) {

@@ -12,11 +12,18 @@ namespace hemilux {
 
 class Mesh;
 
-/// Power per channel, in world units [W].
+/// Where the light of a solution goes, per channel [W]: emitted = absorbed + escaped + unshot.
 struct EnergyBalance {
     Vec3 emitted{0.0};
-    Vec3 absorbed{0.0};
+    Vec3 absorbed{0.0}; ///< by patches and by backs of one-sided faces
     Vec3 escaped{0.0};
+    /// Power that leaves patches and was not sent on: what is still to be shot, or what chance has
+    /// left; negative where it sent more than there was, and 0 on average.
+    Vec3 unshot{0.0};
+
+    /// What is missing, or too much, as a share of what is emitted; the largest of the channels. 0
+    /// where nothing is emitted.
+    [[nodiscard]] double imbalance() const;
 };
 
 struct Solution {

@@ -1,7 +1,9 @@
 #include "radiosity/stepwise.h"
 
+#include "radiosity/check_input.h"
 #include "radiosity/mesh.h"
 #include "radiosity/shot.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/state.h"
 
 #include <algorithm>
@@ -11,16 +13,16 @@ namespace hemilux {
 
 StepwiseSolver::StepwiseSolver(const SolverInput& input, bool equal_rays)
     : input_(input), equal_rays_(equal_rays) {
+    check_input(input);
     const auto patches = input_.mesh.patches();
     const double unknown = input.needs.bounces ? std::numeric_limits<double>::quiet_NaN() : 0;
     solution_.standard_error.assign(patches.size(), Vec3(unknown));
     solution_.hits.assign(patches.size(), 0);
     squares_.assign(patches.size(), Vec3(0.0));
-    for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    for (std::uint32_t i = 0; i < patches.size(); ++i)
         solution_.radiosity.push_back(input_.mesh.material(i).emission);
-        solution_.energy.emitted += solution_.radiosity[i] * patches[i].area;
-    }
-    solution_.energy.emitted = input_.mesh.frame().area_to_world(1.0) * solution_.energy.emitted;
+    solution_.energy.emitted = input_.mesh.frame().area_to_world(1.0) * power_leaving();
+    solution_.energy.unshot = solution_.energy.emitted;
 }
 
 bool StepwiseSolver::step() {
@@ -30,8 +32,17 @@ bool StepwiseSolver::step() {
     StepResult result = fresh_result();
     if (!solve_once(solution_.steps, result))
         return false;
+    check_finite(input_.mesh, result.radiosity, "the radiosity", step_under_way());
     combine(result);
     return true;
+}
+
+/// Of the solution, local units.
+Vec3 StepwiseSolver::power_leaving() const {
+    CompensatedSum<Vec3> power;
+    for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i)
+        power += solution_.radiosity[i] * input_.mesh.patches()[i].area;
+    return power.value();
 }
 
 StepResult StepwiseSolver::fresh_result() const {
@@ -77,6 +88,26 @@ bool StepwiseSolver::find_ray_power() {
     return true;
 }
 
+/// Rays die out by chance, which in a room of reflectance .99999 takes about 2e6 bounces.
+void StepwiseSolver::check_bounces(std::uint64_t bounces) const {
+    constexpr std::uint64_t most = 10'000'000;
+    if (bounces <= most)
+        return;
+    const auto unabsorbed = [&](std::uint32_t a, std::uint32_t b) {
+        return mean_of_channels(input_.mesh.material(a).reflectance) <
+               mean_of_channels(input_.mesh.material(b).reflectance);
+    };
+    std::uint32_t brightest = 0;
+    for (std::uint32_t i = 1; i < input_.mesh.patches().size(); ++i)
+        if (unabsorbed(brightest, i))
+            brightest = i;
+    throw SolveError("step " + std::to_string(step_under_way()) +
+                         ": light is still on its way after ten million bounces, as between " +
+                         name_of_patch(input_.mesh, brightest) +
+                         " and others; --method gathering needs no bounces",
+                     input_.mesh.scene().facets[input_.mesh.patches()[brightest].facet].face);
+}
+
 /// What a single ray of all steps so far would add to the patch's radiosity.
 Vec3 StepwiseSolver::one_ray(std::uint32_t patch) const {
     const double area = input_.mesh.patches()[patch].area;
@@ -108,11 +139,19 @@ void StepwiseSolver::combine(const StepResult& result) {
     if (n > 1)
         solution_.variance = variance;
     solution_.rays_energy += result.rays;
-    power_absorbed_ += result.absorbed;
-    power_escaped_ += result.escaped;
-    const double to_world = input_.mesh.frame().area_to_world(1.0);
-    solution_.energy.absorbed = to_world / n * power_absorbed_;
-    solution_.energy.escaped = to_world / n * power_escaped_;
+    account(result);
+}
+
+/// What patches send by the solution and what rays have carried differ by chance: numbers of rays
+/// are whole, and the series of bounces ends with the last ray.
+void StepwiseSolver::account(const StepResult& result) {
+    absorbed_ += result.absorbed.value();
+    escaped_ += result.escaped.value();
+    sent_ += result.sent.value();
+    const double n = solution_.steps, to_world = input_.mesh.frame().area_to_world(1.0);
+    solution_.energy.absorbed = to_world * (absorbed_.value() / n);
+    solution_.energy.escaped = to_world * (escaped_.value() / n);
+    solution_.energy.unshot = to_world * (power_leaving() - sent_.value() / n);
 }
 
 /// Emission, densities and the order of patches follow from the scene and are found again.
@@ -123,7 +162,8 @@ void StepwiseSolver::save(StateWriter& state) const {
     state.add(std::uint64_t{solution_.variance.has_value()});
     state.add(solution_.variance.value_or(0));
     for (const Vec3& power :
-         {power_absorbed_, power_escaped_, solution_.energy.absorbed, solution_.energy.escaped})
+         {solution_.energy.absorbed, solution_.energy.escaped, solution_.energy.unshot,
+          absorbed_.sum, absorbed_.lost, escaped_.sum, escaped_.lost, sent_.sum, sent_.lost})
         state.add(power);
     state.add(ray_power_);
     state.add(std::span<const Vec3>(solution_.radiosity));
@@ -143,7 +183,8 @@ void StepwiseSolver::load(StateReader& state) {
     const double variance = state.number();
     solution_.variance = has_variance ? std::optional(variance) : std::nullopt;
     for (Vec3* power :
-         {&power_absorbed_, &power_escaped_, &solution_.energy.absorbed, &solution_.energy.escaped})
+         {&solution_.energy.absorbed, &solution_.energy.escaped, &solution_.energy.unshot,
+          &absorbed_.sum, &absorbed_.lost, &escaped_.sum, &escaped_.lost, &sent_.sum, &sent_.lost})
         state.get(*power);
     ray_power_ = state.number();
     state.get(std::span(solution_.radiosity));

@@ -3,6 +3,7 @@
 // steps (docs/decisions.md, D11): the result is the mean of the steps, its standard error their
 // spread.
 
+#include "geometry/compensated_sum.h"
 #include "radiosity/solver.h"
 
 #include <cstdint>
@@ -13,9 +14,9 @@ namespace hemilux {
 /// What one step found. Powers are in local units.
 struct StepResult {
     std::vector<Vec3> radiosity;
-    std::vector<std::uint32_t> hits;  ///< rays that struck each patch
-    Vec3 absorbed{0.0}, escaped{0.0}; ///< power
-    double shot = 0;                  ///< all power that was to be shot, mean of channels
+    std::vector<std::uint32_t> hits;              ///< rays that struck each patch
+    CompensatedSum<Vec3> absorbed, escaped, sent; ///< power, `sent`: of all rays
+    double shot = 0; ///< all power that was to be shot, mean of channels
     std::uint64_t rays = 0;
 };
 
@@ -40,8 +41,13 @@ class StepwiseSolver : public Solver {
 
     /// Power that each ray is to carry, mean of channels; infinite without equal rays.
     [[nodiscard]] double ray_power() const { return ray_power_; }
+    /// From 1; the pilot belongs to the first.
+    [[nodiscard]] std::uint64_t step_under_way() const { return solution_.steps + 1; }
     /// Mean of channels, local units.
     [[nodiscard]] double emitted() const;
+
+    /// Throws SolveError after so many that the series seems not to end.
+    void check_bounces(std::uint64_t bounces) const;
 
     /// The stream of the pilot; steps count from 0.
     static constexpr std::uint64_t pilot_stream = ~std::uint64_t{0};
@@ -50,15 +56,17 @@ class StepwiseSolver : public Solver {
     Solution solution_;
 
   private:
+    [[nodiscard]] Vec3 power_leaving() const;
     [[nodiscard]] StepResult fresh_result() const;
     bool find_ray_power();
     [[nodiscard]] Vec3 one_ray(std::uint32_t patch) const;
     void combine(const StepResult& result);
+    void account(const StepResult& result);
 
     bool equal_rays_;
     double ray_power_ = 0;      ///< 0 until the pilot has found it
     std::vector<Vec3> squares_; ///< sum of squared deviations of the steps (Welford 1962)
-    Vec3 power_absorbed_{0.0}, power_escaped_{0.0};
+    CompensatedSum<Vec3> absorbed_, escaped_, sent_; ///< of all steps
 };
 
 } // namespace hemilux

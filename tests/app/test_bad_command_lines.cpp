@@ -72,10 +72,10 @@ TEST_CASE("empty and odd file names are told, not opened") {
     CHECK(outcome.code == 2);
 }
 
-TEST_CASE("a reflectance of one or more names the material and its line") {
+TEST_CASE("a reflectance above one names the material and its line") {
     const Workplace place;
     place.write_room();
-    for (const char* colour : {"1 1 1", "1.5 .5 .5", ".5 .5 1"}) {
+    for (const char* colour : {"2 2 2", "1.5 .5 .5", ".5 .5 1.0001"}) {
         place.write("room.mtl", "newmtl lamp\nKe 1 1 1\nnewmtl red\n\nnewmtl white\nKd " +
                                     std::string(colour) + "\n");
         const auto outcome = place.hemilux("solve room.obj -o a.png");

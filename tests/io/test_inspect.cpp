@@ -30,7 +30,7 @@ std::string box_text(bool with_lid) {
 ReadResult read_box(bool with_lid, const std::string& more = "") {
     const TemporaryFolder folder;
     folder.write("box.mtl", "newmtl lamp\nKd .5\nKe 3 2 1\nnewmtl wall\nKd .7\nnewmtl spare\nKd 1\n"
-                            "Ke 1\nnewmtl mirror\nKd 0.5 1 0.5\n");
+                            "Ke 1\nnewmtl mirror\nKd 0.5 1.5 0.5\n");
     return read_obj(folder.write("box.obj", box_text(with_lid) + more));
 }
 
@@ -71,14 +71,14 @@ TEST_CASE("open and shared edges are counted", "[inspect]") {
     CHECK(concave.concave_faces == 1);
 }
 
-TEST_CASE("reflectances outside [0,1) are named with their place", "[inspect]") {
+TEST_CASE("reflectances outside [0,1] are named with their place", "[inspect]") {
     CHECK(find_bad_reflectances(read_box(true)).empty()); // spare is not in use
     ReadResult result = read_box(true, "usemtl mirror\nf 1 2 3\n");
     std::vector<std::string> messages = find_bad_reflectances(result);
     REQUIRE(messages.size() == 1);
-    CHECK(messages[0].find("box.mtl:9: material \"mirror\" has reflectance 0.5 1 0.5") !=
+    CHECK(messages[0].find("box.mtl:9: material \"mirror\" has reflectance 0.5 1.5 0.5") !=
           std::string::npos);
-    result.scene.materials[3].reflectance = Vec3(0.5);
+    result.scene.materials[3].reflectance = Vec3(0.5, 1, 0);
     CHECK(find_bad_reflectances(result).empty());
     result.scene.materials[3].reflectance = Vec3(std::nan(""));
     CHECK(find_bad_reflectances(result).size() == 1);

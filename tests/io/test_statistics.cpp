@@ -21,7 +21,7 @@ Statistics example() {
     s.bytes_density = 40000;
     s.bytes_density_paper = 82824;
     s.bytes_peak = 1 << 20;
-    s.energy = {{1, 2, 3}, {0.5, 1, 1.5}, {0.5, 1, 1.5}};
+    s.energy = {{1, 2, 3}, {0.5, 1, 1.5}, {0.5, 1, 1.5}, {0, 0.5, 0}};
     s.left_out = {{"two channels", "all is \"grey\"", "2/3 of the memory"}};
     return s;
 }
@@ -64,7 +64,13 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
       0.5,
       1.0,
       1.5
-    ]
+    ],
+    "unshot": [
+      0.0,
+      0.5,
+      0.0
+    ],
+    "imbalance": 0.25
   },
   "left_out": [
     {

@@ -50,7 +50,7 @@ TEST_CASE("Exchange between patches is symmetric, and each row closed") {
         std::vector<Vec3> x(n, Vec3(1.0)), y(n);
         f.multiply(x, y, workers);
         for (std::uint32_t i = 0; i < n; ++i) {
-            const LostShare lost = f.lost(i);
+            const LostShare lost = f.lost()[i];
             CHECK(y[i].x == Approx(1 - lost.escaped - lost.absorbed).margin(off));
         }
         // x^T A F y = y^T A F x for any two vectors.

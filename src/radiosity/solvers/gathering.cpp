@@ -16,19 +16,22 @@
 // fewer rays than shooting, most where light is even and surfaces reflect much. Costs 8 bytes per
 // patch and patch that it saw, and as many to solve.
 
+#include "geometry/compensated_sum.h"
+#include "radiosity/check_input.h"
 #include "radiosity/conjugate_gradients.h"
 #include "radiosity/direct_light.h"
+#include "radiosity/energy_closing.h"
 #include "radiosity/exchange_matrix.h"
+#include "radiosity/gathering_plan.h"
 #include "radiosity/mesh.h"
 #include "radiosity/ray_counts.h"
-#include "radiosity/ray_deal.h"
 #include "radiosity/rng.h"
 #include "radiosity/shot.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <array>
 #include <optional>
 
 namespace hemilux {
@@ -36,26 +39,8 @@ namespace {
 
 constexpr unsigned sets = 4;
 
-/// Rays per patch and set at which the run ends whatever the error.
-constexpr double most_rays = 1u << 20;
-
-/// A kind of ray whose error costs less than this share of the other's is not doubled. Errors of
-/// well-distributed points fall about as rays^-3/4: doubling one kind takes two thirds of its
-/// variance.
-constexpr double worth_doubling = .35;
-
-/// The share of the emitted power within which it must be known how much is lost, for the rest to
-/// be taken for what arrives.
-constexpr double surely_lost = 1e-3;
-
 /// Bytes that are needed to put counts together, for each byte of them.
 constexpr double merging = 5;
-
-/// The share of the weights that is measured; and what a patch's area counts, see weigh().
-constexpr double trust = .5, area_exponent = .42;
-
-/// Black emitters count as if they reflected this: their rays tell where their light goes.
-constexpr double least_reflectance = .1;
 
 /// Residuals of the system; the sets alone tell no more than the error.
 constexpr double precisely = 1e-10, roughly = 1e-3;
@@ -63,31 +48,26 @@ constexpr double precisely = 1e-10, roughly = 1e-3;
 class GatheringSolver final : public Solver {
   public:
     explicit GatheringSolver(const SolverInput& input)
-        : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)) {
+        : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)),
+          plan_(first_plan(input, !emitters_.empty())) {
+        check_input(input);
         const auto patches = input.mesh.patches();
         renew();
         finished_.assign(sets + 1, std::vector<Vec3>(patches.size(), Vec3(0.0)));
         std::vector<bool> small(patches.size());
         for (const std::uint32_t e : emitters_)
             small[e] = true;
+        CompensatedSum<Vec3> emitted;
         for (std::uint32_t i = 0; i < patches.size(); ++i) {
             const Material& material = input.mesh.material(i);
             area_.push_back(patches[i].area);
             reflectance_.push_back(material.reflectance);
             emission_.push_back(material.emission);
             seen_emission_.push_back(small[i] ? Vec3(0.0) : material.emission);
-            solution_.energy.emitted +=
-                input.mesh.frame().area_to_world(patches[i].area) * material.emission;
+            emitted += patches[i].area * material.emission;
         }
-        rays_.resize(patches.size());
-        samples_.resize(patches.size());
-        for (std::uint32_t i = 0; i < patches.size(); ++i) {
-            const double area = input.needs.power(i) ? std::pow(area_[i], area_exponent) : 0;
-            direct_weights_.push_back(area * glm::length(reflectance_[i]));
-            weights_.push_back(area * std::max(glm::length(reflectance_[i]), least_reflectance));
-        }
-        some_unsampled_ = !emitters_.empty() && std::ranges::count(direct_weights_, 0.0) > 0;
-        prior_weights_ = weights_;
+        solution_.energy.emitted = input.mesh.frame().area_to_world(1.0) * emitted.value();
+        solution_.energy.unshot = solution_.energy.emitted;
         incident_.assign(sets + 1, std::vector<Vec3>(patches.size(), Vec3(0.0)));
         solution_.radiosity = emission_;
         solution_.standard_error.resize(patches.size());
@@ -95,17 +75,12 @@ class GatheringSolver final : public Solver {
     }
 
     bool step() override {
-        const double mean_rays = mean_rays_, mean_samples = mean_samples_;
-        choose_rays();
-        std::vector<std::uint32_t> rays = deal_rays(weights_, mean_rays_, rays_);
-        std::vector<std::uint32_t> samples = deal_rays(direct_weights_, mean_samples_, samples_);
-        if (!fits(rays)) {
-            rays = rays_;
-            samples = samples_;
-            mean_rays_ = mean_rays;
-            mean_samples_ = mean_samples;
+        plan_.grow(variance_, direct_variance_);
+        if (!fits()) {
+            plan_.shrink_back();
             begin_generation();
         }
+        const auto& [rays, samples] = plan_.rays();
         input_.monitor.phase = "rays";
         for (std::size_t s = 0; s < sets; ++s) {
             traced_ += counts_[s].trace_up_to(rays, workers_, input_.monitor);
@@ -116,19 +91,27 @@ class GatheringSolver final : public Solver {
         traced_ += direct_->sample_up_to(samples, workers_, input_.monitor);
         if (input_.monitor.interrupted)
             return false;
-        rays_ = rays;
-        samples_ = samples;
         input_.monitor.phase = "solving";
-        solve_all();
+        const ExchangeMatrix all = solve_all();
+        if (!std::ranges::all_of(energies_, is_drained)) {
+            require_more_rays(!finished());
+            return step();
+        }
+        for (const std::vector<Vec3>& incident : incident_)
+            check_finite(input_.mesh, incident, "the light that reaches", solution_.steps + 1);
+        combine(all);
         return true;
     }
 
-    [[nodiscard]] bool finished() const override {
-        return std::max(mean_rays_, mean_samples_) >= most_rays;
-    }
+    [[nodiscard]] bool finished() const override { return plan_.at_most(); }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
   private:
+    static GatheringPlan first_plan(const SolverInput& input, bool lamps) {
+        const double each = input.options.rays / (lamps ? 2 * sets : sets);
+        return {input.mesh, input.needs, each, lamps ? each : 0};
+    }
+
     /// New rays, independent of all before.
     void renew() {
         counts_.clear();
@@ -143,7 +126,7 @@ class GatheringSolver final : public Solver {
 
     /// Each set by a thread of its own, while another puts the whole together; then the whole by
     /// all threads.
-    void solve_all() {
+    ExchangeMatrix solve_all() {
         std::optional<ExchangeMatrix> all;
         const unsigned busy = std::min(sets, workers_.threads() - 1);
         workers_.for_chunks(sets + 1, 1, [&](std::size_t task, std::size_t) {
@@ -156,7 +139,7 @@ class GatheringSolver final : public Solver {
             solve({input_.mesh, std::span(&counts_[set], 1), alone}, set, alone, roughly);
         });
         solve(*all, sets, workers_, precisely);
-        combine(*all);
+        return std::move(*all);
     }
 
     /// What is known is kept as a solution, and its rays are forgotten.
@@ -164,23 +147,20 @@ class GatheringSolver final : public Solver {
         for (std::size_t s = 0; s <= sets; ++s)
             for (std::size_t i = 0; i < area_.size(); ++i)
                 finished_[s][i] += incident_[s][i];
+        finished_energy_.absorbed += energies_[sets].absorbed;
+        finished_energy_.escaped += energies_[sets].escaped;
         ++generation_;
         renew();
     }
 
-    /// Whether so many rays may be stored.
-    [[nodiscard]] bool fits(const std::vector<std::uint32_t>& rays) const {
-        const auto sum = [](const std::vector<std::uint32_t>& of) {
-            return std::accumulate(of.begin(), of.end(), 0.0);
-        };
-        if (input_.options.memory == 0 || sum(rays_) == 0)
-            return true;
+    /// Whether so many rays as planned may be stored.
+    [[nodiscard]] bool fits() const {
         std::uint64_t stored = 0;
         for (const RayCounts& set : counts_)
             stored += set.bytes();
-        const double growth = sum(rays) / sum(rays_);
-        return merging * growth * static_cast<double>(stored) <=
-               static_cast<double>(input_.options.memory);
+        return input_.options.memory == 0 || plan_.growth() == 1 ||
+               merging * plan_.growth() * static_cast<double>(stored) <=
+                   static_cast<double>(input_.options.memory);
     }
 
     /// Mean over the generations; `set` == sets: of all sets together.
@@ -188,85 +168,28 @@ class GatheringSolver final : public Solver {
         return (finished_[set][patch] + incident_[set][patch]) / double(generation_ + 1);
     }
 
-    /// How many rays of both kinds the mean patch and set is to have after this step.
-    void choose_rays() {
-        if (solution_.steps == 0) {
-            const double each = input_.options.rays / (sets * (emitters_.empty() ? 1 : 2));
-            mean_rays_ = std::clamp(each, 1.0, most_rays);
-            mean_samples_ = emitters_.empty() ? 0 : mean_rays_;
-            return;
-        }
-        // What the next ray of either kind takes from the variance.
-        const double of_rays = (variance_ - direct_variance_) / mean_rays_;
-        const double of_samples = mean_samples_ > 0 ? direct_variance_ / mean_samples_ : 0;
-        const bool more_rays = !(of_rays < worth_doubling * of_samples);
-        if (!(of_samples < worth_doubling * of_rays) && mean_samples_ > 0)
-            mean_samples_ *= 2;
-        if (more_rays)
-            mean_rays_ *= 2;
-    }
-
-    /// A ray is worth most where it takes most from the error. A patch counts by its area and its
-    /// reflectance, and the variance of random rays is the spread of the light that comes from all
-    /// sides, as far as it is known; half of the weight does not trust that.
-    void weigh(const ExchangeMatrix& all) {
-        const std::size_t n = area_.size();
-        std::vector<Vec3> light(n), squares(n), mean(n), mean_of_squares(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            light[i] = solution_.radiosity[i] - emission_[i] + seen_emission_[i];
-            squares[i] = light[i] * light[i];
-        }
-        all.multiply(light, mean, workers_);
-        all.multiply(squares, mean_of_squares, workers_);
-        std::vector<double> spread(n);
-        double sum = 0, sum_of_weights = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            const Vec3 variance = glm::max(mean_of_squares[i] - mean[i] * mean[i], 0.0);
-            spread[i] = std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance));
-            sum += prior_weights_[i] * spread[i];
-            sum_of_weights += prior_weights_[i];
-        }
-        if (sum > 0)
-            for (std::size_t i = 0; i < n; ++i)
-                weights_[i] =
-                    prior_weights_[i] * (trust * spread[i] * sum_of_weights / sum + 1 - trust);
-    }
-
     /// What arrives at each patch in the end, by the factors of a set or (`set` == sets) of all.
     void solve(const ExchangeMatrix& factors, std::size_t set, const Workers& workers,
                double residual) {
         const std::size_t n = area_.size();
         std::vector<Vec3> d(n), seen(n);
-        factors.multiply_emission(seen_emission_, d, workers);
-        if (some_unsampled_)
-            factors.multiply_emission(emission_, seen, workers);
+        factors.multiply(seen_emission_, d, workers);
+        const bool some_unsampled = plan_.some_without_shadow_rays();
+        if (some_unsampled) // black: rays at random tell well enough what they absorb
+            factors.multiply(emission_, seen, workers);
         for (std::uint32_t i = 0; i < n; ++i) {
-            if (some_unsampled_ && direct_->samples(i) == 0)
+            if (some_unsampled && direct_->samples(i) == 0)
                 d[i] = seen[i];
             d[i] += set == sets ? direct_->irradiance(i) : direct_->irradiance(i, set);
         }
-        balance(factors, d);
+        std::vector<double> rays;
+        for (const std::uint32_t of_set : plan_.rays().random)
+            rays.push_back(of_set * (set == sets ? double(sets) : 1.0));
+        const Transport transport{area_, emission_, reflectance_, factors.lost(), rays};
+        scale_direct_light(transport, d);
         solve_by_gradients(factors, area_, reflectance_, d, incident_[set], workers,
                            {.tolerance = residual});
-    }
-
-    /// What arrives from the emitters in all is what they sent, less what was lost. In bright rooms
-    /// an error of it would be the error of the whole solution.
-    void balance(const ExchangeMatrix& factors, std::vector<Vec3>& d) const {
-        Vec3 sent(0.0), arrived(0.0), all_sent(0.0), uncertain(0.0);
-        for (std::uint32_t i = 0; i < area_.size(); ++i) {
-            const Vec3 power = area_[i] * emission_[i];
-            const LostShare share = factors.lost(i);
-            const double lost = share.escaped + share.absorbed;
-            all_sent += power;
-            sent += (1 - lost) * power;
-            arrived += area_[i] * d[i];
-            uncertain += power * power * (lost * (1 - lost) / std::max(rays_[i], 1u));
-        }
-        for (int c = 0; c < 3; ++c)
-            if (arrived[c] > 0 && std::sqrt(uncertain[c]) < surely_lost * all_sent[c])
-                for (Vec3& incident : d)
-                    incident[c] *= sent[c] / arrived[c];
+        energies_[set] = close_energy(transport, incident_[set]);
     }
 
     void combine(const ExchangeMatrix& all) {
@@ -274,9 +197,8 @@ class GatheringSolver final : public Solver {
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
             Vec3 mean(0.0), squares(0.0), direct_squares(0.0);
             const Vec3 direct_mean = direct_->irradiance(i);
-            for (std::size_t s = 0; s < sets; ++s) {
+            for (std::size_t s = 0; s < sets; ++s)
                 mean += incident(s, i) / double(sets);
-            }
             for (std::size_t s = 0; s < sets; ++s) {
                 const Vec3 off = incident(s, i) - mean;
                 const Vec3 direct_off = direct_->irradiance(i, s) - direct_mean;
@@ -286,14 +208,17 @@ class GatheringSolver final : public Solver {
             const Vec3 rho = reflectance_[i];
             solution_.radiosity[i] = emission_[i] + rho * incident(sets, i);
             solution_.standard_error[i] = rho * glm::sqrt(squares / double(sets * (sets - 1)));
-            solution_.hits[i] = direct_->hits(i) + std::uint64_t{rays_[i]} * sets;
+            solution_.hits[i] = direct_->hits(i) + std::uint64_t{plan_.rays().random[i]} * sets;
             variance_ += area_[i] * glm::dot(rho * rho, squares);
             direct_variance_ +=
                 area_[i] * glm::dot(rho * rho, direct_squares) / double(generation_ + 1);
         }
         variance_ = std::max(variance_, direct_variance_);
-        weigh(all);
-        account(all);
+        std::vector<Vec3> light(area_.size());
+        for (std::size_t i = 0; i < light.size(); ++i)
+            light[i] = solution_.radiosity[i] - emission_[i] + seen_emission_[i];
+        plan_.weigh(all, light, workers_);
+        account();
         solution_.rays_energy = traced_;
         solution_.bytes_transport = all.bytes() + direct_->bytes();
         for (const RayCounts& set : counts_)
@@ -301,34 +226,31 @@ class GatheringSolver final : public Solver {
         ++solution_.steps;
     }
 
-    void account(const ExchangeMatrix& all) {
-        solution_.energy.absorbed = solution_.energy.escaped = Vec3(0.0);
-        for (std::uint32_t i = 0; i < area_.size(); ++i) {
-            const double area = input_.mesh.frame().area_to_world(area_[i]);
-            const LostShare lost = all.lost(i);
-            solution_.energy.absorbed += area * ((1.0 - reflectance_[i]) * incident(sets, i) +
-                                                 lost.absorbed * solution_.radiosity[i]);
-            solution_.energy.escaped += area * lost.escaped * solution_.radiosity[i];
-        }
+    /// Mean over the generations, as of the light that arrives.
+    void account() {
+        const double to_world = input_.mesh.frame().area_to_world(1.0);
+        const double generations = double(generation_ + 1);
+        const EnergyBalance& energy = energies_[sets];
+        solution_.energy = {to_world * energy.emitted,
+                            to_world / generations * (finished_energy_.absorbed + energy.absorbed),
+                            to_world / generations * (finished_energy_.escaped + energy.escaped),
+                            Vec3(0.0)};
     }
 
     SolverInput input_;
     Workers workers_;
     std::vector<std::uint32_t> emitters_; ///< those reached by shadow rays
-    /// Not from black patches: rays at random tell well enough what these absorb.
-    bool some_unsampled_ = false;
+    GatheringPlan plan_;
     std::vector<double> area_;
     std::vector<Vec3> reflectance_, emission_;
     std::vector<Vec3> seen_emission_; ///< of those that rays at random are to find
     std::vector<RayCounts> counts_;
-    std::optional<DirectLight> direct_;       ///< an estimate for each set
-    std::vector<std::vector<Vec3>> incident_; ///< of each set, at last of all together
-    std::vector<std::vector<Vec3>> finished_; ///< sums over the generations before
+    std::optional<DirectLight> direct_;            ///< an estimate for each set
+    std::vector<std::vector<Vec3>> incident_;      ///< of each set, at last of all together
+    std::vector<std::vector<Vec3>> finished_;      ///< sums over the generations before
+    std::array<EnergyBalance, sets + 1> energies_; ///< likewise, of what was solved last; local
+    EnergyBalance finished_energy_;                ///< of all together, sums; local
     std::uint64_t generation_ = 0;
-    double mean_rays_ = 0, mean_samples_ = 0; ///< per patch and set
-    std::vector<std::uint32_t> rays_, samples_;
-    std::vector<double> weights_, direct_weights_; ///< what a ray or a sample is worth
-    std::vector<double> prior_weights_;            ///< of rays, before anything is known
     double variance_ = 0, direct_variance_ = 0;
     std::uint64_t traced_ = 0;
     Solution solution_;

@@ -12,11 +12,15 @@
 // of patches that see each other and replicate. --exact is for small scenes: its time grows as
 // patches^2 faces.
 
+#include "geometry/compensated_sum.h"
+#include "radiosity/check_input.h"
+#include "radiosity/energy_closing.h"
 #include "radiosity/exact_form_factors.h"
 #include "radiosity/gmres.h"
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
 #include "radiosity/sampled_form_factors.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
 
 #include <algorithm>
@@ -48,6 +52,7 @@ class MatrixSolver final : public Solver {
   public:
     explicit MatrixSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads) {
+        check_input(input);
         const auto patches = input.mesh.patches();
         std::vector<std::uint32_t> emitters;
         if (input.options.exact)
@@ -61,16 +66,18 @@ class MatrixSolver final : public Solver {
                                   hash_words({input.options.seed, r}), needs);
         solution_.standard_error.resize(patches.size());
         solution_.hits.resize(patches.size());
+        CompensatedSum<Vec3> emitted;
         for (std::uint32_t i = 0; i < patches.size(); ++i) {
             solution_.radiosity.push_back(input.mesh.material(i).emission);
-            solution_.energy.emitted +=
-                input.mesh.frame().area_to_world(patches[i].area) * solution_.radiosity[i];
+            emitted += patches[i].area * solution_.radiosity[i];
         }
+        solution_.energy.emitted = input.mesh.frame().area_to_world(1.0) * emitted.value();
+        solution_.energy.unshot = solution_.energy.emitted;
         guesses_.assign(replicates, solution_.radiosity);
     }
 
     bool step() override {
-        const std::uint32_t rays = solution_.steps == 0 ? first_rays() : 2 * rays_;
+        const std::uint32_t rays = rays_ == 0 ? first_rays() : 2 * rays_;
         for (std::size_t r = 0; r < replicates; ++r) {
             input_.monitor.phase = "rays";
             traced_ += factors_[r].trace_up_to(rays, workers_, input_.monitor);
@@ -78,15 +85,27 @@ class MatrixSolver final : public Solver {
             if (input_.monitor.interrupted)
                 return false;
         }
+        rays_of_step_ = rays;
         input_.monitor.phase = "solving";
-        EnergyBalance energy{solution_.energy.emitted, Vec3(0.0), Vec3(0.0)};
+        CompensatedSum<Vec3> absorbed, escaped;
+        bool drained = true;
         for (std::size_t r = 0; r < replicates; ++r) {
-            solve(factors_[r], guesses_[r], energy);
+            const EnergyBalance energy = solve(factors_[r], guesses_[r]);
+            absorbed += energy.absorbed;
+            escaped += energy.escaped;
+            drained = drained && is_drained(energy);
             if (input_.monitor.interrupted)
                 return false;
         }
         rays_ = rays;
-        combine(energy);
+        if (!drained) {
+            require_more_rays(!finished());
+            guesses_.assign(replicates, solution_.radiosity);
+            return step();
+        }
+        for (const std::vector<Vec3>& guess : guesses_)
+            check_finite(input_.mesh, guess, "the radiosity", solution_.steps + 1);
+        combine(absorbed.value() / double(replicates), escaped.value() / double(replicates));
         return true;
     }
 
@@ -103,11 +122,11 @@ class MatrixSolver final : public Solver {
     }
 
     /// B = E + rho F B for one replicate, channel by channel, from the last solution on.
-    void solve(const SampledFormFactors& factors, std::vector<Vec3>& radiosity,
-               EnergyBalance& energy) {
+    EnergyBalance solve(const SampledFormFactors& factors, std::vector<Vec3>& radiosity) {
         const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
         const std::size_t n = radiosity.size();
-        std::vector<double> emission(n), rho(n), x(n), incident(n);
+        std::vector<double> emission(n), rho(n), x(n), arriving(n);
+        std::vector<Vec3> incident(n);
         const int channels = input_.needs.colours ? 3 : 1;
         for (int c = 0; c < channels; ++c) {
             for (std::uint32_t i = 0; i < n; ++i) {
@@ -122,26 +141,44 @@ class MatrixSolver final : public Solver {
                         y[i] = b[i] - rho[i] * y[i];
                 },
                 emission, x);
-            f.multiply(x, incident, workers_);
-            for (std::uint32_t i = 0; i < n; ++i) {
-                const double area =
-                    input_.mesh.frame().area_to_world(input_.mesh.patches()[i].area);
-                const LostShare lost = factors.lost(i);
-                energy.absorbed[c] +=
-                    area * ((1 - rho[i]) * incident[i] + lost.absorbed * x[i]) / replicates;
-                energy.escaped[c] += area * lost.escaped * x[i] / replicates;
-                radiosity[i][c] = x[i];
-            }
+            f.multiply(x, arriving, workers_);
+            for (std::uint32_t i = 0; i < n; ++i)
+                incident[i][c] = arriving[i];
         }
-        if (channels == 1) {
-            energy.absorbed = Vec3(energy.absorbed.r);
-            energy.escaped = Vec3(energy.escaped.r);
-            for (Vec3& b : radiosity)
-                b = Vec3(b.r);
+        if (channels == 1)
+            for (Vec3& all : incident)
+                all = Vec3(all.r);
+        const EnergyBalance energy = close(factors, f, incident);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const Material& material = input_.mesh.material(i);
+            radiosity[i] = material.emission + material.reflectance * incident[i];
         }
+        return energy;
     }
 
-    void combine(const EnergyBalance& energy) {
+    /// The lost shares are those of the rows as they are, of one kind or the other as rays tell.
+    EnergyBalance close(const SampledFormFactors& factors, const SparseMatrix& f,
+                        std::span<Vec3> incident) const {
+        const std::size_t n = incident.size();
+        std::vector<double> area(n), rays(n, rays_of_step_);
+        std::vector<Vec3> emission(n), reflectance(n);
+        std::vector<LostShare> lost(n);
+        const std::vector<double> ones(n, 1.0);
+        std::vector<double> kept(n);
+        f.multiply(ones, kept, workers_);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            area[i] = input_.mesh.patches()[i].area;
+            emission[i] = input_.mesh.material(i).emission;
+            reflectance[i] = input_.mesh.material(i).reflectance;
+            const LostShare by_rays = factors.lost(i);
+            const double sum = by_rays.escaped + by_rays.absorbed;
+            const double scale = sum > 0 ? std::clamp(1 - kept[i], 0.0, 1.0) / sum : 0;
+            lost[i] = {scale * by_rays.escaped, scale * by_rays.absorbed};
+        }
+        return close_energy({area, emission, reflectance, lost, rays}, incident);
+    }
+
+    void combine(const Vec3& absorbed_power, const Vec3& escaped_power) {
         for (std::size_t i = 0; i < solution_.radiosity.size(); ++i) {
             Vec3 sum(0.0), squares(0.0);
             for (const auto& replicate : guesses_)
@@ -154,7 +191,10 @@ class MatrixSolver final : public Solver {
                 glm::sqrt(squares / double(replicates * (replicates - 1)));
             solution_.hits[i] = std::uint64_t{rays_} * replicates;
         }
-        solution_.energy = energy;
+        const double to_world = input_.mesh.frame().area_to_world(1.0);
+        solution_.energy.absorbed = to_world * absorbed_power;
+        solution_.energy.escaped = to_world * escaped_power;
+        solution_.energy.unshot = Vec3(0.0);
         solution_.rays_energy = traced_;
         ++solution_.steps;
     }
@@ -165,6 +205,7 @@ class MatrixSolver final : public Solver {
     std::optional<ExactFormFactors> exact_;
     std::vector<std::vector<Vec3>> guesses_; ///< solution of each replicate
     std::uint32_t rays_ = 0;                 ///< per patch and replicate
+    std::uint32_t rays_of_step_ = 0;         ///< those of the step under way
     std::uint64_t traced_ = 0;
     Solution solution_;
 };

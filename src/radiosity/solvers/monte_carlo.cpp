@@ -18,6 +18,7 @@
 #include "geometry/frame.h"
 #include "radiosity/largest_first.h"
 #include "radiosity/shot.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/stepwise.h"
 #include "radiosity/workers.h"
 
@@ -40,30 +41,36 @@ class MonteCarloSolver final : public StepwiseSolver {
   private:
     bool solve_once(std::uint64_t stream, StepResult& result) override {
         const auto patches = static_cast<std::uint32_t>(input_.mesh.patches().size());
-        std::vector<Vec3> unshot(patches);
+        std::vector<CompensatedSum<Vec3>> unshot(patches), received(patches);
         LargestFirst order(patches);
         for (std::uint32_t i = 0; i < patches; ++i) {
-            unshot[i] = result.radiosity[i] * input_.mesh.patches()[i].area;
-            order.set(i, mean_of_channels(unshot[i]));
+            unshot[i] += result.radiosity[i] * input_.mesh.patches()[i].area;
+            order.set(i, mean_of_channels(unshot[i].value()));
         }
         for (std::uint64_t shots = 0; order.largest() > 0; ++shots) {
             if (input_.monitor.interrupted)
                 return false;
             const auto shooter = static_cast<std::uint32_t>(order.index_of_largest());
-            const Vec3 power = std::exchange(unshot[shooter], Vec3(0.0));
+            const Vec3 power = std::exchange(unshot[shooter], {}).value();
             order.set(shooter, 0);
+            check_finite(input_.mesh, shooter, power, "the power to be shot", step_under_way());
+            check_bounces(shots / patches);
             result.shot += mean_of_channels(power);
             const Vec3 each =
                 shoot(shooter, power, hash_words({input_.options.seed, stream, shots}));
             for (const std::uint32_t i : receivers_)
                 if (i < patches) {
-                    unshot[i] += arrive(i, each, result);
-                    order.set(i, mean_of_channels(unshot[i]));
+                    received[i] += each;
+                    unshot[i] += input_.mesh.material(i).reflectance * each;
+                    order.set(i, mean_of_channels(unshot[i].value()));
+                    ++result.hits[i];
                 } else {
                     (i == escaped ? result.escaped : result.absorbed) += each;
                 }
+            result.sent += double(receivers_.size()) * each;
             count(result);
         }
+        reflect(received, result);
         return true;
     }
 
@@ -101,16 +108,16 @@ class MonteCarloSolver final : public StepwiseSolver {
         return ray;
     }
 
-    /// The part of a ray's power that the patch reflects, which it now holds unshot.
-    Vec3 arrive(std::uint32_t patch, const Vec3& power, StepResult& result) const {
-        const Vec3& reflectance = input_.mesh.material(patch).reflectance;
-        const Vec3 reflected = reflectance * power;
-        const double area = input_.mesh.patches()[patch].area;
-        result.absorbed += power - reflected;
-        if (area > 0)
-            result.radiosity[patch] += reflected / area;
-        ++result.hits[patch];
-        return reflected;
+    /// Radiosity from all power that each patch received.
+    void reflect(const std::vector<CompensatedSum<Vec3>>& received, StepResult& result) const {
+        for (std::uint32_t i = 0; i < received.size(); ++i) {
+            const Vec3& reflectance = input_.mesh.material(i).reflectance;
+            const Vec3 power = received[i].value();
+            const double area = input_.mesh.patches()[i].area;
+            result.absorbed += (1.0 - reflectance) * power;
+            if (area > 0)
+                result.radiosity[i] += reflectance * power / area;
+        }
     }
 
     void count(StepResult& result) {

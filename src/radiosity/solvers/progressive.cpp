@@ -23,13 +23,16 @@
 // patches and high reflectances, as each patch shoots many times. No memory to speak of. Not
 // unbiased: after a finite number of shots some light is missing.
 
+#include "geometry/compensated_sum.h"
+#include "radiosity/check_input.h"
 #include "radiosity/estimate.h"
 #include "radiosity/largest_first.h"
 #include "radiosity/mesh.h"
 #include "radiosity/pair_factor.h"
 #include "radiosity/rng.h"
 #include "radiosity/shot.h"
-#include "radiosity/sobol.h"
+#include "radiosity/shot_balance.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
 #include "radiosity/workers.h"
 
@@ -73,13 +76,15 @@ class ProgressiveSolver final : public Solver {
     explicit ProgressiveSolver(const SolverInput& input)
         : input_(input), options_(input.options.progressive), workers_(input.options.threads),
           sights_(input.mesh.patches().size()), brightest_(sights_.size()), hits_(sights_.size()) {
+        check_input(input);
+        CompensatedSum<Vec3> emitted;
         for (std::uint32_t i = 0; i < sights_.size(); ++i) {
-            const Vec3& emission = input.mesh.material(i).emission;
             const double area = input.mesh.patches()[i].area;
-            emitted_ += emission * area;
+            emitted += input.mesh.material(i).emission * area;
             total_area_ += area;
             mean_reflectance_ += area * input.mesh.material(i).reflectance;
         }
+        emitted_ = emitted.value();
         mean_reflectance_ = glm::min(mean_reflectance_ / total_area_, Vec3(.999));
         const Vec3 rho = glm::max(mean_reflectance_, least_reflectance);
         mean_reflected_ = mean_of_channels(emitted_ * rho / (1.0 - rho)) / total_area_;
@@ -119,6 +124,10 @@ class ProgressiveSolver final : public Solver {
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
   private:
+    struct Sight : PairFactor {
+        double at_risk = 0; ///< about the factor, if it was left to chance whether to look
+    };
+
     void begin_pass() {
         radiosity_.clear();
         for (std::uint32_t i = 0; i < sights_.size(); ++i)
@@ -127,7 +136,7 @@ class ProgressiveSolver final : public Solver {
         for (std::uint32_t i = 0; i < sights_.size(); ++i)
             brightest_.set(i, unshot_power(i));
         variance_.assign(sights_.size(), Vec3(0.0));
-        tally_ = {emitted_, Vec3(0.0), Vec3(0.0)};
+        absorbed_ = escaped_ = by_chance_ = {};
         rays_per_light_ =
             rays_per_light_unit * input_.options.rays * std::pow(growth_of_passes, double(passes_));
     }
@@ -170,12 +179,17 @@ class ProgressiveSolver final : public Solver {
             shot += later;
             unshot_[shooter] = -later;
         }
+        check_finite(input_.mesh, shooter, shot, "the radiosity to be shot", solution_.steps + 1);
         brightest_.set(shooter, unshot_power(shooter));
         look_from_all(shooter, shot);
         if (input_.monitor.interrupted)
             return;
-        receive(shot);
-        lose(shooter, shot);
+        const ShotShares shares = share_out(shooter, shot);
+        receive(shot, shares.scale);
+        const Vec3 power = shot * input_.mesh.patches()[shooter].area;
+        escaped_ += shares.lost.escaped * power;
+        absorbed_ += shares.lost.absorbed * power;
+        by_chance_ += shares.by_chance * power;
         ++shots_;
     }
 
@@ -193,19 +207,22 @@ class ProgressiveSolver final : public Solver {
             });
     }
 
-    [[nodiscard]] PairFactor look(std::uint32_t receiver, std::uint32_t shooter, const Vec3& shot,
-                                  std::uint64_t seed) const {
+    [[nodiscard]] Sight look(std::uint32_t receiver, std::uint32_t shooter, const Vec3& shot,
+                             std::uint64_t seed) const {
         const auto patches = input_.mesh.patches();
         if (receiver == shooter || !may_see(patches[receiver], patches[shooter]))
             return {};
         if (!input_.needs.power(receiver)) // what it absorbs is accounted for by lose()
             return {};
-        const double rays = worth(receiver, shooter, shot);
+        const double rough = rough_factor(patches[receiver], patches[shooter]);
+        const double rays = worth(receiver, rough, shot);
         const double chance = std::min(rays / least_worth, 1.0);
+        const double at_risk = chance < 1 ? rough : 0;
         if (chance < 1 && !(Rng(hash_words({seed, receiver})).uniform() < chance))
-            return {};
-        PairFactor f = pair_factor(input_.mesh, input_.tracer, receiver, shooter, rays, seed,
-                                   input_.needs.visibility);
+            return {{}, at_risk};
+        Sight f{pair_factor(input_.mesh, input_.tracer, receiver, shooter, rays, seed,
+                            input_.needs.visibility),
+                at_risk};
         f.variance = f.variance / chance + (1 - chance) * (f.factor / chance) * (f.factor / chance);
         f.factor /= chance;
         return f;
@@ -213,28 +230,39 @@ class ProgressiveSolver final : public Solver {
 
     /// How many rays a pair is worth. The error of a sum is least with rays in proportion to what
     /// each term contributes; an error counts by the root of the area.
-    [[nodiscard]] double worth(std::uint32_t receiver, std::uint32_t shooter,
-                               const Vec3& shot) const {
+    [[nodiscard]] double worth(std::uint32_t receiver, double rough, const Vec3& shot) const {
         const Patch& i = input_.mesh.patches()[receiver];
         const Vec3 rho = glm::max(input_.mesh.material(receiver).reflectance, least_reflectance);
-        const double light = mean_of_channels(rho * glm::abs(shot)) *
-                             rough_factor(i, input_.mesh.patches()[shooter]);
+        const double light = mean_of_channels(rho * glm::abs(shot)) * rough;
         const double mean_area = total_area_ / static_cast<double>(sights_.size());
         return rays_per_light_ * light / mean_reflected_ * std::sqrt(i.area / mean_area);
     }
 
-    /// In the order of the patches, whatever thread has looked.
-    void receive(const Vec3& shot) {
+    [[nodiscard]] ShotShares share_out(std::uint32_t shooter, const Vec3& shot) {
+        const double area = input_.mesh.patches()[shooter].area;
+        CompensatedSum<double> sum;
+        double variance = 0, at_risk = 0;
         for (std::uint32_t i = 0; i < sights_.size(); ++i) {
-            const PairFactor& seen = sights_[i];
+            const double ratio = input_.mesh.patches()[i].area / area;
+            sum += ratio * sights_[i].factor;
+            variance += ratio * ratio * sights_[i].variance;
+            at_risk += ratio * sights_[i].at_risk;
+        }
+        return balance_.settle({sum.value(), variance, at_risk}, look_for_losses(shooter, shot));
+    }
+
+    /// In the order of the patches, whatever thread has looked.
+    void receive(const Vec3& shot, double scale) {
+        for (std::uint32_t i = 0; i < sights_.size(); ++i) {
+            const Sight& seen = sights_[i];
             const Vec3& rho = input_.mesh.material(i).reflectance;
-            const Vec3 incident = shot * seen.factor;
+            const Vec3 incident = shot * (scale * seen.factor);
             radiosity_[i] += rho * incident;
             unshot_[i] += rho * incident;
             if (seen.factor > 0)
                 brightest_.set(i, unshot_power(i));
-            variance_[i] += rho * shot * rho * shot * seen.variance;
-            tally_.absorbed += (1.0 - rho) * incident * input_.mesh.patches()[i].area;
+            variance_[i] += rho * shot * rho * shot * (scale * scale * seen.variance);
+            absorbed_ += (1.0 - rho) * incident * input_.mesh.patches()[i].area;
             hits_[i] += seen.hits;
             points_ += seen.points;
             rays_ += seen.rays;
@@ -242,40 +270,29 @@ class ProgressiveSolver final : public Solver {
     }
 
     /// Factors do not tell where the rest of the light went; some rays from the shooter do.
-    void lose(std::uint32_t shooter, const Vec3& shot) {
-        const Patch& s = input_.mesh.patches()[shooter];
-        const double share = mean_of_channels(glm::abs(shot)) * s.area / mean_of_channels(emitted_);
-        const double wanted = std::clamp(rays_per_light_ * share, least_lost_rays, most_lost_rays);
+    [[nodiscard]] ShotRays look_for_losses(std::uint32_t shooter, const Vec3& shot) {
+        const double power = mean_of_channels(glm::abs(shot)) * input_.mesh.patches()[shooter].area;
+        const double wanted = std::clamp(rays_per_light_ * power / mean_of_channels(emitted_),
+                                         least_lost_rays, most_lost_rays);
         const auto count = std::bit_ceil(static_cast<std::uint32_t>(wanted));
-        const std::uint64_t seed = hash_words({input_.options.seed, shots_, shooter, 1});
-        const Frame frame = Frame::from_normal(s.normal);
-        const Vec3 each = shot * (s.area / count);
-        std::vector<Ray> rays;
-        for (std::uint32_t k = 0; k < count; ++k) {
-            const auto u = sobol4(k, seed);
-            rays.push_back(
-                {s.shape.sample({u[0], u[1]}), frame.to_world(cosine_direction({u[2], u[3]}))});
-            rays.back().from = s.facet;
-        }
-        std::vector<std::uint32_t> receivers;
-        find_receivers(rays, input_.mesh, input_.tracer, receivers);
-        for (const std::uint32_t receiver : receivers)
-            if (receiver == escaped)
-                tally_.escaped += each;
-            else if (receiver == absorbed || !input_.needs.power(receiver))
-                tally_.absorbed += each;
         points_ += count;
         rays_ += count;
         input_.monitor.rays += count;
+        return shoot_to_lose(input_.mesh, input_.tracer, input_.needs, shooter, count,
+                             hash_words({input_.options.seed, shots_, shooter, 1}));
     }
 
     /// Irradiance that the unshot light will bring to the mean patch: the ambient term of Cohen et
     /// al. (1988).
     [[nodiscard]] Vec3 ambient() const {
-        Vec3 unshot(0.0);
+        return power_unshot() / (1.0 - mean_reflectance_) / total_area_;
+    }
+
+    [[nodiscard]] Vec3 power_unshot() const {
+        CompensatedSum<Vec3> power;
         for (std::uint32_t i = 0; i < unshot_.size(); ++i)
-            unshot += unshot_[i] * input_.mesh.patches()[i].area;
-        return unshot / (1.0 - mean_reflectance_) / total_area_;
+            power += unshot_[i] * input_.mesh.patches()[i].area;
+        return power.value();
     }
 
     /// After the last shot of this pass.
@@ -286,7 +303,10 @@ class ProgressiveSolver final : public Solver {
             power_variance += std::pow(input_.mesh.patches()[i].area, 2.0) * variance_[i];
         const Vec3 gain = 1.0 / ((1.0 - mean_reflectance_) * total_area_);
         const Vec3 shared = missing * missing + gain * gain * power_variance;
-        Estimate result{radiosity_, variance_, tally_};
+        Estimate result{
+            radiosity_,
+            variance_,
+            {emitted_, absorbed_.value(), escaped_.value(), power_unshot() + by_chance_.value()}};
         for (std::uint32_t i = 0; i < sights_.size(); ++i) {
             const Vec3& rho = input_.mesh.material(i).reflectance;
             result.variance[i] += rho * rho * shared;
@@ -297,6 +317,7 @@ class ProgressiveSolver final : public Solver {
     }
 
     void publish(const Estimate& estimate) {
+        check_finite(input_.mesh, estimate.radiosity, "the radiosity", solution_.steps + 1);
         solution_.radiosity = estimate.radiosity;
         solution_.standard_error.clear();
         for (const Vec3& variance : estimate.variance)
@@ -304,7 +325,7 @@ class ProgressiveSolver final : public Solver {
         solution_.hits = hits_;
         const double to_world = input_.mesh.frame().area_to_world(1.0);
         solution_.energy = {to_world * emitted_, to_world * estimate.energy.absorbed,
-                            to_world * estimate.energy.escaped};
+                            to_world * estimate.energy.escaped, to_world * estimate.energy.unshot};
         solution_.rays_energy = rays_;
         ++solution_.steps;
     }
@@ -318,11 +339,12 @@ class ProgressiveSolver final : public Solver {
     double mean_reflected_ = 0;
     Vec3 emitted_{0.0};
     // The present pass after its last shot; solution_ is that after the last step.
-    std::vector<Vec3> radiosity_, unshot_; ///< B and dB
-    std::vector<PairFactor> sights_;       ///< of the present shot
-    LargestFirst brightest_;               ///< unshot power
-    std::vector<Vec3> variance_;           ///< of B by sampling
-    EnergyBalance tally_;                  ///< local units
+    std::vector<Vec3> radiosity_, unshot_;                ///< B and dB
+    std::vector<Sight> sights_;                           ///< of the present shot
+    LargestFirst brightest_;                              ///< unshot power
+    std::vector<Vec3> variance_;                          ///< of B by sampling
+    CompensatedSum<Vec3> absorbed_, escaped_, by_chance_; ///< power, local units
+    ShotBalance balance_;
     double rays_per_light_ = 0;
     // All passes before.
     Estimate mean_;

@@ -1,0 +1,13 @@
+#pragma once
+// Whether there is anything to solve: what each method asks before it begins.
+
+namespace hemilux {
+
+struct SolverInput;
+
+/// Throws SolveError where a patch has a reflectance outside of [0,1] or an emission that is
+/// negative or not finite, where emitted powers overflow, and where light is trapped between
+/// surfaces of reflectance 1 (trapped_light.h).
+void check_input(const SolverInput& input);
+
+} // namespace hemilux

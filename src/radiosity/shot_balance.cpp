@@ -1,0 +1,67 @@
+#include "radiosity/shot_balance.h"
+
+#include "geometry/frame.h"
+#include "radiosity/mesh.h"
+#include "radiosity/receivers.h"
+#include "radiosity/shot.h"
+#include "radiosity/sobol.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+/// Where more than this share is left to chance factors are not scaled: they would no longer be
+/// right on average. What was found must not decide it, for the same reason.
+constexpr double most_at_risk = .05;
+
+} // namespace
+
+ShotRays shoot_to_lose(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
+                       std::uint32_t shooter, std::uint32_t count, std::uint64_t seed) {
+    const Patch& from = mesh.patches()[shooter];
+    const Frame frame = Frame::from_normal(from.normal);
+    std::vector<Ray> rays;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const auto u = sobol4(k, seed);
+        rays.push_back(
+            {from.shape.sample({u[0], u[1]}), frame.to_world(cosine_direction({u[2], u[3]}))});
+        rays.back().from = from.facet;
+    }
+    std::vector<std::uint32_t> receivers;
+    find_receivers(rays, mesh, tracer, receivers);
+    ShotRays result{double(count), 0, 0};
+    for (const std::uint32_t receiver : receivers)
+        if (receiver == escaped)
+            ++result.escaped;
+        else if (receiver == absorbed || !needs.power(receiver))
+            ++result.absorbed;
+    return result;
+}
+
+ShotShares ShotBalance::settle(const FactorSum& factors, const ShotRays& rays) {
+    const auto [sum, variance, at_risk] = factors;
+    all_.count += rays.count;
+    all_.escaped += rays.escaped;
+    all_.absorbed += rays.absorbed;
+    const double lost = (rays.escaped + rays.absorbed) / rays.count;
+    if (!(sum > 0) || at_risk > most_at_risk)
+        return {1, {rays.escaped / rays.count, rays.absorbed / rays.count}, 1 - sum - lost};
+    const double all_lost = (all_.escaped + all_.absorbed) / all_.count;
+    if (!(all_lost > 0))
+        return {1 / sum, {}, 0};
+    // As if one more ray had met what rays meet on average.
+    const double chance = (lost * rays.count + all_lost) / (rays.count + 1);
+    const double variance_of_rays = chance * (1 - chance) / rays.count;
+    const double both = variance + variance_of_rays;
+    const double joined =
+        both > 0 ? ((1 - lost) * variance + sum * variance_of_rays) / both : 1 - lost;
+    const double arriving = std::min(joined, 1.0);
+    const LostShare kinds{rays.escaped + all_.escaped / all_.count,
+                          rays.absorbed + all_.absorbed / all_.count};
+    const double each = (1 - arriving) / (kinds.escaped + kinds.absorbed);
+    return {arriving / sum, {each * kinds.escaped, each * kinds.absorbed}, 0};
+}
+
+} // namespace hemilux

@@ -1,0 +1,38 @@
+#pragma once
+// What keeps a scene from being solved: found before the first step or within one. The solution of
+// the steps before stays what it was.
+
+#include "geometry/vector.h"
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+/// what() says which patch, face and material, and in which step.
+struct SolveError : std::runtime_error {
+    SolveError(const std::string& message, std::uint32_t first_face)
+        : std::runtime_error(message), face(first_face) {}
+    std::uint32_t face; ///< of the file, from 0: one of those it is about
+};
+
+/// Larger radiosities are refused, so that sums of their squares remain finite [W/m2].
+inline constexpr double largest_radiosity = 1e145;
+
+/// "patch 3 (face 1, material 'wall')"
+[[nodiscard]] std::string name_of_patch(const Mesh& mesh, std::uint32_t patch);
+
+/// Throws SolveError for the first patch whose value is not finite, or beyond largest_radiosity.
+/// `step` from 1; 0: before the first.
+void check_finite(const Mesh& mesh, std::span<const Vec3> values, const char* what,
+                  std::uint64_t step);
+/// The same for one patch.
+void check_finite(const Mesh& mesh, std::uint32_t patch, const Vec3& value, const char* what,
+                  std::uint64_t step);
+
+} // namespace hemilux
