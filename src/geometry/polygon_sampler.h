@@ -24,7 +24,8 @@ class PolygonSampler {
         if (even_)
             return corner_ + u.x * first_ + u.y * second_;
         const double s = between(u.x, at_[0] + at_[2], at_[1] + at_[3]);
-        const double t = between(u.y, at_[0] + s * (at_[1] - at_[0]), at_[2] + s * (at_[3] - at_[2]));
+        const double t =
+            between(u.y, at_[0] + s * (at_[1] - at_[0]), at_[2] + s * (at_[3] - at_[2]));
         return corner_ + s * first_ + t * (second_ + s * twist_);
     }
 
@@ -39,8 +40,8 @@ class PolygonSampler {
     Vec3 corner_;          ///< corner 0, from which all is measured
     /// A triangle's edge there and the one across; a quad's edges there: e and f.
     Vec3 first_, second_;
-    Vec3 twist_{0.0};              ///< g
-    std::array<double, 4> at_{};   ///< J at (0,0), (1,0), (0,1), (1,1)
+    Vec3 twist_{0.0};            ///< g
+    std::array<double, 4> at_{}; ///< J at (0,0), (1,0), (0,1), (1,1)
 };
 
 } // namespace hemilux
