@@ -1,18 +1,25 @@
 #include "radiosity/stacked_facets.h"
 
+#include "geometry/box.h"
 #include "geometry/polygon.h"
 #include "radiosity/rng.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
 namespace hemilux {
 namespace {
 
-/// Corners in an order that does not depend on where a facet begins and which way it runs.
+/// Corners of less than this apart, of the size of the scene, are in one place: what was computed
+/// in two ways may differ in the last bits.
+constexpr double rounding = 0x1p-36;
+
+/// Corners in an order that does not depend on where a facet begins and which way it runs, as whole
+/// numbers.
 using Place = std::array<Vec3, 4>;
 
 bool before(const Vec3& a, const Vec3& b) {
@@ -27,8 +34,10 @@ Polygon shape_of(const Facet& facet, std::span<const Vec3> vertices) {
 }
 
 /// A triangle's third corner stands there twice; here its first one does.
-Place place_of(const Facet& facet, std::span<const Vec3> vertices) {
+Place place_of(const Facet& facet, std::span<const Vec3> vertices, double unit) {
     Place place = shape_of(facet, vertices).corner;
+    for (Vec3& corner : place)
+        corner = glm::round(corner / unit);
     if (facet.is_triangle())
         place[3] = std::min({place[0], place[1], place[2]}, before);
     for (const auto& [low, high] : {std::pair{0u, 1u}, {2u, 3u}, {0u, 2u}, {1u, 3u}, {1u, 2u}})
@@ -48,13 +57,21 @@ std::uint64_t hash_of(const Place& place) {
 class Stacker {
   public:
     Stacker(const Scene& scene, std::span<const Vec3> vertices)
-        : scene_(scene), vertices_(vertices) {}
+        : scene_(scene), vertices_(vertices) {
+        Box bounds;
+        for (const Vec3& v : vertices)
+            bounds.include(v);
+        const Vec3 extent = bounds.extent();
+        int exponent = 0;
+        std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
+        unit_ = std::ldexp(rounding, exponent);
+    }
 
     Stacks find() {
         std::vector<std::pair<std::uint64_t, std::uint32_t>> facets;
         facets.reserve(scene_.facets.size());
         for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
-            facets.emplace_back(hash_of(place_of(scene_.facets[f], vertices_)), f);
+            facets.emplace_back(hash_of(place_of(scene_.facets[f], vertices_, unit_)), f);
         std::ranges::sort(facets);
         for (auto begin = facets.begin(); begin != facets.end();) {
             const auto end = std::find_if(begin, facets.end(),
@@ -69,11 +86,12 @@ class Stacker {
   private:
     /// Facets with the same hash, by index.
     void stack(std::span<const std::pair<std::uint64_t, std::uint32_t>> facets) {
-        const Place place = place_of(scene_.facets[facets[0].second], vertices_);
+        const Place place = place_of(scene_.facets[facets[0].second], vertices_, unit_);
         const Vec3 normal = shape_of(scene_.facets[facets[0].second], vertices_).area_vector();
         std::array<std::vector<std::uint32_t>, 2> sides;
         for (const auto& [hash, f] : facets) {
-            if (place_of(scene_.facets[f], vertices_) != place) // by chance; it stays where it is
+            if (place_of(scene_.facets[f], vertices_, unit_) !=
+                place) // by chance; it stays where it is
                 continue;
             const Vec3 own = shape_of(scene_.facets[f], vertices_).area_vector();
             sides[glm::dot(own, normal) < 0 ? 1 : 0].push_back(f);
@@ -103,6 +121,7 @@ class Stacker {
 
     const Scene& scene_;
     std::span<const Vec3> vertices_;
+    double unit_ = 1;
     Stacks stacks_;
 };
 
