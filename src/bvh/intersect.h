@@ -5,6 +5,7 @@
 #include "bvh/tracer.h"
 #include "geometry/watertight.h"
 
+#include <limits>
 #include <span>
 
 namespace hemilux {
@@ -19,22 +20,27 @@ struct FacetSoup {
 };
 
 /// True, and the hit filled in, when facet `corners` is struck at a t in (ray.t_min, t_max].
+/// A ray through a quad's diagonal strikes the first half: by rounding t may differ between the
+/// two, and which is taken must not depend on what was struck before.
 template <EdgeRule rule>
 [[nodiscard]] inline bool hit_facet(std::span<const Vec3> vertices, const FacetCorners& corners,
                                     const ShearedRay& sheared, double t_min, double t_max,
                                     Hit& hit) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto in_range = [&](double t) { return t > t_min && t <= t_max; };
     const Vec3 p0 = sheared.transform(vertices[corners[0]]);
     const Vec3 p1 = sheared.transform(vertices[corners[1]]);
     const Vec3 p2 = sheared.transform(vertices[corners[2]]);
     TriangleHit found;
-    bool second_half = false;
-    if (!hit_triangle<rule>(p0, p1, p2, t_min, t_max, found)) {
-        if (corners[2] == corners[3])
+    const bool pierced = hit_triangle<rule>(p0, p1, p2, -infinity, infinity, found);
+    const bool second_half = !(pierced && in_range(found.t));
+    if (second_half) {
+        const bool on_diagonal = pierced && found.u == 0;
+        if (corners[2] == corners[3] || on_diagonal)
             return false;
         const Vec3 p3 = sheared.transform(vertices[corners[3]]);
         if (!hit_triangle<rule>(p0, p2, p3, t_min, t_max, found))
             return false;
-        second_half = true;
     }
     hit.t = found.t;
     hit.u = found.u;

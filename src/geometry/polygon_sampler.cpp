@@ -1,25 +1,24 @@
 #include "geometry/polygon_sampler.h"
 
+#include <algorithm>
+
 namespace hemilux {
-namespace {
 
-double triangle_area(const Vec3& edge, const Vec3& across) {
-    return 0.5 * glm::length(glm::cross(edge, edge + across));
-}
-
-} // namespace
-
-PolygonSampler::PolygonSampler(const Polygon& polygon) : corner_(polygon.corner[0]) {
+PolygonSampler::PolygonSampler(const Polygon& polygon)
+    : triangle_(polygon.is_triangle()), even_(false), corner_(polygon.corner[0]) {
     const auto& [a, b, c, d] = polygon.corner;
-    edge_ = {b - a, c - b, c - a, d - c};
-    parallelogram_ = !polygon.is_triangle() && b - a == c - d;
-    if (parallelogram_) {
-        edge_[1] = d - a;
-    } else if (!polygon.is_triangle()) {
-        const double first = triangle_area(edge_[0], edge_[1]);
-        const double both = first + triangle_area(edge_[2], edge_[3]);
-        split_ = both > 0 ? first / both : 1.0;
-    }
+    first_ = b - a;
+    second_ = triangle_ ? c - b : d - a;
+    if (triangle_)
+        return;
+    twist_ = (c - d) - first_;
+    const Vec3 normal = polygon.area_vector();
+    const auto stretch = [&](const Vec3& along, const Vec3& across) {
+        return std::max(glm::dot(glm::cross(along, across), normal), 0.0);
+    };
+    at_ = {stretch(b - a, d - a), stretch(b - a, c - b), stretch(c - d, d - a),
+           stretch(c - d, c - b)};
+    even_ = at_[0] == at_[1] && at_[0] == at_[2] && at_[0] == at_[3] && twist_ == Vec3(0.0);
 }
 
 } // namespace hemilux

@@ -1,6 +1,11 @@
 #pragma once
 // Points uniform over one polygon, many of them: what does not depend on the point is worked out
 // once.
+//
+// A quad's bilinear map p = a + s e + t f + s t g stretches areas by J0 + s J1 + t J2, if the quad
+// is planar; so s, then t follow linear densities (Shirley, Laine, Hart, Pharr et al. 2019,
+// "Sampling transformations zoo", bilinear patches). A parallelogram is the case J1 = J2 = 0 and no
+// switch: corners moved by a rounding error move the points by no more.
 
 #include "geometry/polygon.h"
 
@@ -14,23 +19,29 @@ class PolygonSampler {
 
     /// For u uniform in [0,1)^2; keeps stratification of u.
     [[nodiscard]] Vec3 sample(Vec2 u) const {
-        if (parallelogram_)
-            return corner_ + u.x * edge_[0] + u.y * edge_[1];
-        if (!(u.x >= split_ && split_ < 1))
-            return sample_triangle(edge_[0], edge_[1], {u.x / split_, u.y});
-        return sample_triangle(edge_[2], edge_[3], {(u.x - split_) / (1.0 - split_), u.y});
+        if (triangle_) // the square root turns equal shares of u.x into strips of equal area
+            return corner_ + std::sqrt(u.x) * (first_ + u.y * second_);
+        if (even_)
+            return corner_ + u.x * first_ + u.y * second_;
+        const double s = between(u.x, at_[0] + at_[2], at_[1] + at_[3]);
+        const double t =
+            between(u.y, at_[0] + s * (at_[1] - at_[0]), at_[2] + s * (at_[3] - at_[2]));
+        return corner_ + s * first_ + t * (second_ + s * twist_);
     }
 
   private:
-    /// The square root turns equal shares of u.x into strips of equal area.
-    [[nodiscard]] Vec3 sample_triangle(const Vec3& first, const Vec3& across, Vec2 u) const {
-        return corner_ + std::sqrt(u.x) * (first + u.y * across);
+    /// Where a density that is a at 0 and b at 1, both >= 0, has the share u behind it.
+    [[nodiscard]] static double between(double u, double a, double b) {
+        const double root = a + std::sqrt(a * a + u * (b * b - a * a));
+        return root > 0 ? u * (a + b) / root : u;
     }
 
-    Vec3 corner_;                ///< corner 0, from which all is measured
-    std::array<Vec3, 4> edge_{}; ///< from it and across, of the half (0,1,2) and of (0,2,3)
-    double split_ = 1;           ///< share of the half (0,1,2); 1 for triangles
-    bool parallelogram_ = false; ///< needs no choice between halves
+    bool triangle_, even_; ///< even: J1 = J2 = 0
+    Vec3 corner_;          ///< corner 0, from which all is measured
+    /// A triangle's edge there and the one across; a quad's edges there: e and f.
+    Vec3 first_, second_;
+    Vec3 twist_{0.0};            ///< g
+    std::array<double, 4> at_{}; ///< J at (0,0), (1,0), (0,1), (1,1)
 };
 
 } // namespace hemilux

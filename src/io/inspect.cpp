@@ -2,6 +2,7 @@
 
 #include "geometry/polygon.h"
 #include "io/welded_edges.h"
+#include "radiosity/stacked_facets.h"
 
 #include <algorithm>
 #include <charconv>
@@ -100,6 +101,7 @@ SceneInfo inspect(const ReadResult& read) {
     const EdgeCounts edges = count_edges(scene);
     info.open_edges = edges.open;
     info.nonmanifold_edges = edges.nonmanifold;
+    info.covered_facets = find_stacks(scene, scene.vertices).covered;
     info.degenerate_faces = read.degenerate_faces;
     info.nonplanar_faces = read.nonplanar_faces;
     info.concave_faces = read.concave_faces;
@@ -147,6 +149,8 @@ std::string describe(const SceneInfo& info) {
     add_doubt(text, "open edges", info.open_edges,
               "edges of only one face: a boundary, or a vertex on an edge of another face");
     add_doubt(text, "shared edges", info.nonmanifold_edges, "edges of more than two faces");
+    add_doubt(text, "covered", info.covered_facets,
+              "facets in the place of another that faces the same way; one of them is seen");
     for (const std::string& message : info.bad_reflectances)
         add_line(text, "bad reflectance", message);
     return text;

@@ -1,13 +1,17 @@
 #include "io/obj.h"
 
+#include "geometry/box.h"
 #include "io/error.h"
 #include "io/material_table.h"
 #include "io/polygon_division.h"
 #include "io/text_reader.h"
 #include "io/text_words.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdio>
+#include <limits>
 #include <span>
 #include <unordered_map>
 
@@ -54,6 +58,7 @@ class ObjReader {
     std::span<const std::uint32_t> corners_of(std::size_t face) const;
     void warn(const Tally& tally, const std::string& one, const std::string& many);
     void collect_warnings();
+    std::string rounding_of_places() const;
 
     std::string path_;
     MaterialTable materials_;
@@ -81,7 +86,7 @@ ReadResult ObjReader::read() {
     check_corners();
     divide_faces();
     if (result_.scene.facets.empty())
-        throw InputError(path_, "none of the faces has an area");
+        throw InputError(path_, "none of the faces has an area" + rounding_of_places());
     collect_warnings();
     return std::move(result_);
 }
@@ -239,11 +244,34 @@ void ObjReader::warn(const Tally& tally, const std::string& one, const std::stri
                                    " (this is the first)");
 }
 
+/// What there is to say where doubles hardly tell the scene's places from each other, because it is
+/// so far from the origin; else nothing.
+std::string ObjReader::rounding_of_places() const {
+    constexpr double noticeable = 1e-7; // of the scene's size
+    Box bounds;
+    for (const std::uint32_t corner : corners_)
+        bounds.include(result_.scene.vertices[corner]);
+    const auto largest_of = [](const Vec3& v) { return std::max({v.x, v.y, v.z}); };
+    const double farthest = largest_of(glm::max(glm::abs(bounds.low), glm::abs(bounds.high)));
+    const double spacing = std::numeric_limits<double>::epsilon() * farthest;
+    const double size = largest_of(bounds.extent());
+    if (!(spacing > noticeable * size))
+        return "";
+    std::array<char, 200> text{};
+    std::snprintf(text.data(), text.size(),
+                  ": all lies near %.2g, where numbers are rounded to %.2g, and is %.2g wide; move "
+                  "it nearer to the origin",
+                  farthest, spacing, size);
+    return text.data();
+}
+
 void ObjReader::collect_warnings() {
     materials_.finish();
     result_.scene.materials = std::move(materials_.materials);
     result_.material_source = std::move(materials_.sources);
     result_.warnings = std::move(materials_.warnings);
+    if (const std::string rounding = rounding_of_places(); !rounding.empty())
+        result_.warnings.push_back(path_ + rounding);
     warn(few_corners_, "a face with fewer than 3 corners is left out",
          "faces with fewer than 3 corners are left out");
     warn(no_area_, "a face without area is left out", "faces without area are left out");

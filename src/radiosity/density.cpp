@@ -111,7 +111,8 @@ constexpr double divide_all = -1;
 
 Vec3 density_direction(const Vec3& vertex) {
     constexpr double lift = 0.01; // sine of the elevation
-    return glm::normalize(Vec3(vertex.x, vertex.y, std::max(vertex.z, lift)));
+    const bool pole = vertex.x == 0 && vertex.y == 0;
+    return glm::normalize(Vec3(pole ? lift : vertex.x, vertex.y, std::max(vertex.z, lift)));
 }
 
 DensityMap::DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere& hemisphere,

@@ -36,7 +36,9 @@ struct DensityCount {
 };
 
 /// The direction of a density ray through a vertex of the table. Vertices on the horizon lie in the
-/// patch's plane, where a count would hang on rounding errors; their rays are lifted a little.
+/// patch's plane, where a count would hang on rounding errors; their rays are lifted a little. So
+/// does the pole where walls stand square to each other: straight on from the middle of a patch
+/// there is often an edge. Its ray is tipped as little.
 [[nodiscard]] Vec3 density_direction(const Vec3& vertex);
 
 class DensityMap {

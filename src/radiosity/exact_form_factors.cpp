@@ -33,10 +33,10 @@ bool overlap(const Box& a, const Box& b) {
     return true;
 }
 
-Polygon shape_of(const Mesh& mesh, const Facet& facet) {
+Polygon shape_of(const FacetSoup& soup, std::size_t facet) {
     Polygon shape;
     for (std::size_t c = 0; c < 4; ++c)
-        shape.corner[c] = mesh.vertices()[facet.vertex[c]];
+        shape.corner[c] = soup.vertices[soup.facets[facet][c]];
     return shape;
 }
 
@@ -82,7 +82,7 @@ bool nothing_between(const Mesh& mesh, std::span<const Box> facet_boxes, const F
     for (std::size_t f = 0; f < facet_boxes.size(); ++f) {
         if (f == from.facet || f == to.facet || !overlap(facet_boxes[f], box))
             continue;
-        const Polygon shape = shape_of(mesh, mesh.scene().facets[f]);
+        const Polygon shape = shape_of(mesh.soup(), f);
         const Outline part =
             in_front(in_front(outline_of(shape), first, plane_rounding), second, plane_rounding);
         if (!part.empty() && overlap(box_of(part), box) && !separated(part, shape.normal(), pair))
@@ -96,8 +96,8 @@ bool nothing_between(const Mesh& mesh, std::span<const Box> facet_boxes, const F
 ExactFormFactors::ExactFormFactors(const Mesh& mesh, const Workers& workers, const Monitor& monitor)
     : mesh_(mesh), rows_(mesh.patches().size()) {
     std::vector<Box> boxes;
-    for (const Facet& facet : mesh.scene().facets)
-        boxes.push_back(box_of(outline_of(shape_of(mesh, facet))));
+    for (std::size_t f = 0; f < mesh.soup().facets.size(); ++f)
+        boxes.push_back(box_of(outline_of(shape_of(mesh.soup(), f))));
     workers.for_chunks(rows_.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
             find_row(static_cast<std::uint32_t>(i), boxes);

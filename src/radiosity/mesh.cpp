@@ -2,6 +2,7 @@
 
 #include "geometry/numeric.h"
 #include "radiosity/rng.h"
+#include "radiosity/stacked_facets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,6 +81,9 @@ Mesh::Mesh(Scene scene, const MeshOptions& options)
     vertices_.reserve(scene_.vertices.size());
     for (const Vec3& v : scene_.vertices)
         vertices_.push_back(frame_.to_local(v));
+    for (const Facet& facet : scene_.facets)
+        corners_.push_back(facet.vertex);
+    lay_apart();
     divisions_.reserve(scene_.facets.size());
     for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
         divide(f, options);
@@ -92,12 +96,33 @@ Frame Mesh::hemisphere_frame(std::uint32_t patch) const {
 
 FacetSoup Mesh::soup() const { return {vertices_, corners_}; }
 
-void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
-    const Facet& facet = scene_.facets[f];
-    corners_.push_back(facet.vertex);
+Polygon Mesh::shape_of(std::uint32_t facet) const {
     Polygon shape;
     for (std::size_t i = 0; i < 4; ++i)
-        shape.corner[i] = vertices_[facet.vertex[i]];
+        shape.corner[i] = vertices_[corners_[facet][i]];
+    return shape;
+}
+
+/// One of a stack stays, so that a room remains as closed as it was.
+void Mesh::lay_apart() {
+    constexpr double step = 0x1p-28; // larger than what is taken for rounding elsewhere
+    const Stacks stacks = find_stacks(scene_, vertices_);
+    for (std::uint32_t f = 0; f < stacks.lift.size(); ++f) {
+        const Polygon shape = shape_of(f);
+        if (stacks.lift[f] == 0 || !(shape.area() > 0))
+            continue;
+        const bool triangle = shape.is_triangle();
+        const Vec3 way = stacks.lift[f] * step * shape.normal();
+        const auto first = static_cast<std::uint32_t>(vertices_.size());
+        for (const Vec3& corner : shape.corner)
+            vertices_.push_back(corner + way);
+        corners_[f] = {first, first + 1, first + 2, first + (triangle ? 2 : 3)};
+    }
+}
+
+void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
+    const Facet& facet = scene_.facets[f];
+    const Polygon shape = shape_of(f);
     const double max_edge = options.max_edge > 0 ? options.max_edge * frame_.scale
                                                  : std::numeric_limits<double>::infinity();
     Division division{};

@@ -58,7 +58,8 @@ class Mesh {
     [[nodiscard]] const Material& material(std::uint32_t patch) const {
         return scene_.materials[patches_[patch].material];
     }
-    /// Vertices of the scene in the local frame, indexed by Facet::vertex.
+    /// Vertices of the scene in the local frame, indexed by Facet::vertex; then those of facets
+    /// that lay in the same place and were laid one upon the other (stacked_facets.h).
     [[nodiscard]] std::span<const Vec3> vertices() const { return vertices_; }
     /// The frame in which the subdivided hemisphere of a patch stands: turned about the normal by
     /// an angle hashed from the patch's index, so that its vertices do not run along the edges of a
@@ -90,6 +91,8 @@ class Mesh {
         double g_x = 0, g_y = 0;
     };
 
+    [[nodiscard]] Polygon shape_of(std::uint32_t facet) const;
+    void lay_apart();
     void divide(std::uint32_t facet, const MeshOptions& options);
     void divide_quad(Division& division, const Polygon& shape, double max_edge, std::size_t room,
                      std::vector<Polygon>& made) const;

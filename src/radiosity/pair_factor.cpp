@@ -45,9 +45,11 @@ void PairFactor::average(std::span<const double> sums, double points_each) {
 }
 
 bool may_see(const Patch& a, const Patch& b) {
-    // Neighbours in one plane are in front of each other by rounding errors only.
-    constexpr double least_height = 1e-12;
-    const auto reaches_above = [](const Patch& patch, const Patch& plane) {
+    // Neighbours in one plane are in front of each other by rounding errors only: those of their
+    // places, which may be coarse far from a file's origin. Walls may be nearer than that.
+    constexpr double least_slope = 1e-7;
+    const double least_height = 1e-12 + least_slope * glm::distance(a.centre, b.centre);
+    const auto reaches_above = [&](const Patch& patch, const Patch& plane) {
         return std::ranges::any_of(patch.shape.corner, [&](const Vec3& corner) {
             return glm::dot(plane.normal, corner - plane.centre) > least_height;
         });

@@ -13,11 +13,25 @@ std::uint32_t power_of_two(double rays) {
     return rays <= 1 ? 1 : std::uint32_t{1} << std::min(std::lround(std::log2(rays)), 31L);
 }
 
+/// To the nearest power of 2^(1/16) of the largest. Patches of one shape then get as many rays as
+/// each other, though their areas differ by rounding errors: the last rays go to all or none.
+std::vector<double> rounded(std::span<const double> weights, double largest) {
+    std::vector<double> result;
+    for (const double weight : weights)
+        result.push_back(weight > 0 ? std::exp2(std::round(16 * std::log2(weight / largest)) / 16)
+                                    : 0);
+    return result;
+}
+
 } // namespace
 
-std::vector<std::uint32_t> deal_rays(std::span<const double> weights, double mean,
+std::vector<std::uint32_t> deal_rays(std::span<const double> given, double mean,
                                      std::span<const std::uint32_t> already) {
-    std::vector<std::uint32_t> rays(weights.size());
+    const double largest = given.empty() ? 0 : *std::ranges::max_element(given);
+    std::vector<std::uint32_t> rays(given.size());
+    if (!(largest > 0))
+        return rays;
+    const std::vector<double> weights = rounded(given, largest);
     const auto deal = [&](double per_weight) {
         double sum = 0, count = 0;
         for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -31,11 +45,8 @@ std::vector<std::uint32_t> deal_rays(std::span<const double> weights, double mea
         }
         return sum <= mean * count;
     };
-    const double largest = weights.empty() ? 0 : *std::ranges::max_element(weights);
-    if (!(largest > 0))
-        return rays;
     // The number of rays per weight that deals out what there is, by bisection of its logarithm.
-    double low = std::log(least_share * mean / largest), high = low + 80;
+    double low = std::log(least_share * mean), high = low + 80;
     for (int k = 0; k < 50; ++k) {
         const double middle = (low + high) / 2;
         (deal(std::exp(middle)) ? low : high) = middle;

@@ -121,26 +121,33 @@ class MatrixSolver final : public Solver {
         return std::bit_ceil(static_cast<std::uint32_t>(std::ceil(asked)));
     }
 
-    /// B = E + rho F B for one replicate, channel by channel, from the last solution on.
+    /// B = E + R, R = rho F (E + R), for one replicate, channel by channel, from the last solution
+    /// on. The residual is that of reflected light: beside a tiny lamp's emission all of it could
+    /// be too small to count.
     EnergyBalance solve(const SampledFormFactors& factors, std::vector<Vec3>& radiosity) {
         const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
         const std::size_t n = radiosity.size();
-        std::vector<double> emission(n), rho(n), x(n), arriving(n);
+        std::vector<double> emission(n), rho(n), first(n), x(n), arriving(n);
         std::vector<Vec3> incident(n);
         const int channels = input_.needs.colours ? 3 : 1;
         for (int c = 0; c < channels; ++c) {
             for (std::uint32_t i = 0; i < n; ++i) {
                 emission[i] = input_.mesh.material(i).emission[c];
                 rho[i] = input_.mesh.material(i).reflectance[c];
-                x[i] = radiosity[i][c];
+                x[i] = radiosity[i][c] - emission[i];
             }
+            f.multiply(emission, first, workers_);
+            for (std::size_t i = 0; i < n; ++i)
+                first[i] *= rho[i];
             gmres(
                 [&](const std::vector<double>& b, std::vector<double>& y) {
                     f.multiply(b, y, workers_);
                     for (std::size_t i = 0; i < n; ++i)
                         y[i] = b[i] - rho[i] * y[i];
                 },
-                emission, x);
+                first, x);
+            for (std::size_t i = 0; i < n; ++i)
+                x[i] += emission[i];
             f.multiply(x, arriving, workers_);
             for (std::uint32_t i = 0; i < n; ++i)
                 incident[i][c] = arriving[i];

@@ -134,7 +134,7 @@ class ProgressiveSolver final : public Solver {
             radiosity_.push_back(input_.mesh.material(i).emission);
         unshot_ = radiosity_;
         for (std::uint32_t i = 0; i < sights_.size(); ++i)
-            brightest_.set(i, unshot_power(i));
+            rank(i);
         variance_.assign(sights_.size(), Vec3(0.0));
         absorbed_ = escaped_ = by_chance_ = {};
         rays_per_light_ =
@@ -164,6 +164,13 @@ class ProgressiveSolver final : public Solver {
                !(left > finished_share_of_emitted * mean_of_channels(emitted_));
     }
 
+    /// To the nearest power of 2^(1/256) of what is emitted: of patches that are alike but for
+    /// rounding errors the first shoots first.
+    void rank(std::uint32_t patch) {
+        const double share = unshot_power(patch) / mean_of_channels(emitted_);
+        brightest_.set(patch, share > 0 ? std::exp2(std::round(256 * std::log2(share)) / 256) : 0);
+    }
+
     /// Mean of channels. Overshooting leaves negative light, which counts alike.
     [[nodiscard]] double unshot_power(std::uint32_t patch) const {
         return input_.mesh.patches()[patch].area * mean_of_channels(glm::abs(unshot_[patch]));
@@ -180,7 +187,7 @@ class ProgressiveSolver final : public Solver {
             unshot_[shooter] = -later;
         }
         check_finite(input_.mesh, shooter, shot, "the radiosity to be shot", solution_.steps + 1);
-        brightest_.set(shooter, unshot_power(shooter));
+        rank(shooter);
         look_from_all(shooter, shot);
         if (input_.monitor.interrupted)
             return;
@@ -260,7 +267,7 @@ class ProgressiveSolver final : public Solver {
             radiosity_[i] += rho * incident;
             unshot_[i] += rho * incident;
             if (seen.factor > 0)
-                brightest_.set(i, unshot_power(i));
+                rank(i);
             variance_[i] += rho * shot * rho * shot * (scale * scale * seen.variance);
             absorbed_ += (1.0 - rho) * incident * input_.mesh.patches()[i].area;
             hits_[i] += seen.hits;

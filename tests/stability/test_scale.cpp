@@ -1,0 +1,171 @@
+// One room in any unit and anywhere: the same solution, as long as doubles tell its corners apart.
+#include "bvh/wide_bvh.h"
+#include "io/error.h"
+#include "io/obj.h"
+#include "radiosity/needs.h"
+#include "support/scenes.h"
+#include "support/solve.h"
+#include "support/temporary_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+using namespace hemilux;
+
+namespace {
+
+/// Oblique to all axes, so that no coordinate is exact; with furniture, so that rays are stopped.
+Scene oblique_room() {
+    Scene scene = test::room_with_block();
+    const Frame frame = Frame::from_normal(glm::normalize(Vec3(.3, .5, .8))).turned(.7);
+    for (Vec3& v : scene.vertices)
+        v = frame.to_world(v);
+    return scene;
+}
+
+Scene placed(Scene scene, double unit, const Vec3& shift) {
+    for (Vec3& v : scene.vertices)
+        v = unit * v + shift;
+    return scene;
+}
+
+/// As the program does it: with the fast tracer, and without what the scene does not need.
+Solution solved(const Scene& scene, const Method& method) {
+    const Mesh mesh(scene);
+    const WideBvh bvh(mesh.soup());
+    const Needs needs = find_needs(mesh);
+    SolveOptions options;
+    options.threads = 1;
+    Monitor monitor;
+    const SolverInput input{mesh, bvh, options, monitor, needs};
+    const auto solver = method.make(input);
+    run(*solver, input, test::steps(2));
+    return solver->solution();
+}
+
+/// The largest relative difference of a patch in a channel.
+double difference(const Solution& a, const Solution& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.radiosity.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double x = a.radiosity[i][c], y = b.radiosity[i][c];
+            const double off = x == y ? 0 : std::abs(x - y) / std::max(std::abs(x), std::abs(y));
+            if (!(off <= largest)) // NaN
+                largest = off;
+        }
+    return largest;
+}
+
+constexpr double room_size = 4.7; ///< the diagonal
+
+/// `progressive` asks its estimates whether they agree, and goes on if they do not: there a
+/// rounding error can decide about more rays.
+bool same_rays_everywhere(const Method& method) { return method.name != "progressive"; }
+
+/// The program's result without the folder's name.
+std::string told(const std::string& obj, std::size_t* facets = nullptr) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.write("s.obj", obj);
+    try {
+        const ReadResult read = read_obj(path);
+        if (facets)
+            *facets = read.scene.facets.size();
+        std::string all;
+        for (const std::string& warning : read.warnings)
+            all += warning.substr(warning.find("s.obj")) + "\n";
+        return all;
+    } catch (const InputError& error) {
+        return "error: " + std::string(error.what());
+    }
+}
+
+std::string obj_of(const Scene& scene) {
+    std::ostringstream text;
+    text << std::setprecision(17);
+    for (const Vec3& v : scene.vertices)
+        text << "v " << v.x << ' ' << v.y << ' ' << v.z << '\n';
+    for (const Facet& facet : scene.facets) {
+        text << 'f';
+        for (const std::uint32_t v : facet.vertex)
+            text << ' ' << v + 1;
+        text << '\n';
+    }
+    return text.str();
+}
+
+} // namespace
+
+TEST_CASE("The unit of length changes no radiosity") {
+    const Scene room = oblique_room();
+    for (const Method* const method : methods()) {
+        if (!same_rays_everywhere(*method))
+            continue;
+        const Solution metres = solved(room, *method);
+        for (const double unit : {1e-12, 1e-5, 1e3, 1e12}) {
+            const Solution s = solved(placed(room, unit, Vec3(0.0)), *method);
+            CAPTURE(method->name, unit);
+            CHECK(difference(s, metres) < 1e-5);
+            for (const auto& [power, before] : {std::pair{s.energy.emitted, metres.energy.emitted},
+                                                {s.energy.absorbed, metres.energy.absorbed}})
+                CHECK(power.x == Approx(unit * unit * before.x).epsilon(1e-6));
+        }
+    }
+}
+
+TEST_CASE("Nor does the place, as far as doubles carry it") {
+    const Scene room = oblique_room();
+    for (const Method* const method : methods()) {
+        if (!same_rays_everywhere(*method))
+            continue;
+        const Solution here = solved(room, *method);
+        for (const double sizes : {1e3, 1e5, 1e7, 1e8}) {
+            const Vec3 shift = sizes * room_size * Vec3(.7, -1, .4);
+            const Scene there = placed(room, 1, shift);
+            const Solution s = solved(there, *method);
+            CAPTURE(method->name, sizes);
+            CHECK(difference(s, here) < 1e-5);
+            // Of the rounding that is left all is the input's own.
+            if (sizes == 1e8)
+                CHECK(difference(s, solved(placed(there, 1, -shift), *method)) < 1e-12);
+        }
+    }
+}
+
+TEST_CASE("Far away and in other units progressive is right within its error") {
+    const Method& progressive = *find_method("progressive");
+    const Scene room = oblique_room();
+    const Mesh mesh(room);
+    const Solution here = solved(room, progressive);
+    for (const double unit : {1e-12, 1.0, 1e12}) {
+        const Vec3 shift = unit * 1e8 * room_size * Vec3(.7, -1, .4);
+        const Solution s = solved(placed(room, unit, shift), progressive);
+        CAPTURE(unit);
+        CHECK(true_error(mesh, s.radiosity, here.radiosity).all < .02);
+    }
+}
+
+TEST_CASE("Where doubles no longer tell places apart it is said") {
+    const Scene room = oblique_room();
+    const auto at = [&](double sizes) {
+        return obj_of(placed(room, 1, sizes * room_size * Vec3(.7, -1, .4)));
+    };
+    std::size_t facets = 0;
+    CHECK(told(at(1e8), &facets).empty());
+    CHECK(facets == room.facets.size());
+    // Distinct still, but no longer where they were.
+    CHECK(told(at(1e11)) ==
+          "s.obj: all lies near 4.7e+11, where numbers are rounded to 0.0001, and "
+          "is 4.5 wide; move it nearer to the origin\n");
+    // Some have collapsed: how many is said too.
+    const std::string some = told(at(1e13), &facets);
+    CHECK(some.find("move it nearer to the origin") != std::string::npos);
+    CHECK(some.find("8 faces without area are left out") != std::string::npos);
+    CHECK(facets > 0);
+    const std::string all = told(at(1e17));
+    CHECK(all.starts_with("error: "));
+    CHECK(all.find("none of the faces has an area: all lies near 4.7e+17, where numbers are "
+                   "rounded to 1e+02") != std::string::npos);
+}
