@@ -35,6 +35,7 @@ ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, std::span<const RayCounts> sets
             lost_[i].absorbed /= rays;
         }
         area_.push_back(mesh.patches()[i].area);
+        rays_.push_back(rays);
         rays_per_area_.push_back(area_[i] > 0 ? rays / area_[i] : 0);
     }
     merge(sets);

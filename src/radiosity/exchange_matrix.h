@@ -25,6 +25,8 @@ class ExchangeMatrix {
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
     /// By patch.
     [[nodiscard]] std::span<const LostShare> lost() const { return lost_; }
+    /// Those that the patch shot itself.
+    [[nodiscard]] std::span<const double> rays() const { return rays_; }
     [[nodiscard]] std::size_t entries() const { return column_.size(); }
     [[nodiscard]] std::uint64_t bytes() const {
         return entries() * (sizeof(float) + sizeof(std::uint32_t));
@@ -39,7 +41,7 @@ class ExchangeMatrix {
     std::vector<float> value_;  ///< S_ij before scaling
     std::vector<double> scale_; ///< g
     std::vector<double> area_;
-    std::vector<double> rays_per_area_;
+    std::vector<double> rays_, rays_per_area_;
     std::vector<LostShare> lost_;
 };
 
