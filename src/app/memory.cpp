@@ -20,7 +20,7 @@ constexpr double growth = 2;
 /// Per triangle: boxes while the tree is built, and a leaf's share.
 constexpr double bytes_per_triangle = 150;
 /// Of a stepwise method: solution, spread, one step.
-constexpr double bytes_per_solution = 200;
+constexpr double bytes_per_solution = 225;
 /// Of a matrix of form factors: index, value, and the counts that they come from, with room to
 /// grow.
 constexpr double bytes_per_factor = 32;

@@ -4,6 +4,7 @@
 #include "app/view.h"
 #include "io/image.h"
 #include "io/ply.h"
+#include "radiosity/workers.h"
 
 #include <algorithm>
 #include <optional>
@@ -90,10 +91,25 @@ void check_outputs(const SolveSettings& settings) {
 }
 
 WriteReport write_results(const SolveSettings& settings, const Results& results) {
-    WriteReport report;
     Picture picture(settings.view, results);
-    for (const Output& output : settings.outputs)
-        report.attempt(output.path, [&] { write_output(output, results, picture); });
+    std::vector<WriteReport> reports(settings.outputs.size());
+    const auto write = [&](std::size_t k) {
+        const Output& output = settings.outputs[k];
+        reports[k].attempt(output.path, [&] { write_output(output, results, picture); });
+    };
+    // All pictures are one, made by all threads; meanwhile each of the tables has one.
+    std::vector<std::vector<std::size_t>> jobs(1);
+    for (std::size_t k = 0; k < settings.outputs.size(); ++k)
+        if (is_picture(settings.outputs[k].kind))
+            jobs[0].push_back(k);
+        else
+            jobs.push_back({k});
+    Workers(settings.options.threads).for_chunks(jobs.size(), 1, [&](std::size_t job, std::size_t) {
+        std::ranges::for_each(jobs[job], write);
+    });
+    WriteReport report;
+    for (const WriteReport& of_output : reports)
+        report.add(of_output);
     if (!settings.statistics.empty())
         report.attempt(settings.statistics,
                        [&] { write_statistics(settings.statistics, results.statistics); });

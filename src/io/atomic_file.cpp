@@ -1,12 +1,15 @@
 #include "io/atomic_file.h"
 
 #include "io/error.h"
+#include "io/temporary_file.h"
 
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -18,12 +21,13 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t buffer_size = 1 << 20;
 
-/// A name in the target's folder that no other process or thread uses.
-std::string temporary_beside(const fs::path& target) {
-    static std::atomic<unsigned> counter{0};
-    const std::string name = ".hemilux-" + std::to_string(::getpid()) + "-" +
-                             std::to_string(counter.fetch_add(1)) + ".tmp";
-    return (target.parent_path() / name).string();
+/// Once for each folder.
+void clean(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> cleaned;
+    const std::lock_guard lock(mutex);
+    if (cleaned.insert(folder).second)
+        remove_stale_temporaries(folder);
 }
 
 } // namespace
@@ -38,12 +42,15 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path) {
     if (error && status.type() != fs::file_type::not_found)
         throw OutputError(path, "cannot open: " + error.message());
     const bool replace = !fs::exists(status) || fs::is_regular_file(status);
-    if (replace)
-        temporary_ = temporary_beside(target_);
-    constexpr mode_t mode = 0666; // less the user's umask
-    descriptor_ = replace
-                      ? ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode)
-                      : ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (replace) {
+        const fs::path folder = fs::path(target_).parent_path();
+        clean(folder);
+        TemporaryFile temporary = make_temporary(folder);
+        temporary_ = std::move(temporary.path);
+        descriptor_ = temporary.descriptor;
+    } else {
+        descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    }
     if (descriptor_ < 0)
         fail("open");
 }

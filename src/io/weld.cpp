@@ -3,6 +3,7 @@
 #include "bvh/tracer.h"
 #include "radiosity/rng.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hemilux {
@@ -35,20 +36,39 @@ std::uint32_t Welder::add(const Vec3& point) {
         if (const std::uint32_t found = find(point, cell); found != none)
             return found;
     }
-    const auto number = static_cast<std::uint32_t>(points_.size());
-    points_.push_back(point);
-    const auto [entry, is_new] = first_.try_emplace(home, number);
-    next_.push_back(is_new ? none : entry->second);
-    entry->second = number;
-    return number;
+    append(point, home);
+    return static_cast<std::uint32_t>(points_.size() - 1);
 }
 
 std::uint32_t Welder::find(const Vec3& point, std::uint64_t cell) const {
-    const auto entry = first_.find(cell);
-    std::uint32_t number = entry == first_.end() ? none : entry->second;
-    while (number != none && !(glm::distance(points_[number], point) <= distance_))
+    if (first_.empty())
+        return none;
+    std::uint32_t number = first_[cell & (first_.size() - 1)];
+    while (number != none &&
+           !(home_[number] == cell && glm::distance(points_[number], point) <= distance_))
         number = next_[number];
     return number;
+}
+
+void Welder::append(const Vec3& point, std::uint64_t home) {
+    if (points_.size() == first_.size())
+        grow();
+    points_.push_back(point);
+    home_.push_back(home);
+    std::uint32_t& first = first_[home & (first_.size() - 1)];
+    next_.push_back(first);
+    first = static_cast<std::uint32_t>(points_.size() - 1);
+}
+
+/// Chains anew, in the order of the points, so that each is found as before.
+void Welder::grow() {
+    constexpr std::size_t least = 64;
+    first_.assign(std::max(least, 2 * first_.size()), none);
+    for (std::uint32_t k = 0; k < points_.size(); ++k) {
+        std::uint32_t& first = first_[home_[k] & (first_.size() - 1)];
+        next_[k] = first;
+        first = k;
+    }
 }
 
 } // namespace hemilux

@@ -4,7 +4,6 @@
 #include "geometry/vector.h"
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace hemilux {
@@ -18,13 +17,16 @@ class Welder {
     [[nodiscard]] std::vector<Vec3> take_points() { return std::move(points_); }
 
   private:
-    /// Numbers of points in the same cell of a hash grid form a chain.
+    /// Points in cells of a grid whose hashes end alike form a chain.
     [[nodiscard]] std::uint32_t find(const Vec3& point, std::uint64_t cell) const;
+    void append(const Vec3& point, std::uint64_t home);
+    void grow();
 
     double distance_;
     std::vector<Vec3> points_;
+    std::vector<std::uint64_t> home_; ///< hash of each point's cell
     std::vector<std::uint32_t> next_;
-    std::unordered_map<std::uint64_t, std::uint32_t> first_;
+    std::vector<std::uint32_t> first_; ///< by the last bits of the hash; a power of two
 };
 
 } // namespace hemilux

@@ -36,6 +36,26 @@ void check_material(const Mesh& mesh, std::uint32_t patch) {
                  "the emitted power", 0);
 }
 
+/// Channel by channel the brightest emitter must not be too faint.
+void check_faint_channels(const Mesh& mesh) {
+    std::array<std::uint32_t, 3> brightest{};
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            std::uint32_t& most = brightest.at(static_cast<std::size_t>(c));
+            if (mesh.material(i).emission[c] > mesh.material(most).emission[c])
+                most = i;
+        }
+    for (int c = 0; c < 3; ++c) {
+        const std::uint32_t i = brightest.at(static_cast<std::size_t>(c));
+        const double emission = mesh.material(i).emission[c];
+        if (emission > 0 && emission < least_radiosity)
+            throw SolveError("the emission of " + name_of_patch(mesh, i) +
+                                 ", the largest of its channel, is too small to go on with; scale "
+                                 "emissions up or make it 0",
+                             face_of(mesh, i));
+    }
+}
+
 /// Up to three names, and how many more.
 std::string list(const std::set<std::string>& names) {
     constexpr std::size_t most = 3;
@@ -76,6 +96,7 @@ void check_input(const SolverInput& input) {
         const Vec3& rho = mesh.material(i).reflectance;
         perfect = perfect || std::max({rho.x, rho.y, rho.z}) >= 1;
     }
+    check_faint_channels(mesh);
     if (!perfect)
         return;
     input.monitor.phase = "closed?";

@@ -6,8 +6,8 @@ namespace hemilux {
 struct SolverInput;
 
 /// Throws SolveError where a patch has a reflectance outside of [0,1] or an emission that is
-/// negative or not finite, where emitted powers overflow, and where light is trapped between
-/// surfaces of reflectance 1 (trapped_light.h).
+/// negative or not finite, where emitted powers overflow or are too small to be squared, and where
+/// light is trapped between surfaces of reflectance 1 (trapped_light.h).
 void check_input(const SolverInput& input);
 
 } // namespace hemilux

@@ -96,6 +96,7 @@ void ExchangeMatrix::find_lost(std::span<const RayCounts> sets) {
             lost_[i].escaped /= rays;
             lost_[i].absorbed /= rays;
         }
+        rays_.push_back(rays);
         rays_per_area_.push_back(area_[i] > 0 ? rays / area_[i] : 0);
     }
 }

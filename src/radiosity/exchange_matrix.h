@@ -28,6 +28,8 @@ class ExchangeMatrix {
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
     /// By patch.
     [[nodiscard]] std::span<const LostShare> lost() const { return lost_; }
+    /// Those that the patch shot itself.
+    [[nodiscard]] std::span<const double> rays() const { return rays_; }
     [[nodiscard]] std::uint64_t bytes() const { return row_begin_.back() * sizeof(Entry); }
 
   private:
@@ -56,7 +58,7 @@ class ExchangeMatrix {
     std::unique_ptr<Entry[]> entry_;
     std::vector<double> self_; ///< S_ii, which closes the row
     std::vector<double> area_;
-    std::vector<double> rays_per_area_;
+    std::vector<double> rays_, rays_per_area_;
     std::vector<LostShare> lost_;
 };
 

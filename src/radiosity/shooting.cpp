@@ -90,6 +90,8 @@ std::uint64_t ShootingSolver::bounce(std::uint64_t stream, const std::vector<Vec
         workers.for_chunks(count, 1, [&](std::size_t k, std::size_t) {
             fire(pieces_[begin + k], stream, unshot, volleys_[k]);
         });
+        if (input_.monitor.interrupted) // volleys are not whole
+            break;
         for (std::size_t k = 0; k < count; ++k)
             collect(volleys_[k], unshot, received, result);
         input_.monitor.step_share =
@@ -217,8 +219,11 @@ void ShootingSolver::shoot(std::uint32_t patch, const Piece& piece, std::uint64_
         volley.bursts.push_back({patch, share.cell, static_cast<std::uint32_t>(here), ray_power});
         for (double k = 0; k < here; ++k) {
             volley.waiting.push_back(draw(from, frame, target, rng));
-            if (volley.waiting.size() == rays_at_a_time)
-                trace(volley);
+            if (volley.waiting.size() < rays_at_a_time)
+                continue;
+            if (input_.monitor.interrupted) // one lamp may shoot many millions
+                return;
+            trace(volley);
         }
     }
 }

@@ -3,6 +3,7 @@
 // ray arrives, and what power in three channels is worth.
 
 #include "bvh/tracer.h"
+#include "geometry/compensated_sum.h"
 #include "geometry/polygon_sampler.h"
 #include "radiosity/mesh.h"
 #include "radiosity/receivers.h"
@@ -17,6 +18,14 @@ namespace hemilux {
 /// What decides how many rays a power in three channels is worth.
 [[nodiscard]] inline double mean_of_channels(const Vec3& power) {
     return (power.x + power.y + power.z) / 3;
+}
+
+/// By all patches, local units.
+[[nodiscard]] inline Vec3 emitted_power(const Mesh& mesh) {
+    CompensatedSum<Vec3> power;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
+        power += mesh.patches()[i].area * mesh.material(i).emission;
+    return power.value();
 }
 
 /// Weighted by area; at most .999, so that 1 / (1 - rho) remains a number of use.

@@ -23,6 +23,8 @@ struct SolveError : std::runtime_error {
 
 /// Larger radiosities are refused, so that sums of their squares remain finite [W/m2].
 inline constexpr double largest_radiosity = 1e145;
+/// And where all emission of a channel is less, unless there is none: squares would vanish.
+inline constexpr double least_radiosity = 1e-145;
 
 /// "patch 3 (face 1, material 'wall')"
 [[nodiscard]] std::string name_of_patch(const Mesh& mesh, std::uint32_t patch);

@@ -166,7 +166,7 @@ TEST_CASE("damaged checkpoints are refused") {
     place.write("saved", other);
     check_refused(place, run + " --resume saved", "is a damaged checkpoint: its checksum");
     other = good;
-    other[good.find('\n') - 1] = '2';
+    other[good.find('\n') - 1] = '1'; // of before
     place.write("saved", other);
     check_refused(place, run + " --resume saved", "another version");
 }

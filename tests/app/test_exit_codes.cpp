@@ -91,7 +91,7 @@ TEST_CASE("every number has its range") {
                                "--emission lamp=-1",
                                "--emission lamp=1,2",
                                "--emission lamp",
-                               "--reflectance white=1",
+                               "--reflectance white=1.5",
                                "--reflectance white=nan",
                                "--camera 1,2,3",
                                "--camera 0,0,0,0,0,0",
@@ -119,7 +119,7 @@ TEST_CASE("bad input ends with 2 and names the file") {
     check_fails(place, 2, "solve room.obj -o a.png --emission '*=0'", "--emission");
     check_fails(place, 2, "solve room.obj -o a.png --emission '*=0'", "white, red, lamp");
 
-    place.write("room.mtl", "newmtl white\nKd 1 .5 .5\nnewmtl red\nnewmtl lamp\nKe 1 1 1\n");
+    place.write("room.mtl", "newmtl white\nKd 1.5 .5 .5\nnewmtl red\nnewmtl lamp\nKe 1 1 1\n");
     check_fails(place, 2, "solve room.obj -o a.png", "white");
     check_fails(place, 2, "solve room.obj -o a.png", "room.mtl:1");
     CHECK(place.hemilux("solve room.obj -o a.csv --steps 1 --reflectance white=.9").code == 0);

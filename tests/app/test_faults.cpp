@@ -37,8 +37,9 @@ std::vector<std::string> files_of(const Workplace& place) {
     return names;
 }
 
-/// A glowing sheet of n x n quads under a faint one: no patch shoots more than its share.
-void write_large(const Workplace& place, int n) {
+/// A glowing sheet of n x n quads under a faint one: no patch shoots more than its share. Or a
+/// dark one under a lamp, which shoots all.
+void write_large(const Workplace& place, int n, bool one_lamp = false) {
     std::string text = "mtllib large.mtl\nusemtl white\n";
     for (int i = 0; i <= n; ++i)
         for (int j = 0; j <= n; ++j)
@@ -56,7 +57,9 @@ void write_large(const Workplace& place, int n) {
             "\nusemtl lamp\nf -4 -3 -2 -1\n";
     place.write("large.obj", text);
     place.write("large.mtl",
-                "newmtl white\nKd .5 .5 .5\nKe 1 1 1\nnewmtl lamp\nKe 1e-6 0 0\nKd 0 0 0\n");
+                one_lamp
+                    ? "newmtl white\nKd .5 .5 .5\nnewmtl lamp\nKe 1 1 1\nKd 0 0 0\n"
+                    : "newmtl white\nKd .5 .5 .5\nKe 1 1 1\nnewmtl lamp\nKe 1e-6 0 0\nKd 0 0 0\n");
 }
 
 std::ptrdiff_t lines_of_message(const std::string& text) {
@@ -109,6 +112,18 @@ TEST_CASE("a signal ends a large run within a second, whatever it is at", "[slow
     std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
     run.send(SIGTERM);
     CHECK(seconds_to_end(run, 143) < 1.5); // half a second for a machine with other work
+}
+
+TEST_CASE("a signal ends the shot of a lamp that lights a million patches", "[slow]") {
+    const Workplace place;
+    write_large(place, 1000, true);
+    const std::string method = GENERATE("hemisphere", "monte-carlo");
+    CAPTURE(method);
+    Running run(place, "solve large.obj --rays 1000 -o a.json --method " + method,
+                place.path("talk.txt").c_str());
+    std::this_thread::sleep_for(std::chrono::seconds(5)); // a second or two are for reading
+    run.send(SIGTERM);
+    CHECK(seconds_to_end(run, 143) < 1.5);
 }
 
 TEST_CASE("a full disk leaves nothing half-written") {

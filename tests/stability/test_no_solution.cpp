@@ -82,6 +82,28 @@ TEST_CASE("Numbers that are none are refused by all methods, with patch, face an
     }
 }
 
+TEST_CASE("A channel too faint for squares is refused, and one at the limit is solved") {
+    Scene scene = test::room_with_block();
+    scene.materials[3].emission = Vec3(1, 1e-150, 0);
+    check_refused(scene, {"the emission of patch", "'lamp'", "largest of its channel"});
+    const double limit = std::ldexp(1, -480); // a power of two: the same digits
+    REQUIRE(limit > least_radiosity);
+    REQUIRE(limit / 8 < least_radiosity);
+    const Model bright(test::cube_with_lit_floor(2, .5));
+    Scene faint_scene = test::cube_with_lit_floor(2, .5);
+    faint_scene.materials[1].emission *= limit;
+    const Model faint(faint_scene);
+    for (const Method* const method : methods()) {
+        const Solution a = test::solve(bright, *method, few_rays(), test::steps(2));
+        const Solution b = test::solve(faint, *method, few_rays(), test::steps(2));
+        CAPTURE(method->name);
+        for (std::size_t i = 0; i < a.radiosity.size(); ++i)
+            CHECK(b.radiosity[i].x / limit == Approx(a.radiosity[i].x).epsilon(1e-6));
+        CHECK(estimated_error(faint.mesh, b) ==
+              Approx(estimated_error(bright.mesh, a)).epsilon(1e-3));
+    }
+}
+
 TEST_CASE("Powers that overflow are found before the first step") {
     Scene scene = test::furnace_box(1, .5, 1e100);
     for (Vec3& v : scene.vertices)
@@ -207,4 +229,15 @@ TEST_CASE("A lamp that few rays would find is a way out") {
     REQUIRE(trapped);
     CHECK(trapped->patches.size() == 24 + 1);
     CHECK(trapped->rays >= 300'000);
+}
+
+TEST_CASE("A series of bounces that seems not to end is ended", "[slow]") {
+    const Model model(test::furnace_box(1, 1 - 1e-12));
+    SolveOptions options;
+    options.rays = 4;
+    CHECK_THROWS_WITH(test::solve(model, *find_method("hemisphere"), options, test::steps(1)),
+                      Contains("step 1: light is still on its way") && Contains("gathering"));
+    const Solution s =
+        test::solve(model, *find_method("gathering"), options, test::steps(1)); // needs none
+    CHECK(s.radiosity[0].x == Approx(1 / 1e-12).epsilon(1e-3));
 }

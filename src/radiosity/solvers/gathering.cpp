@@ -16,7 +16,6 @@
 // fewer rays than shooting, most where light is even and surfaces reflect much. Costs 8 bytes per
 // patch and patch that it saw, and as many to solve.
 
-#include "geometry/compensated_sum.h"
 #include "radiosity/check_input.h"
 #include "radiosity/conjugate_gradients.h"
 #include "radiosity/direct_light.h"
@@ -57,16 +56,15 @@ class GatheringSolver final : public Solver {
         std::vector<bool> small(patches.size());
         for (const std::uint32_t e : emitters_)
             small[e] = true;
-        CompensatedSum<Vec3> emitted;
         for (std::uint32_t i = 0; i < patches.size(); ++i) {
             const Material& material = input.mesh.material(i);
             area_.push_back(patches[i].area);
             reflectance_.push_back(material.reflectance);
             emission_.push_back(material.emission);
             seen_emission_.push_back(small[i] ? Vec3(0.0) : material.emission);
-            emitted += patches[i].area * material.emission;
         }
-        solution_.energy.emitted = input.mesh.frame().area_to_world(1.0) * emitted.value();
+        solution_.energy.emitted =
+            input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
         solution_.energy.unshot = solution_.energy.emitted;
         incident_.assign(sets + 1, std::vector<Vec3>(patches.size(), Vec3(0.0)));
         solution_.radiosity = emission_;
@@ -182,10 +180,7 @@ class GatheringSolver final : public Solver {
                 d[i] = seen[i];
             d[i] += set == sets ? direct_->irradiance(i) : direct_->irradiance(i, set);
         }
-        std::vector<double> rays;
-        for (const std::uint32_t of_set : plan_.rays().random)
-            rays.push_back(of_set * (set == sets ? double(sets) : 1.0));
-        const Transport transport{area_, emission_, reflectance_, factors.lost(), rays};
+        const Transport transport{area_, emission_, reflectance_, factors.lost(), factors.rays()};
         scale_direct_light(transport, d);
         solve_by_gradients(factors, area_, reflectance_, d, incident_[set], workers,
                            {.tolerance = residual});

@@ -20,6 +20,7 @@
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
 #include "radiosity/sampled_form_factors.h"
+#include "radiosity/shot.h"
 #include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
 
@@ -66,12 +67,10 @@ class MatrixSolver final : public Solver {
                                   hash_words({input.options.seed, r}), needs);
         solution_.standard_error.resize(patches.size());
         solution_.hits.resize(patches.size());
-        CompensatedSum<Vec3> emitted;
-        for (std::uint32_t i = 0; i < patches.size(); ++i) {
+        for (std::uint32_t i = 0; i < patches.size(); ++i)
             solution_.radiosity.push_back(input.mesh.material(i).emission);
-            emitted += patches[i].area * solution_.radiosity[i];
-        }
-        solution_.energy.emitted = input.mesh.frame().area_to_world(1.0) * emitted.value();
+        solution_.energy.emitted =
+            input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
         solution_.energy.unshot = solution_.energy.emitted;
         guesses_.assign(replicates, solution_.radiosity);
     }

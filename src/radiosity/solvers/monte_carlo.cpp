@@ -59,7 +59,9 @@ class MonteCarloSolver final : public StepwiseSolver {
             const Vec3 each =
                 shoot(shooter, power, hash_words({input_.options.seed, stream, shots}));
             for (const std::uint32_t i : receivers_)
-                if (i < patches) {
+                if (input_.monitor.interrupted) {
+                    return false; // a lamp may have shot many millions
+                } else if (i < patches) {
                     received[i] += each;
                     unshot[i] += input_.mesh.material(i).reflectance * each;
                     order.set(i, mean_of_channels(unshot[i].value()));
@@ -79,8 +81,7 @@ class MonteCarloSolver final : public StepwiseSolver {
         const double expected = mean_of_channels(power) / ray_power();
         const double n = std::floor(expected + Rng(stream).uniform());
         const auto rays = static_cast<std::size_t>(n);
-        std::vector<std::vector<std::uint32_t>> struck((rays + rays_per_stream - 1) /
-                                                       rays_per_stream);
+        receivers_.resize(rays);
         const Workers workers = rays < rays_for_one_thread ? Workers(1) : workers_;
         workers.for_chunks(rays, rays_per_stream, [&](std::size_t begin, std::size_t end) {
             if (input_.monitor.interrupted)
@@ -90,13 +91,12 @@ class MonteCarloSolver final : public StepwiseSolver {
             const PolygonSampler origins(from.shape);
             const Frame frame = Frame::from_normal(from.normal);
             std::vector<Ray> drawn;
+            std::vector<std::uint32_t> struck;
             for (std::size_t k = begin; k < end; ++k)
                 drawn.push_back(draw(from, origins, frame, rng));
-            find_receivers(drawn, input_.mesh, input_.tracer, struck[begin / rays_per_stream]);
+            find_receivers(drawn, input_.mesh, input_.tracer, struck);
+            std::ranges::copy(struck, receivers_.begin() + static_cast<std::ptrdiff_t>(begin));
         });
-        receivers_.clear();
-        for (const std::vector<std::uint32_t>& part : struck)
-            receivers_.insert(receivers_.end(), part.begin(), part.end());
         // Below one ray, the ray that is shot carries the power of those that are not.
         return power / (expected >= 1 ? n : expected);
     }

@@ -77,14 +77,12 @@ class ProgressiveSolver final : public Solver {
         : input_(input), options_(input.options.progressive), workers_(input.options.threads),
           sights_(input.mesh.patches().size()), brightest_(sights_.size()), hits_(sights_.size()) {
         check_input(input);
-        CompensatedSum<Vec3> emitted;
         for (std::uint32_t i = 0; i < sights_.size(); ++i) {
             const double area = input.mesh.patches()[i].area;
-            emitted += input.mesh.material(i).emission * area;
             total_area_ += area;
             mean_reflectance_ += area * input.mesh.material(i).reflectance;
         }
-        emitted_ = emitted.value();
+        emitted_ = emitted_power(input.mesh);
         mean_reflectance_ = glm::min(mean_reflectance_ / total_area_, Vec3(.999));
         const Vec3 rho = glm::max(mean_reflectance_, least_reflectance);
         mean_reflected_ = mean_of_channels(emitted_ * rho / (1.0 - rho)) / total_area_;

@@ -1,0 +1,26 @@
+#pragma once
+// The files that outputs are written to before they get their names: `.hemilux-PROCESS-NUMBER.tmp`
+// in the output's folder. A killed process leaves its own behind; the next one that writes there
+// removes them. Who writes one holds a lock on it (flock), which ends with the process, so no file
+// in use is ever taken, also where folders are shared with other machines or containers.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace hemilux {
+
+struct TemporaryFile {
+    std::string path;
+    int descriptor = -1; ///< open for writing; -1: errno tells why not
+};
+
+/// A new one.
+[[nodiscard]] TemporaryFile make_temporary(const std::filesystem::path& folder);
+
+[[nodiscard]] bool is_temporary_name(std::string_view name);
+
+/// Those in the folder that nobody holds. What cannot be read or removed is left.
+void remove_stale_temporaries(const std::filesystem::path& folder);
+
+} // namespace hemilux
