@@ -171,15 +171,15 @@ Settings read_settings(int argc, char** argv) {
 
 int main(int argc, char** argv) try {
     const Settings settings = read_settings(argc, argv);
-    std::size_t escaped = 0;
+    std::size_t lost = 0;
     for (const std::string& file : settings.files)
-        escaped += test_mesh(file.substr(file.rfind('/') + 1), closed_parts(read_obj(file).scene),
+        lost += test_mesh(file.substr(file.rfind('/') + 1), closed_parts(read_obj(file).scene),
                              settings);
     if (settings.files.empty()) {
-        escaped += test_mesh("sphere", closed_sphere(7), settings);
-        escaped += test_mesh("box of slivers", box_of_slivers(50'000), settings);
+        lost += test_mesh("sphere", closed_sphere(7), settings);
+        lost += test_mesh("box of slivers", box_of_slivers(50'000), settings);
     }
-    return escaped == 0 ? 0 : 1;
+    return lost == 0 ? 0 : 1;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "hemilux_escapes: %s\n", error.what());
     return 2;

@@ -108,3 +108,15 @@ TEST_CASE("the description says what there is and what is doubtful", "[inspect]"
     CHECK(open.find("4 (edges of only one face") != std::string::npos);
     CHECK(open.find("without area") != std::string::npos);
 }
+
+TEST_CASE("facets beneath another that faces the same way are counted", "[inspect]") {
+    // The last face again, begun at another corner and in the last bits elsewhere; once turned
+    // round.
+    const SceneInfo info = inspect(
+        read_box(true, "f -2 -1 -4 -3\nf -1 -2 -3 -4\nv 0 0 3\nv 1 0 3.0000000000000004\nv 1 2 3\n"
+                       "v 0 2 3\nf -4 -3 -2 -1\n"));
+    CHECK(info.covered_facets == 2);
+    CHECK(describe(info).find("covered             2 (facets in the place of another") !=
+          std::string::npos);
+    CHECK(inspect(read_box(true)).covered_facets == 0);
+}

@@ -62,7 +62,7 @@ TEST_CASE("Progressive radiosity accounts for all energy") {
         const Solution s = to_the_end(model, {}, coarse(16));
         for (int c = 0; c < 3; ++c)
             CHECK(s.energy.absorbed[c] + s.energy.escaped[c] ==
-                  Approx(s.energy.emitted[c]).epsilon(.03)); // the rest is unshot, by chance
+                  Approx(s.energy.emitted[c]).epsilon(.04)); // the rest is unshot, by chance
         CHECK(s.energy.imbalance() < 1e-12);
     }
 }
