@@ -28,25 +28,22 @@
 #include "radiosity/estimate.h"
 #include "radiosity/largest_first.h"
 #include "radiosity/mesh.h"
-#include "radiosity/pair_factor.h"
 #include "radiosity/rng.h"
 #include "radiosity/shot.h"
 #include "radiosity/shot_balance.h"
+#include "radiosity/shot_factors.h"
 #include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
-#include "radiosity/workers.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace hemilux {
 namespace {
-
-/// Fewer pairs are done sooner than other threads would be started.
-constexpr std::size_t receivers_per_chunk = 256;
 
 /// For each of --rays, shadow rays in a shot that gives a receiver as much light as the mean patch
 /// reflects in the end; other shots get them in proportion. This many in the first pass; four times
@@ -64,28 +61,21 @@ constexpr double least_lost_rays = 16, most_lost_rays = 16384;
 /// What overshooting adds at most to what is unshot.
 constexpr double most_overshot = .8;
 
-/// Pairs that are worth less than this many rays are looked at by chance only, and count for those
-/// that are not.
-constexpr double least_worth = .05;
-
-/// Black patches count as if they reflected this: they are to account for what they absorb.
-constexpr double least_reflectance = .1;
-
 class ProgressiveSolver final : public Solver {
   public:
     explicit ProgressiveSolver(const SolverInput& input)
-        : input_(input), options_(input.options.progressive), workers_(input.options.threads),
-          sights_(input.mesh.patches().size()), brightest_(sights_.size()), hits_(sights_.size()) {
+        : input_(input), options_(input.options.progressive),
+          brightest_(input.mesh.patches().size()), hits_(input.mesh.patches().size()) {
         check_input(input);
-        for (std::uint32_t i = 0; i < sights_.size(); ++i) {
+        for (std::uint32_t i = 0; i < hits_.size(); ++i) {
             const double area = input.mesh.patches()[i].area;
             total_area_ += area;
             mean_reflectance_ += area * input.mesh.material(i).reflectance;
         }
         emitted_ = emitted_power(input.mesh);
         mean_reflectance_ = glm::min(mean_reflectance_ / total_area_, Vec3(.999));
-        const Vec3 rho = glm::max(mean_reflectance_, least_reflectance);
-        mean_reflected_ = mean_of_channels(emitted_ * rho / (1.0 - rho)) / total_area_;
+        const Vec3 rho = glm::max(mean_reflectance_, least_reflectance_of_receivers);
+        factors_.emplace(input, mean_of_channels(emitted_ * rho / (1.0 - rho)) / total_area_);
         begin_pass();
         publish(estimate());
         solution_.steps = 0;
@@ -93,7 +83,7 @@ class ProgressiveSolver final : public Solver {
 
     bool step() override {
         input_.monitor.phase = "shooting";
-        const double wanted = input_.options.rays * static_cast<double>(sights_.size());
+        const double wanted = input_.options.rays * static_cast<double>(hits_.size());
         const std::uint64_t before = points_;
         while (!finished()) {
             if (pass_is_done()) {
@@ -122,18 +112,14 @@ class ProgressiveSolver final : public Solver {
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
   private:
-    struct Sight : PairFactor {
-        double at_risk = 0; ///< about the factor, if it was left to chance whether to look
-    };
-
     void begin_pass() {
         radiosity_.clear();
-        for (std::uint32_t i = 0; i < sights_.size(); ++i)
+        for (std::uint32_t i = 0; i < hits_.size(); ++i)
             radiosity_.push_back(input_.mesh.material(i).emission);
         unshot_ = radiosity_;
-        for (std::uint32_t i = 0; i < sights_.size(); ++i)
+        for (std::uint32_t i = 0; i < hits_.size(); ++i)
             rank(i);
-        variance_.assign(sights_.size(), Vec3(0.0));
+        variance_.assign(hits_.size(), Vec3(0.0));
         absorbed_ = escaped_ = by_chance_ = {};
         rays_per_light_ =
             rays_per_light_unit * input_.options.rays * std::pow(growth_of_passes, double(passes_));
@@ -186,10 +172,11 @@ class ProgressiveSolver final : public Solver {
         }
         check_finite(input_.mesh, shooter, shot, "the radiosity to be shot", solution_.steps + 1);
         rank(shooter);
-        look_from_all(shooter, shot);
+        factors_->look(shooter, shot, rays_per_light_,
+                       hash_words({input_.options.seed, shots_, shooter}));
         if (input_.monitor.interrupted)
             return;
-        const ShotShares shares = share_out(shooter, shot);
+        const ShotShares shares = balance_.settle(factors_->sum(), look_for_losses(shooter, shot));
         receive(shot, shares.scale);
         const Vec3 power = shot * input_.mesh.patches()[shooter].area;
         escaped_ += shares.lost.escaped * power;
@@ -198,68 +185,10 @@ class ProgressiveSolver final : public Solver {
         ++shots_;
     }
 
-    /// Form factors of all receivers to the shooter.
-    void look_from_all(std::uint32_t shooter, const Vec3& shot) {
-        const std::uint64_t seed = hash_words({input_.options.seed, shots_, shooter});
-        workers_.for_chunks(
-            sights_.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
-                std::uint64_t rays = 0;
-                for (std::size_t i = begin; i < end && !input_.monitor.interrupted; ++i) {
-                    sights_[i] = look(static_cast<std::uint32_t>(i), shooter, shot, seed);
-                    rays += sights_[i].rays;
-                }
-                input_.monitor.rays += rays;
-            });
-    }
-
-    [[nodiscard]] Sight look(std::uint32_t receiver, std::uint32_t shooter, const Vec3& shot,
-                             std::uint64_t seed) const {
-        const auto patches = input_.mesh.patches();
-        if (receiver == shooter || !may_see(patches[receiver], patches[shooter]))
-            return {};
-        if (!input_.needs.power(receiver)) // what it absorbs is accounted for by lose()
-            return {};
-        const double rough = rough_factor(patches[receiver], patches[shooter]);
-        const double rays = worth(receiver, rough, shot);
-        const double chance = std::min(rays / least_worth, 1.0);
-        const double at_risk = chance < 1 ? rough : 0;
-        if (chance < 1 && !(Rng(hash_words({seed, receiver})).uniform() < chance))
-            return {{}, at_risk};
-        Sight f{pair_factor(input_.mesh, input_.tracer, receiver, shooter, rays, seed,
-                            input_.needs.visibility),
-                at_risk};
-        f.variance = f.variance / chance + (1 - chance) * (f.factor / chance) * (f.factor / chance);
-        f.factor /= chance;
-        return f;
-    }
-
-    /// How many rays a pair is worth. The error of a sum is least with rays in proportion to what
-    /// each term contributes; an error counts by the root of the area.
-    [[nodiscard]] double worth(std::uint32_t receiver, double rough, const Vec3& shot) const {
-        const Patch& i = input_.mesh.patches()[receiver];
-        const Vec3 rho = glm::max(input_.mesh.material(receiver).reflectance, least_reflectance);
-        const double light = mean_of_channels(rho * glm::abs(shot)) * rough;
-        const double mean_area = total_area_ / static_cast<double>(sights_.size());
-        return rays_per_light_ * light / mean_reflected_ * std::sqrt(i.area / mean_area);
-    }
-
-    [[nodiscard]] ShotShares share_out(std::uint32_t shooter, const Vec3& shot) {
-        const double area = input_.mesh.patches()[shooter].area;
-        CompensatedSum<double> sum;
-        double variance = 0, at_risk = 0;
-        for (std::uint32_t i = 0; i < sights_.size(); ++i) {
-            const double ratio = input_.mesh.patches()[i].area / area;
-            sum += ratio * sights_[i].factor;
-            variance += ratio * ratio * sights_[i].variance;
-            at_risk += ratio * sights_[i].at_risk;
-        }
-        return balance_.settle({sum.value(), variance, at_risk}, look_for_losses(shooter, shot));
-    }
-
     /// In the order of the patches, whatever thread has looked.
     void receive(const Vec3& shot, double scale) {
-        for (std::uint32_t i = 0; i < sights_.size(); ++i) {
-            const Sight& seen = sights_[i];
+        for (std::uint32_t i = 0; i < hits_.size(); ++i) {
+            const Sight& seen = factors_->sights()[i];
             const Vec3& rho = input_.mesh.material(i).reflectance;
             const Vec3 incident = shot * (scale * seen.factor);
             radiosity_[i] += rho * incident;
@@ -304,7 +233,7 @@ class ProgressiveSolver final : public Solver {
     [[nodiscard]] Estimate estimate() const {
         const Vec3 missing = ambient();
         Vec3 power_variance(0.0);
-        for (std::uint32_t i = 0; i < sights_.size(); ++i)
+        for (std::uint32_t i = 0; i < hits_.size(); ++i)
             power_variance += std::pow(input_.mesh.patches()[i].area, 2.0) * variance_[i];
         const Vec3 gain = 1.0 / ((1.0 - mean_reflectance_) * total_area_);
         const Vec3 shared = missing * missing + gain * gain * power_variance;
@@ -312,7 +241,7 @@ class ProgressiveSolver final : public Solver {
             radiosity_,
             variance_,
             {emitted_, absorbed_.value(), escaped_.value(), power_unshot() + by_chance_.value()}};
-        for (std::uint32_t i = 0; i < sights_.size(); ++i) {
+        for (std::uint32_t i = 0; i < hits_.size(); ++i) {
             const Vec3& rho = input_.mesh.material(i).reflectance;
             result.variance[i] += rho * rho * shared;
             if (options_.ambient)
@@ -337,15 +266,12 @@ class ProgressiveSolver final : public Solver {
 
     SolverInput input_;
     ProgressiveOptions options_;
-    Workers workers_;
+    std::optional<ShotFactors> factors_;
     double total_area_ = 0;
     Vec3 mean_reflectance_{0.0}; ///< by area
-    /// Radiosity that the mean patch will reflect in the end, as the ambient term has it.
-    double mean_reflected_ = 0;
     Vec3 emitted_{0.0};
     // The present pass after its last shot; solution_ is that after the last step.
     std::vector<Vec3> radiosity_, unshot_;                ///< B and dB
-    std::vector<Sight> sights_;                           ///< of the present shot
     LargestFirst brightest_;                              ///< unshot power
     std::vector<Vec3> variance_;                          ///< of B by sampling
     CompensatedSum<Vec3> absorbed_, escaped_, by_chance_; ///< power, local units

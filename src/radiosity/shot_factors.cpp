@@ -1,0 +1,88 @@
+#include "radiosity/shot_factors.h"
+
+#include "geometry/compensated_sum.h"
+#include "radiosity/mesh.h"
+#include "radiosity/rng.h"
+#include "radiosity/shot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+/// Fewer pairs are done sooner than other threads would be started.
+constexpr std::size_t receivers_per_chunk = 256;
+
+/// Pairs that are worth less than this many rays are looked at by chance only, and count for those
+/// that are not.
+constexpr double least_worth = .05;
+
+} // namespace
+
+ShotFactors::ShotFactors(const SolverInput& input, double mean_reflected)
+    : input_(input), workers_(input.options.threads), mean_reflected_(mean_reflected),
+      sights_(input.mesh.patches().size()) {
+    for (const Patch& patch : input.mesh.patches())
+        mean_area_ += patch.area / static_cast<double>(sights_.size());
+}
+
+void ShotFactors::look(std::uint32_t shooter, const Vec3& shot, double rays_per_light,
+                       std::uint64_t seed) {
+    shooter_ = shooter;
+    workers_.for_chunks(
+        sights_.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+            std::uint64_t rays = 0;
+            for (std::size_t i = begin; i < end && !input_.monitor.interrupted; ++i) {
+                sights_[i] = look_from(static_cast<std::uint32_t>(i), shot, rays_per_light, seed);
+                rays += sights_[i].rays;
+            }
+            input_.monitor.rays += rays;
+        });
+}
+
+Sight ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot, double rays_per_light,
+                             std::uint64_t seed) const {
+    const auto patches = input_.mesh.patches();
+    if (receiver == shooter_ || !may_see(patches[receiver], patches[shooter_]))
+        return {};
+    if (!input_.needs.power(receiver)) // what it absorbs is among the losses
+        return {};
+    const double rough = rough_factor(patches[receiver], patches[shooter_]);
+    const Vec3 rho =
+        glm::max(input_.mesh.material(receiver).reflectance, least_reflectance_of_receivers);
+    const double rays =
+        rays_per_light * worth(receiver, mean_of_channels(rho * glm::abs(shot)) * rough);
+    const double chance = std::min(rays / least_worth, 1.0);
+    const double at_risk = chance < 1 ? rough : 0;
+    if (chance < 1 && !(Rng(hash_words({seed, receiver})).uniform() < chance))
+        return {{}, at_risk};
+    Sight f{pair_factor(input_.mesh, input_.tracer, receiver, shooter_, rays, seed,
+                        input_.needs.visibility),
+            at_risk};
+    f.variance = f.variance / chance + (1 - chance) * (f.factor / chance) * (f.factor / chance);
+    f.factor /= chance;
+    return f;
+}
+
+/// The error of a sum is least with rays in proportion to what each term contributes; an error
+/// counts by the root of the area.
+double ShotFactors::worth(std::uint32_t receiver, double light) const {
+    return light / mean_reflected_ * std::sqrt(input_.mesh.patches()[receiver].area / mean_area_);
+}
+
+FactorSum ShotFactors::sum() const {
+    const double area = input_.mesh.patches()[shooter_].area;
+    CompensatedSum<double> sum;
+    FactorSum result;
+    for (std::uint32_t i = 0; i < sights_.size(); ++i) {
+        const double ratio = input_.mesh.patches()[i].area / area;
+        sum += ratio * sights_[i].factor;
+        result.variance += ratio * ratio * sights_[i].variance;
+        result.at_risk += ratio * sights_[i].at_risk;
+    }
+    result.sum = sum.value();
+    return result;
+}
+
+} // namespace hemilux
