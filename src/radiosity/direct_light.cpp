@@ -90,7 +90,7 @@ DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& ne
       sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)), samples_(mesh.patches().size()),
       hits_(mesh.patches().size()) {
     for (const std::uint32_t e : emitters_)
-        radii_.push_back(radius_of(mesh.patches()[e]));
+        shapes_.push_back({PolygonSampler(mesh.patches()[e].shape), radius_of(mesh.patches()[e])});
     if (emitters_.size() <= most_weighed)
         return;
     double sum = 0;
@@ -144,6 +144,7 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, std::vector<dou
     if (!(sums.back() > 0))
         return;
     const Patch& receiver = mesh_.patches()[patch];
+    const PolygonSampler origins(receiver.shape);
     const double radius = radius_of(receiver);
     for (std::uint32_t s = 0; s < seeds_.size(); ++s) {
         const std::uint64_t seed = hash_words({seeds_[s], patch});
@@ -155,9 +156,9 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, std::vector<dou
             const double chance = (sums[e] - (e > 0 ? sums[e - 1] : 0.0)) / sums.back();
             const Patch& emitter = mesh_.patches()[emitters_[e]];
             const bool distant = glm::distance(receiver.centre, emitter.centre) >
-                                 radius + (1 + distant_radii) * radii_[e];
-            const Sight sight =
-                look_at(mesh_, patch, emitters_[e], {u[0], u[1], u[2], u[3]}, distant);
+                                 radius + (1 + distant_radii) * shapes_[e].radius;
+            const Sightline sight = look_at(receiver, origins, emitter, shapes_[e].points,
+                                            {u[0], u[1], u[2], u[3]}, distant);
             if (!(sight.factor > 0))
                 continue;
             volley.samples.push_back(

@@ -8,6 +8,7 @@
 // points where the emitter looks small.
 
 #include "bvh/tracer.h"
+#include "geometry/polygon_sampler.h"
 #include "geometry/vector.h"
 #include "radiosity/needs.h"
 #include "radiosity/workers.h"
@@ -67,7 +68,11 @@ class DirectLight {
     std::vector<std::uint64_t> seeds_;
     std::vector<Vec3> sum_; ///< by patch and estimate
     std::vector<std::uint32_t> samples_, hits_;
-    std::vector<double> radii_;  ///< of the emitters, from their centres
+    struct Shape {
+        PolygonSampler points;
+        double radius; ///< from the centre
+    };
+    std::vector<Shape> shapes_;  ///< of the emitters
     std::vector<double> powers_; ///< running sums, for emitters too many to weigh one by one
 };
 

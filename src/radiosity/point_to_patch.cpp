@@ -1,5 +1,6 @@
 #include "radiosity/point_to_patch.h"
 
+#include "geometry/polygon_sampler.h"
 #include "geometry/projected_polygon.h"
 #include "radiosity/mesh.h"
 
@@ -21,20 +22,18 @@ double factor_to_point(const Patch& source, const Patch& target, Vec3& direction
 
 } // namespace
 
-Sight look_at(const Mesh& mesh, std::uint32_t from, std::uint32_t to,
-              const std::array<double, 4>& u, bool distant) {
-    const Patch& source = mesh.patches()[from];
-    const Patch& target = mesh.patches()[to];
+Sightline look_at(const Patch& source, const PolygonSampler& origins, const Patch& target,
+                  const PolygonSampler& targets, const std::array<double, 4>& u, bool distant) {
     if (target.facet == source.facet)
         return {};
-    Sight sight;
+    Sightline sight;
     sight.ray.from = source.facet;
-    sight.ray.origin = source.shape.sample({u[0], u[1]});
+    sight.ray.origin = origins.sample({u[0], u[1]});
     const double height = glm::dot(target.normal, sight.ray.origin - target.centre);
     if (!(height > 0)) // behind the target
         return {};
     if (distant) {
-        sight.ray.direction = target.shape.sample({u[2], u[3]}) - sight.ray.origin;
+        sight.ray.direction = targets.sample({u[2], u[3]}) - sight.ray.origin;
         sight.factor = factor_to_point(source, target, sight.ray.direction);
     } else {
         const ProjectedPolygon seen(sight.ray.origin, Frame::from_normal(source.normal),
@@ -54,11 +53,13 @@ Sight look_at(const Mesh& mesh, std::uint32_t from, std::uint32_t to,
 
 double point_to_patch(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
                       const std::array<double, 4>& u, std::uint64_t& rays, bool visibility) {
-    const Sight sight = look_at(mesh, from, to, u);
+    const Patch &source = mesh.patches()[from], &target = mesh.patches()[to];
+    const Sightline sight = look_at(source, PolygonSampler(source.shape), target,
+                                    PolygonSampler(target.shape), u, false);
     if (!(sight.factor > 0) || !visibility)
         return sight.factor;
     ++rays;
-    return tracer.occluded(sight.ray, mesh.patches()[to].facet) ? 0 : sight.factor;
+    return tracer.occluded(sight.ray, target.facet) ? 0 : sight.factor;
 }
 
 } // namespace hemilux

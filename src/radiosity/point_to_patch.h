@@ -11,10 +11,11 @@
 namespace hemilux {
 
 class Mesh;
+class PolygonSampler;
 struct Patch;
 
 /// A random look from a patch to another.
-struct Sight {
+struct Sightline {
     double factor = 0; ///< [-] if nothing stands between them; 0: the point does not face the patch
     Ray ray{};         ///< ends short of the target; set if the factor is not 0
 };
@@ -23,8 +24,10 @@ struct Sight {
 /// Near, the factor is that from a random point to the whole patch, so that only shadows make it
 /// noisy; `distant`, it is that to a random point of the patch, which is much sooner said and
 /// almost as good where the target looks small.
-[[nodiscard]] Sight look_at(const Mesh& mesh, std::uint32_t from, std::uint32_t to,
-                            const std::array<double, 4>& u, bool distant = false);
+/// Points come from samplers of both shapes.
+[[nodiscard]] Sightline look_at(const Patch& source, const PolygonSampler& origins,
+                                const Patch& target, const PolygonSampler& targets,
+                                const std::array<double, 4>& u, bool distant);
 
 /// The same with its ray traced: the factor, or 0 if something stands between. Adds to `rays` if a
 /// ray had to be traced. `visibility`: false where nothing can stand between two patches.

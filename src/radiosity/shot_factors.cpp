@@ -24,7 +24,8 @@ ShotFactors::ShotFactors(const SolverInput& input, double mean_reflected)
     : input_(input), workers_(input.options.threads), mean_reflected_(mean_reflected),
       sights_(input.mesh.patches().size()) {
     for (const Patch& patch : input.mesh.patches())
-        mean_area_ += patch.area / static_cast<double>(sights_.size());
+        mean_area_ += patch.area;
+    mean_area_ /= static_cast<double>(sights_.size());
 }
 
 void ShotFactors::look(std::uint32_t shooter, const Vec3& shot, double rays_per_light,
