@@ -1,6 +1,6 @@
 #pragma once
 // Loops over several threads whose result does not depend on their number: the caller writes to a
-// place of its own for each index or chunk and sums afterwards in order.
+// place of its own for each index or chunk and sums in order, afterwards or meanwhile.
 
 #include <algorithm>
 #include <atomic>
@@ -46,6 +46,30 @@ class Workers {
         helpers.clear(); // joins
         if (failure)
             std::rethrow_exception(failure);
+    }
+
+    /// Calls body(k) for each k in [0, count) on any thread, and take(k) once it has returned:
+    /// in the order of k, never two at a time, while others go on with their bodies.
+    template <class Body, class Take>
+    void for_each_in_order(std::size_t count, const Body& body, const Take& take) const {
+        std::mutex mutex;
+        std::vector<bool> done(count);
+        std::size_t next = 0;
+        bool taking = false;
+        for_chunks(count, 1, [&](std::size_t k, std::size_t) {
+            body(k);
+            std::unique_lock lock(mutex);
+            done[k] = true;
+            if (taking)
+                return;
+            taking = true;
+            for (; next < count && done[next]; ++next) {
+                lock.unlock();
+                take(next);
+                lock.lock();
+            }
+            taking = false;
+        });
     }
 
   private:

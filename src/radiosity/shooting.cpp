@@ -87,13 +87,14 @@ std::uint64_t ShootingSolver::bounce(std::uint64_t stream, const std::vector<Vec
     volleys_.resize(std::min(most, pieces_.size()));
     for (std::size_t begin = 0; begin < pieces_.size(); begin += most) {
         const std::size_t count = std::min(most, pieces_.size() - begin);
-        workers.for_chunks(count, 1, [&](std::size_t k, std::size_t) {
-            fire(pieces_[begin + k], stream, unshot, volleys_[k]);
-        });
-        if (input_.monitor.interrupted) // volleys are not whole
+        workers.for_each_in_order(
+            count, [&](std::size_t k) { fire(pieces_[begin + k], stream, unshot, volleys_[k]); },
+            [&](std::size_t k) {
+                if (!input_.monitor.interrupted) // else volleys may not be whole
+                    collect(volleys_[k], unshot, received, result);
+            });
+        if (input_.monitor.interrupted)
             break;
-        for (std::size_t k = 0; k < count; ++k)
-            collect(volleys_[k], unshot, received, result);
         input_.monitor.step_share =
             std::min(1.0, static_cast<double>(result.rays) /
                               (input_.options.rays * static_cast<double>(unshot.size())));
