@@ -174,7 +174,7 @@ int main(int argc, char** argv) try {
     std::size_t lost = 0;
     for (const std::string& file : settings.files)
         lost += test_mesh(file.substr(file.rfind('/') + 1), closed_parts(read_obj(file).scene),
-                             settings);
+                          settings);
     if (settings.files.empty()) {
         lost += test_mesh("sphere", closed_sphere(7), settings);
         lost += test_mesh("box of slivers", box_of_slivers(50'000), settings);

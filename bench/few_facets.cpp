@@ -1,5 +1,5 @@
-// What the tree costs where all triangles fit one of its leaves: nanoseconds a ray with the tree and
-// without it (radiosity/needs.h leaves it out there), one thread.
+// What the tree costs where all triangles fit one of its leaves: nanoseconds a ray with the tree
+// and without it (radiosity/needs.h leaves it out there), one thread.
 //
 //     few_facets
 #include "bvh/wide_bvh.h"
