@@ -30,6 +30,8 @@ namespace {
 
 /// Rays with a random stream of their own, which one thread traces.
 constexpr std::size_t rays_per_stream = 512;
+/// Rays whose receivers are kept until they are summed; whole streams. A lamp may shoot millions.
+constexpr std::size_t rays_per_volley = 2048 * rays_per_stream;
 /// Fewer than this are traced sooner than other threads would be started.
 constexpr std::size_t rays_for_one_thread = 2048;
 
@@ -56,38 +58,53 @@ class MonteCarloSolver final : public StepwiseSolver {
             check_finite(input_.mesh, shooter, power, "the power to be shot", step_under_way());
             check_bounces(shots / patches);
             result.shot += mean_of_channels(power);
-            const Vec3 each =
-                shoot(shooter, power, hash_words({input_.options.seed, stream, shots}));
-            for (const std::uint32_t i : receivers_)
-                if (input_.monitor.interrupted) {
-                    return false; // a lamp may have shot many millions
-                } else if (i < patches) {
-                    received[i] += each;
-                    unshot[i] += input_.mesh.material(i).reflectance * each;
-                    order.set(i, mean_of_channels(unshot[i].value()));
-                    ++result.hits[i];
-                } else {
-                    (i == escaped ? result.escaped : result.absorbed) += each;
-                }
-            result.sent += double(receivers_.size()) * each;
-            count(result);
+            const Shot shot = aim(shooter, power, hash_words({input_.options.seed, stream, shots}));
+            for (std::size_t first = 0; first < shot.rays; first += rays_per_volley) {
+                shoot(shot, first);
+                if (input_.monitor.interrupted)
+                    return false;
+                for (const std::uint32_t i : receivers_)
+                    if (i < patches) {
+                        received[i] += shot.each;
+                        unshot[i] += input_.mesh.material(i).reflectance * shot.each;
+                        order.set(i, mean_of_channels(unshot[i].value()));
+                        ++result.hits[i];
+                    } else {
+                        (i == escaped ? result.escaped : result.absorbed) += shot.each;
+                    }
+                count(result);
+            }
+            result.sent += double(shot.rays) * shot.each;
         }
         reflect(received, result);
         return true;
     }
 
-    /// Fills receivers_, one for each ray, and returns the power of a ray.
-    Vec3 shoot(std::uint32_t shooter, const Vec3& power, std::uint64_t stream) {
+    struct Shot {
+        std::uint32_t shooter;
+        std::size_t rays;
+        Vec3 each; ///< power of a ray
+        std::uint64_t stream;
+    };
+
+    [[nodiscard]] Shot aim(std::uint32_t shooter, const Vec3& power, std::uint64_t stream) const {
         const double expected = mean_of_channels(power) / ray_power();
         const double n = std::floor(expected + Rng(stream).uniform());
-        const auto rays = static_cast<std::size_t>(n);
+        // Below one ray, the ray that is shot carries the power of those that are not.
+        return {shooter, static_cast<std::size_t>(n), power / (expected >= 1 ? n : expected),
+                stream};
+    }
+
+    /// Some of the shot's rays, from `first` on; fills receivers_, one for each.
+    void shoot(const Shot& shot, std::size_t first) {
+        const std::size_t rays = std::min(shot.rays - first, rays_per_volley);
         receivers_.resize(rays);
         const Workers workers = rays < rays_for_one_thread ? Workers(1) : workers_;
         workers.for_chunks(rays, rays_per_stream, [&](std::size_t begin, std::size_t end) {
             if (input_.monitor.interrupted)
                 return;
-            Rng rng(hash_words({stream, begin / rays_per_stream}));
-            const Patch& from = input_.mesh.patches()[shooter];
+            Rng rng(hash_words({shot.stream, (first + begin) / rays_per_stream}));
+            const Patch& from = input_.mesh.patches()[shot.shooter];
             const PolygonSampler origins(from.shape);
             const Frame frame = Frame::from_normal(from.normal);
             std::vector<Ray> drawn;
@@ -97,8 +114,6 @@ class MonteCarloSolver final : public StepwiseSolver {
             find_receivers(drawn, input_.mesh, input_.tracer, struck);
             std::ranges::copy(struck, receivers_.begin() + static_cast<std::ptrdiff_t>(begin));
         });
-        // Below one ray, the ray that is shot carries the power of those that are not.
-        return power / (expected >= 1 ? n : expected);
     }
 
     [[nodiscard]] static Ray draw(const Patch& from, const PolygonSampler& origins,
@@ -129,7 +144,7 @@ class MonteCarloSolver final : public StepwiseSolver {
     }
 
     Workers workers_;
-    std::vector<std::uint32_t> receivers_; ///< of the present shot, ray by ray
+    std::vector<std::uint32_t> receivers_; ///< of the present volley, ray by ray
 };
 
 std::unique_ptr<Solver> make_monte_carlo(const SolverInput& input) {
