@@ -116,10 +116,6 @@ int finish(const Contest& contest, std::vector<MethodRuns> results) {
     return contest.monitor.interrupted ? exit_code_of_signal() : exit_done;
 }
 
-} // namespace
-
-namespace {
-
 int run_comparison(const CompareSettings& settings) {
     std::vector<const Method*> methods = settings.methods;
     if (settings.reference.empty())

@@ -2,6 +2,7 @@
 
 #include "geometry/polygon.h"
 #include "io/welded_edges.h"
+#include "radiosity/check_input.h"
 #include "radiosity/stacked_facets.h"
 
 #include <algorithm>
@@ -52,9 +53,6 @@ std::vector<bool> find_used_materials(const Scene& scene) {
     return used;
 }
 
-bool is_reflectance(const Vec3& r) {
-    return r.x >= 0 && r.x <= 1 && r.y >= 0 && r.y <= 1 && r.z >= 0 && r.z <= 1;
-}
 bool emits(const Vec3& e) { return e.x > 0 || e.y > 0 || e.z > 0; }
 
 Box bounds_of(const Scene& scene) {

@@ -12,14 +12,7 @@
 namespace hemilux {
 namespace {
 
-bool is_reflectance(const Vec3& r) {
-    return r.x >= 0 && r.x <= 1 && r.y >= 0 && r.y <= 1 && r.z >= 0 && r.z <= 1;
-}
 bool is_negative(const Vec3& e) { return e.x < 0 || e.y < 0 || e.z < 0; }
-
-std::uint32_t face_of(const Mesh& mesh, std::uint32_t patch) {
-    return mesh.scene().facets[mesh.patches()[patch].facet].face;
-}
 
 void check_material(const Mesh& mesh, std::uint32_t patch) {
     const Material& material = mesh.material(patch);
@@ -87,6 +80,10 @@ std::string describe(const Mesh& mesh, const TrappedLight& trapped) {
 }
 
 } // namespace
+
+bool is_reflectance(const Vec3& r) {
+    return r.x >= 0 && r.x <= 1 && r.y >= 0 && r.y <= 1 && r.z >= 0 && r.z <= 1;
+}
 
 void check_input(const SolverInput& input) {
     const Mesh& mesh = input.mesh;

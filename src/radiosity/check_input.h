@@ -1,9 +1,14 @@
 #pragma once
 // Whether there is anything to solve: what each method asks before it begins.
 
+#include "geometry/vector.h"
+
 namespace hemilux {
 
 struct SolverInput;
+
+/// Whether each channel is in [0,1]; NaN is not.
+[[nodiscard]] bool is_reflectance(const Vec3& r);
 
 /// Throws SolveError where a patch has a reflectance outside of [0,1] or an emission that is
 /// negative or not finite, where emitted powers overflow or are too small to be squared, and where

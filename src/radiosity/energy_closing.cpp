@@ -16,9 +16,9 @@ using Sum = CompensatedSum<Vec3>;
 
 /// Sums over all patches.
 struct Flows {
-    Sum emitted, arrived, absorbed, left_behind; ///< left_behind: fell on backs of faces, by rays
-    Sum escaped;                                 ///< by rays
-    Sum kept;                                    ///< of the emission what was not lost
+    Sum emitted, absorbed, left_behind; ///< left_behind: fell on backs of faces, by rays
+    Sum escaped;                        ///< by rays
+    Sum kept;                           ///< of the emission what was not lost
     Sum used;      ///< of what arrived what is absorbed there, or reflected and lost
     Sum uncertain; ///< variance of what is lost
 
@@ -28,7 +28,6 @@ struct Flows {
             const Vec3 leaving = emission + t.reflectance[i] * here;
             const double lost = t.lost[i].escaped + t.lost[i].absorbed;
             emitted += emission;
-            arrived += here;
             absorbed += (1.0 - t.reflectance[i]) * here;
             left_behind += t.lost[i].absorbed * leaving;
             escaped += t.lost[i].escaped * leaving;

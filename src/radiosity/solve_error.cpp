@@ -22,9 +22,12 @@ std::string text_of(const Vec3& v) {
 
 } // namespace
 
+std::uint32_t face_of(const Mesh& mesh, std::uint32_t patch) {
+    return mesh.scene().facets[mesh.patches()[patch].facet].face;
+}
+
 std::string name_of_patch(const Mesh& mesh, std::uint32_t patch) {
-    const Facet& facet = mesh.scene().facets[mesh.patches()[patch].facet];
-    return "patch " + std::to_string(patch) + " (face " + std::to_string(facet.face) +
+    return "patch " + std::to_string(patch) + " (face " + std::to_string(face_of(mesh, patch)) +
            ", material '" + mesh.material(patch).name + "')";
 }
 
@@ -36,7 +39,7 @@ void check_finite(const Mesh& mesh, std::uint32_t patch, const Vec3& value, cons
         step > 0 ? "step " + std::to_string(step) + ": " : "before the first step: ";
     throw SolveError(when + what + " of " + name_of_patch(mesh, patch) + " is " + text_of(value) +
                          ", which is no number to go on with; scale emissions down",
-                     mesh.scene().facets[mesh.patches()[patch].facet].face);
+                     face_of(mesh, patch));
 }
 
 void check_finite(const Mesh& mesh, std::span<const Vec3> values, const char* what,

@@ -26,6 +26,8 @@ inline constexpr double largest_radiosity = 1e145;
 /// And where all emission of a channel is less, unless there is none: squares would vanish.
 inline constexpr double least_radiosity = 1e-145;
 
+/// Of the file, from 0: the one that a patch is part of.
+[[nodiscard]] std::uint32_t face_of(const Mesh& mesh, std::uint32_t patch);
 /// "patch 3 (face 1, material 'wall')"
 [[nodiscard]] std::string name_of_patch(const Mesh& mesh, std::uint32_t patch);
 

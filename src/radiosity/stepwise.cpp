@@ -105,7 +105,7 @@ void StepwiseSolver::check_bounces(std::uint64_t bounces) const {
                          ": light is still on its way after ten million bounces, as between " +
                          name_of_patch(input_.mesh, brightest) +
                          " and others; --method gathering needs no bounces",
-                     input_.mesh.scene().facets[input_.mesh.patches()[brightest].facet].face);
+                     face_of(input_.mesh, brightest));
 }
 
 /// What a single ray of all steps so far would add to the patch's radiosity.
