@@ -1,7 +1,9 @@
-// What the tree costs where all triangles fit one of its leaves: nanoseconds a ray with the tree
-// and without it (radiosity/needs.h leaves it out there), one thread.
+// What the tree costs where all triangles fit one of its leaves: nanoseconds a ray with the tree,
+// without it (radiosity/needs.h leaves it out there), and by a loop over the facets one after the
+// other. One thread.
 //
 //     few_facets
+#include "bvh/brute_force.h"
 #include "bvh/wide_bvh.h"
 #include "contest.h"
 #include "radiosity/rng.h"
@@ -61,15 +63,19 @@ int main() {
     constexpr int rounds = 31;
     const std::vector<Ray> rays = make_rays(count);
     std::vector<Struck> struck(count);
-    std::printf("facets  tree [ns]  all [ns]\n");
+    std::printf("quads  tree [ns]  without [ns]  loop [ns]\n");
     for (const unsigned facets : {1u, 2u, 3u, 4u, 5u, 6u}) {
         const Room room = make_room(facets);
         const WideBvh tree(room.soup(), {.threads = 1});
-        const WideBvh all(room.soup(), {.threads = 1, .hierarchy = false});
-        const auto seconds = bench::contest(
-            {[&] { tree.closest_stream(rays, struck); }, [&] { all.closest_stream(rays, struck); }},
-            rounds);
-        std::printf("%6u  %9.0f  %8.0f\n", facets, 1e9 * seconds[0] / count,
-                    1e9 * seconds[1] / count);
+        const WideBvh without(room.soup(), {.threads = 1, .hierarchy = false});
+        const BruteForce loop(room.soup());
+        std::vector<std::function<void()>> entrants;
+        for (const Tracer* const tracer :
+             {static_cast<const Tracer*>(&tree), static_cast<const Tracer*>(&without),
+              static_cast<const Tracer*>(&loop)})
+            entrants.push_back([&, tracer] { tracer->closest_stream(rays, struck); });
+        const auto seconds = bench::contest(entrants, rounds);
+        std::printf("%5u  %9.0f  %12.0f  %9.0f\n", facets, 1e9 * seconds[0] / count,
+                    1e9 * seconds[1] / count, 1e9 * seconds[2] / count);
     }
 }
