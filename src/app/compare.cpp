@@ -37,13 +37,14 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
                                            const Tracer& tracer, const Needs& needs,
                                            Monitor& monitor) {
     const StopRule stop{.steps = {}, .seconds = {}, .error = settings.reference_error};
+    const Method& method = *find_method("matrix");
     SolveOptions options = settings.options;
     options.literal = false;
     options.seed = hash_words({options.seed, 0x7265666572656e63u});
     const SolverInput input{mesh, tracer, options, monitor, needs};
-    Progress progress(monitor, share_of(stop), wants_bar(settings));
+    Progress progress(monitor, share_of(stop, method), wants_bar(settings));
     progress.set_topic("reference");
-    const std::unique_ptr<Solver> solver = find_method("matrix")->make(input);
+    const std::unique_ptr<Solver> solver = method.make(input);
     run(*solver, input, stop, [&](const StepRecord& record, const Solution&) {
         progress.step_done(record);
         if (settings.talk == Talk::verbose)

@@ -26,6 +26,9 @@ constexpr double bytes_per_solution = 225;
 constexpr double bytes_per_factor = 32;
 /// Independent matrices that `matrix` keeps to know its error.
 constexpr double replicates = 8;
+/// What `gathering` may use for its rays where --memory says nothing: a scene of a million patches
+/// then stays within 4 GiB.
+constexpr std::uint64_t usual_transport = std::uint64_t{5} << 29;
 /// Rays that wait to be summed.
 constexpr double bytes_of_volleys = 32e6;
 
@@ -117,7 +120,7 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
 }
 
 SolveOptions with_memory(SolveOptions options, const SceneSettings& scene) {
-    options.memory = scene.memory.value_or(0) / 2;
+    options.memory = scene.memory ? *scene.memory / 2 : usual_transport;
     return options;
 }
 

@@ -32,7 +32,7 @@ bool stderr_is_terminal() {
     return isatty(STDERR_FILENO) && terminal && std::string_view(terminal) != "dumb";
 }
 
-double share_done(const StopRule& stop, const ProgressState& state) {
+double share_done(const StopRule& stop, bool well_distributed, const ProgressState& state) {
     const double steps = state.steps + std::clamp(state.step_share, 0.0, 1.0);
     double share = 0;
     if (stop.steps)
@@ -40,14 +40,18 @@ double share_done(const StopRule& stop, const ProgressState& state) {
     if (stop.seconds)
         share = std::max(share, state.seconds / *stop.seconds);
     if (stop.error && state.steps > 0 && state.estimated_error > 0) {
-        const double needed = state.steps * std::pow(state.estimated_error / *stop.error, 2);
-        share = std::max(share, steps / needed);
+        const double growth =
+            std::pow(state.estimated_error / *stop.error, well_distributed ? 1 / .7 : 2);
+        share = std::max(share, static_cast<double>(state.rays_of_steps + state.rays_of_step) /
+                                    (growth * static_cast<double>(state.rays_of_steps)));
     }
     return std::min(share, 1.0);
 }
 
-ShareDone share_of(const StopRule& stop) {
-    return [stop](const ProgressState& state) { return share_done(stop, state); };
+ShareDone share_of(const StopRule& stop, const Method& method) {
+    return [stop, &method](const ProgressState& state) {
+        return share_done(stop, !method.unbiased, state);
+    };
 }
 
 std::string progress_line(double share, const ProgressState& state, std::size_t width) {
@@ -77,6 +81,8 @@ Progress::~Progress() { close(); }
 void Progress::step_done(const StepRecord& record) {
     const std::scoped_lock lock(mutex_);
     state_.steps = record.step;
+    state_.rays_of_steps = record.rays;
+    rays_before_step_ = monitor_.rays;
     state_.estimated_error = record.estimated_error;
 }
 
@@ -113,6 +119,7 @@ void Progress::draw() {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     state_.seconds = elapsed.count();
     state_.rays = monitor_.rays;
+    state_.rays_of_step = state_.rays - rays_before_step_;
     state_.step_share = monitor_.step_share;
     state_.phase = monitor_.interrupted ? "stopping" : monitor_.phase.load();
     const std::string line = progress_line(share_(state_), state_, terminal_width() - 1);

@@ -22,17 +22,20 @@ struct ProgressState {
     double step_share = 0;   ///< of the present step, 0 to 1
     double seconds = 0;      ///< since the start
     std::uint64_t rays = 0;
+    std::uint64_t rays_of_steps = 0;                                   ///< of the finished ones
+    std::uint64_t rays_of_step = 0;                                    ///< of the present one
     double estimated_error = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not known yet
 };
 
 /// How much of the run is done, 0 to 1, by the part of the stop rule that will be met first. The
-/// error is taken to fall as rays^-1/2.
-[[nodiscard]] double share_done(const StopRule& stop, const ProgressState& state);
+/// error is taken to fall as rays^-1/2, or as rays^-.7 where points are well distributed.
+[[nodiscard]] double share_done(const StopRule& stop, bool well_distributed,
+                                const ProgressState& state);
 
 /// How much of the work is done, 0 to 1.
 using ShareDone = std::function<double(const ProgressState&)>;
 /// That of one run.
-[[nodiscard]] ShareDone share_of(const StopRule& stop);
+[[nodiscard]] ShareDone share_of(const StopRule& stop, const Method& method);
 
 /// The bar as text of at most `width` columns.
 [[nodiscard]] std::string progress_line(double share, const ProgressState& state,
@@ -63,6 +66,7 @@ class Progress {
     ShareDone share_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     ProgressState state_;
+    std::uint64_t rays_before_step_ = 0; ///< by the monitor
     std::mutex mutex_;
     std::condition_variable wake_;
     bool closed_ = false, drawn_ = false;

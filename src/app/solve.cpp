@@ -15,6 +15,7 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "app/text.h"
+#include "radiosity/error_spread.h"
 #include "radiosity/hemisphere.h"
 #include "radiosity/make_tracer.h"
 #include "radiosity/workers.h"
@@ -57,6 +58,8 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
         statistics.bytes_density_paper =
             statistics.patches * Hemisphere::cells_up_to(settings.options.depth);
     statistics.estimated_error = estimated_error(mesh, solution);
+    statistics.estimated_error_uncertainty =
+        statistics.estimated_error * error_spread(mesh, solution).uncertainty();
     statistics.energy = solution.energy;
 }
 
@@ -123,10 +126,12 @@ int solve(const SolveSettings& settings) {
     guard.watch(monitor.interrupted);
     say(settings.talk, Talk::verbose, tracer_text(tree, statistics.seconds_bvh));
 
-    Progress progress(monitor, share_of(stop),
+    Progress progress(monitor, share_of(stop, *settings.method),
                       settings.talk != Talk::quiet && stderr_is_terminal());
     const Stopwatch solving;
-    const SolveOptions options = with_memory(settings.options, settings.scene);
+    SolveOptions options = with_memory(settings.options, settings.scene);
+    options.growing_steps = !stop.steps;
+    options.aim = stop.error.value_or(0);
     const SolverInput input{mesh, *tracer, options, monitor, needs};
     const std::unique_ptr<Solver> solver = make_solver(settings, input);
     std::vector<StepRow> rows;

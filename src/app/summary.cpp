@@ -20,6 +20,13 @@ std::string energy_text(const EnergyBalance& energy) {
            formatted("; balance closed to %.0e", energy.imbalance());
 }
 
+/// How well the estimated error is known.
+std::string uncertainty_text(const Statistics& s) {
+    return std::isfinite(s.estimated_error_uncertainty)
+               ? ", give or take " + percent(s.estimated_error_uncertainty)
+               : "";
+}
+
 } // namespace
 
 std::string mesh_text(const Mesh& mesh) {
@@ -57,7 +64,8 @@ std::string run_text(const Statistics& s) {
     text += " in " + duration(s.seconds_density + s.seconds_solve) + " (" +
             short_count(s.rays_per_second) + " rays/s)";
     if (s.steps > 0)
-        text += "\nestimated error " + percent(s.estimated_error) + "\n" + energy_text(s.energy);
+        text += "\nestimated error " + percent(s.estimated_error) + uncertainty_text(s) + "\n" +
+                energy_text(s.energy);
     return text;
 }
 

@@ -36,6 +36,7 @@ Json to_object(const Statistics& s) {
             {"bytes_transport", s.bytes_transport},
             {"bytes_peak", s.bytes_peak},
             {"estimated_error", s.estimated_error},
+            {"estimated_error_uncertainty", s.estimated_error_uncertainty},
             {"energy",
              {{"emitted", channels(s.energy.emitted)},
               {"absorbed", channels(s.energy.absorbed)},

@@ -28,6 +28,7 @@ struct Statistics {
     std::uint64_t bytes_density_paper = 0; ///< 4 (4^(n+1) - 1) / 3 per patch (paper section 6)
     std::uint64_t bytes_peak = 0;          ///< of the process
     double estimated_error = unknown;
+    double estimated_error_uncertainty = unknown; ///< one sigma; NaN before two steps
     EnergyBalance energy;
     std::vector<LeftOut> left_out;
 };

@@ -8,6 +8,7 @@
 #include "radiosity/shot.h"
 #include "radiosity/sobol.h"
 #include "radiosity/solver.h"
+#include "radiosity/state.h"
 
 #include <algorithm>
 #include <atomic>
@@ -186,6 +187,18 @@ void DirectLight::send(Volley& volley) {
     volley.samples.clear();
     volley.rays.clear();
     volley.targets.clear();
+}
+
+void DirectLight::save(StateWriter& state) const {
+    state.add(std::span<const Vec3>(sum_));
+    state.add(std::span<const std::uint32_t>(samples_));
+    state.add(std::span<const std::uint32_t>(hits_));
+}
+
+void DirectLight::load(StateReader& state) {
+    state.get(std::span(sum_));
+    state.get(std::span(samples_));
+    state.get(std::span(hits_));
 }
 
 } // namespace hemilux

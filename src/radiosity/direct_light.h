@@ -20,6 +20,8 @@
 namespace hemilux {
 
 class Mesh;
+class StateReader;
+class StateWriter;
 struct Monitor;
 
 /// Patches that emit and are better reached by shadow rays than by rays at random: those that are
@@ -34,7 +36,8 @@ class DirectLight {
                 std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds);
 
     /// Goes on until each patch has so many samples in each estimate. Returns the number of rays
-    /// traced now; void if the monitor was interrupted meanwhile.
+    /// traced now. Where the monitor was interrupted meanwhile some patches have fewer, and another
+    /// call takes up the rest.
     std::uint64_t sample_up_to(std::span<const std::uint32_t> samples, const Workers& workers,
                                Monitor& monitor);
 
@@ -53,6 +56,10 @@ class DirectLight {
     [[nodiscard]] std::uint64_t bytes() const {
         return sum_.size() * sizeof(Vec3) + 2 * samples_.size() * sizeof(std::uint32_t);
     }
+
+    void save(StateWriter& state) const;
+    /// Throws StateError for what save() cannot have written of this mesh.
+    void load(StateReader& state);
 
   private:
     struct Volley;

@@ -2,10 +2,10 @@
 
 #include "radiosity/mesh.h"
 #include "radiosity/ray_deal.h"
+#include "radiosity/state.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace hemilux {
 namespace {
@@ -13,10 +13,14 @@ namespace {
 /// Rays per patch at which the run ends whatever the error.
 constexpr double most_rays = 1u << 20;
 
-/// A kind of ray whose error costs less than this share of the other's is not doubled. Errors of
-/// well-distributed points fall about as rays^-3/4: doubling one kind takes two thirds of its
-/// variance.
-constexpr double worth_doubling = .35;
+/// Errors of well-distributed points fall about as rays^-.7, their squares so:
+constexpr double fall = 1.4;
+
+/// Of all rays in a step towards an error: more at once would trust the first few rays too much.
+constexpr double most_growth = 4;
+
+/// The part of an error asked for that a step is to reach, so that the run seldom takes one more.
+constexpr double aim_below = .95;
 
 /// The share of the weights that is measured; and what a patch's area counts.
 constexpr double trust = .5, area_exponent = .42;
@@ -24,13 +28,11 @@ constexpr double trust = .5, area_exponent = .42;
 /// Black emitters count as if they reflected this: their rays tell where their light goes.
 constexpr double least_reflectance = .1;
 
-double sum(const std::vector<std::uint32_t>& rays) {
-    return std::accumulate(rays.begin(), rays.end(), 0.0);
-}
-
 } // namespace
 
-GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps) {
+GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps,
+                             const Pace& pace)
+    : pace_(pace) {
     const auto patches = mesh.patches();
     first_.random = std::clamp(random, 1.0, most_rays);
     first_.to_lamps = to_lamps > 0 ? first_.random : 0;
@@ -47,12 +49,11 @@ GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random
     some_without_ = to_lamps > 0 && std::ranges::count(lamp_weights_, 0.0) > 0;
 }
 
-void GatheringPlan::grow(double variance, double variance_of_lamps) {
+void GatheringPlan::grow(const KnownError& known, double room) {
     before_ = now_;
     if (now_.random > 0) {
-        // What the next ray of either kind takes from the variance.
-        choose((variance - variance_of_lamps) / now_.random,
-               now_.to_lamps > 0 ? variance_of_lamps / now_.to_lamps : 0);
+        choose(known);
+        now_.random = std::min(now_.random, room * before_.random);
     } else {
         now_.random = first_.random;
         now_.to_lamps = first_.to_lamps;
@@ -61,17 +62,43 @@ void GatheringPlan::grow(double variance, double variance_of_lamps) {
     now_.rays.to_lamps = deal_rays(lamp_weights_, now_.to_lamps, before_.rays.to_lamps);
 }
 
-void GatheringPlan::choose(double of_random, double of_lamps) {
-    const bool more_random = !(of_random < worth_doubling * of_lamps);
-    if (!(of_lamps < worth_doubling * of_random) && now_.to_lamps > 0)
-        now_.to_lamps *= 2;
-    if (more_random)
-        now_.random *= 2;
+void GatheringPlan::choose(const KnownError& known) {
+    const double rays = before_.random + before_.to_lamps;
+    if (!pace_.growing)
+        return split(rays + first_.random + first_.to_lamps, known);
+    if (!(pace_.aim > 0))
+        return split(2 * rays, known);
+    double factor = least_growth;
+    do
+        split(factor * rays, known);
+    while (!(predicted(known) <= aim_below * pace_.aim) && (factor *= least_growth) <= most_growth);
 }
 
-double GatheringPlan::growth() const {
-    const double old = sum(before_.rays.random);
-    return old > 0 ? sum(now_.rays.random) / old : 1;
+/// So many rays in all go to the two kinds so that the error is least, as far as variances fall
+/// with the power `fall` of the rays; none is taken back.
+void GatheringPlan::split(double rays, const KnownError& known) {
+    now_.random = rays;
+    if (!(before_.to_lamps > 0))
+        return;
+    const auto due = [](double variance, double rays_before) {
+        return std::pow(variance * std::pow(rays_before, fall), 1 / (1 + fall));
+    };
+    const double random =
+        due(std::max(known.variance - known.variance_from_lamps, 0.0), before_.random);
+    const double to_lamps = due(known.variance_from_lamps, before_.to_lamps);
+    const double share = random + to_lamps > 0 ? random / (random + to_lamps) : .5;
+    now_.random = std::clamp(share * rays, before_.random, rays - before_.to_lamps);
+    now_.to_lamps = rays - now_.random;
+}
+
+/// The error that the planned rays will probably leave.
+double GatheringPlan::predicted(const KnownError& known) const {
+    const double of_lamps =
+        known.variance > 0 ? std::min(known.variance_from_lamps / known.variance, 1.0) : 0;
+    double left = (1 - of_lamps) * std::pow(before_.random / now_.random, fall);
+    if (now_.to_lamps > 0)
+        left += of_lamps * std::pow(before_.to_lamps / now_.to_lamps, fall);
+    return known.relative * std::sqrt(left);
 }
 
 bool GatheringPlan::at_most() const { return std::max(now_.random, now_.to_lamps) >= most_rays; }
@@ -99,6 +126,33 @@ void GatheringPlan::weigh(const ExchangeMatrix& factors, std::span<const Vec3> l
         for (std::size_t i = 0; i < n; ++i)
             weights_[i] =
                 prior_weights_[i] * (trust * spread[i] * sum_of_weights / sum + 1 - trust);
+}
+
+/// What was planned, and what is known of the patches; the rest follows from the scene.
+void GatheringPlan::save(StateWriter& state) const {
+    for (const Stage* stage : {&before_, &now_}) {
+        state.add(stage->random);
+        state.add(stage->to_lamps);
+        state.add(std::span<const std::uint32_t>(stage->rays.random));
+        state.add(std::span<const std::uint32_t>(stage->rays.to_lamps));
+    }
+    state.add(std::span<const double>(weights_));
+}
+
+void GatheringPlan::load(StateReader& state) {
+    for (Stage* stage : {&before_, &now_}) {
+        for (double* mean : {&stage->random, &stage->to_lamps})
+            if (!((*mean = state.number()) >= 0 && *mean <= most_growth * most_rays))
+                throw StateError("a number of rays is out of range");
+        stage->rays.random.resize(weights_.size());
+        stage->rays.to_lamps.resize(weights_.size());
+        state.get(std::span(stage->rays.random));
+        state.get(std::span(stage->rays.to_lamps));
+    }
+    state.get(std::span(weights_));
+    for (const double weight : weights_)
+        if (!(weight >= 0 && std::isfinite(weight)))
+            throw StateError("a weight is no weight");
 }
 
 } // namespace hemilux

@@ -11,6 +11,8 @@
 namespace hemilux {
 
 class Mesh;
+class StateReader;
+class StateWriter;
 
 /// Rays of each patch.
 struct GatheringRays {
@@ -18,21 +20,35 @@ struct GatheringRays {
     std::vector<std::uint32_t> to_lamps; ///< shadow rays
 };
 
+/// How many rays a step adds.
+struct Pace {
+    /// As many as there are, or as it takes to reach `aim`; else as many as the first step had.
+    bool growing = true;
+    /// Relative error to be reached; 0: none is asked for.
+    double aim = 0;
+};
+
+/// Of the solution so far.
+struct KnownError {
+    double relative = 0;            ///< as it is told
+    double variance = 0;            ///< in any unit
+    double variance_from_lamps = 0; ///< the part of it that comes from shadow rays
+};
+
 class GatheringPlan {
   public:
     /// The first step's means, of one set; no `to_lamps`: there are no lamps to be reached.
-    GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps);
+    GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps,
+                  const Pace& pace);
 
-    /// Plans more rays than before. `variance`: of the solution so far, and the part of it that
-    /// comes from the light of lamps; not used for the first step.
-    void grow(double variance, double variance_of_lamps);
-    /// As before the last growth.
-    void shrink_back() { now_ = before_; }
+    /// Plans more rays than before, at most `room` times as many random ones; `known` is not used
+    /// for the first step.
+    void grow(const KnownError& known, double room);
+    /// Less room than this is not worth a step.
+    static constexpr double least_growth = 1.19;
 
     /// In all until the next step ends.
     [[nodiscard]] const GatheringRays& rays() const { return now_.rays; }
-    /// By the last growth, of random rays; 1 for the first.
-    [[nodiscard]] double growth() const;
     [[nodiscard]] bool at_most() const;
     /// Whether there are patches that rays at random alone look from, where there are lamps.
     [[nodiscard]] bool some_without_shadow_rays() const { return some_without_; }
@@ -41,13 +57,21 @@ class GatheringPlan {
     /// random rays to find [W/m2].
     void weigh(const ExchangeMatrix& factors, std::span<const Vec3> light, const Workers& workers);
 
+    void save(StateWriter& state) const;
+    /// Of a plan made with the same arguments. Throws StateError for what save() cannot have
+    /// written.
+    void load(StateReader& state);
+
   private:
     struct Stage {
         double random = 0, to_lamps = 0; ///< means
         GatheringRays rays;
     };
-    void choose(double of_random, double of_lamps);
+    void choose(const KnownError& known);
+    void split(double rays, const KnownError& known);
+    [[nodiscard]] double predicted(const KnownError& known) const;
 
+    Pace pace_;
     Stage first_, before_, now_;
     std::vector<Vec3> reflectance_;
     std::vector<double> weights_, lamp_weights_; ///< what a ray is worth

@@ -6,6 +6,7 @@
 #include "radiosity/shot.h"
 #include "radiosity/sobol.h"
 #include "radiosity/solver.h"
+#include "radiosity/state.h"
 
 #include <algorithm>
 #include <atomic>
@@ -111,6 +112,44 @@ void RayCounts::Row::add(std::vector<std::uint32_t>& struck) {
     merged.insert(merged.end(), old, counts.end());
     merged.shrink_to_fit();
     counts = std::move(merged);
+}
+
+void RayCounts::save(StateWriter& state) const {
+    for (const Row& row : rows_) {
+        for (const std::uint32_t rays : {row.rays, row.escaped, row.absorbed})
+            state.add(rays);
+        state.add(std::uint64_t{row.counts.size()});
+        for (const Count& count : row.counts) {
+            state.add(count.patch);
+            state.add(count.hits);
+        }
+    }
+}
+
+void RayCounts::load(StateReader& state) {
+    for (Row& row : rows_) {
+        for (std::uint32_t* rays : {&row.rays, &row.escaped, &row.absorbed})
+            state.get(*rays);
+        row.counts.resize(state.count(sizeof(Count)));
+        for (Count& count : row.counts) {
+            state.get(count.patch);
+            state.get(count.hits);
+        }
+        if (!row.adds_up(rows_.size()))
+            throw StateError("rays of a patch do not add up");
+    }
+}
+
+/// Every ray was struck by something, once, and receivers stand in their order.
+bool RayCounts::Row::adds_up(std::size_t patches) const {
+    std::uint64_t sum = std::uint64_t{escaped} + absorbed, next = 0;
+    for (const Count& count : counts) {
+        if (count.patch < next || count.patch >= patches || count.hits == 0)
+            return false;
+        next = std::uint64_t{count.patch} + 1;
+        sum += count.hits;
+    }
+    return sum == rays;
 }
 
 std::uint64_t RayCounts::bytes() const {

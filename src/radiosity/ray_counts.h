@@ -12,6 +12,8 @@
 namespace hemilux {
 
 class Mesh;
+class StateReader;
+class StateWriter;
 struct Monitor;
 
 class RayCounts {
@@ -24,8 +26,8 @@ class RayCounts {
     /// Different seeds: independent sets. What is referred to outlives this.
     RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed);
 
-    /// Goes on until each patch has so many rays. Returns the number traced
-    /// now; the counts are void if the monitor was interrupted meanwhile.
+    /// Goes on until each patch has so many rays. Returns the number traced now. Where the monitor
+    /// was interrupted meanwhile some patches have fewer, and another call takes up the rest.
     std::uint64_t trace_up_to(std::span<const std::uint32_t> rays, const Workers& workers,
                               Monitor& monitor);
 
@@ -42,11 +44,16 @@ class RayCounts {
     }
     [[nodiscard]] std::uint64_t bytes() const;
 
+    void save(StateWriter& state) const;
+    /// Throws StateError for what save() cannot have written of this mesh.
+    void load(StateReader& state);
+
   private:
     struct Row {
         std::vector<Count> counts;
         std::uint32_t rays = 0, escaped = 0, absorbed = 0;
         void add(std::vector<std::uint32_t>& struck);
+        [[nodiscard]] bool adds_up(std::size_t patches) const;
     };
     struct Volley;
     void draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley);

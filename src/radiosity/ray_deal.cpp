@@ -1,5 +1,7 @@
 #include "radiosity/ray_deal.h"
 
+#include "radiosity/rng.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,13 +15,19 @@ std::uint32_t power_of_two(double rays) {
     return rays <= 1 ? 1 : std::uint32_t{1} << std::min(std::lround(std::log2(rays)), 31L);
 }
 
-/// To the nearest power of 2^(1/16) of the largest. Patches of one shape then get as many rays as
-/// each other, though their areas differ by rounding errors: the last rays go to all or none.
+/// From -1/2 to 1/2, another for each patch.
+double dither(std::size_t patch) { return Rng(hash_words({patch})).uniform() - .5; }
+
+/// To the nearest power of 2^(1/16) of the largest, so that rounding errors of areas decide
+/// nothing; then up to half an octave up or down by the patch's number, which says who is first to
+/// get more rays among patches of one shape.
 std::vector<double> rounded(std::span<const double> weights, double largest) {
     std::vector<double> result;
-    for (const double weight : weights)
-        result.push_back(weight > 0 ? std::exp2(std::round(16 * std::log2(weight / largest)) / 16)
-                                    : 0);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        result.push_back(
+            weights[i] > 0
+                ? std::exp2(std::round(16 * std::log2(weights[i] / largest)) / 16 + dither(i))
+                : 0);
     return result;
 }
 

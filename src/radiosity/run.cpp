@@ -1,3 +1,4 @@
+#include "radiosity/error_spread.h"
 #include "radiosity/mesh.h"
 #include "radiosity/solver.h"
 
@@ -6,6 +7,12 @@
 #include <stdexcept>
 
 namespace hemilux {
+namespace {
+
+/// Of the time of a step over that of the longest before, where steps grow.
+constexpr double most_growth = 2;
+
+} // namespace
 
 void Solver::save(StateWriter&) const {
     throw std::logic_error("this method cannot save its state");
@@ -21,12 +28,17 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
         const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start;
         return solver.solution().seconds_density + before.seconds + d.count();
     };
-    double last = elapsed(), longest = 0;
+    double last = elapsed(), longest = 0, growth = 1;
+    const auto reached = [&](double error) {
+        return error <= *stop.error &&
+               !(error * error_spread(input.mesh, solver.solution()).bound() >
+                 StopRule::tolerance * *stop.error);
+    };
     const auto done = [&](std::uint32_t step, double seconds, double error) {
         return solver.finished() || (stop.steps && step >= *stop.steps) ||
-               (stop.error && error <= *stop.error) ||
+               (stop.error && reached(error)) ||
                // A step that would end too late is not begun.
-               (stop.seconds && seconds + longest > *stop.seconds);
+               (stop.seconds && seconds + growth * longest > *stop.seconds);
     };
     if (before.steps > 0 &&
         done(before.steps, last, estimated_error(input.mesh, solver.solution())))
@@ -39,7 +51,9 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
                                 estimated_error(input.mesh, solution)};
         if (after_step)
             after_step(record, solution);
-        longest = std::max(longest, record.seconds - last);
+        const double took = record.seconds - last;
+        growth = longest > 0 ? std::clamp(took / longest, 1.0, most_growth) : 1;
+        longest = std::max(longest, took);
         last = record.seconds;
         if (done(step, record.seconds, record.estimated_error))
             return true;

@@ -33,6 +33,11 @@ struct Solution {
     /// Sum over patches and channels of area times the variance of B, where that is known better
     /// than from standard_error, which is on the safe side where few rays arrive.
     std::optional<double> variance;
+    /// Independent solutions whose spread the standard errors are; 0: the steps.
+    double error_samples = 0;
+    /// Independent parts of the error (error_spread.h), where they are known better than from
+    /// standard_error, which does not tell what patches err together.
+    std::optional<double> error_parts;
     EnergyBalance energy;
     std::uint32_t steps = 0;
     std::uint64_t rays_energy = 0;

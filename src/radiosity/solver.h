@@ -51,6 +51,11 @@ struct SolveOptions {
     ProgressiveOptions progressive = {};
     Guide guide = Guide::density; ///< `hemisphere`; not with `literal`
     std::uint64_t seed = 1;
+    /// `gathering`: each step takes as many rays as all before, or as `aim` asks for; else each
+    /// takes `rays`, as with the other methods.
+    bool growing_steps = true;
+    /// `gathering`: the estimated error at which the run is to end; 0: none.
+    double aim = 0;
     /// Bytes that `gathering` may use for its rays; 0: as many as it needs.
     std::uint64_t memory = 0;
     /// 0: one per core. The result does not depend on it.
@@ -63,7 +68,10 @@ struct SolveOptions {
 struct StopRule {
     std::optional<std::uint32_t> steps;
     std::optional<double> seconds;
-    std::optional<double> error; ///< estimated relative error, e.g. .01
+    /// Estimated relative error, e.g. .01; where that is known badly (error_spread.h), so far below
+    /// that the true one is less than `tolerance` times this in 95 of 100 runs.
+    std::optional<double> error;
+    static constexpr double tolerance = 1.2;
     static constexpr std::uint32_t default_steps = 16;
 };
 

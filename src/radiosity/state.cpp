@@ -1,17 +1,38 @@
 #include "radiosity/state.h"
 
+#include <array>
 #include <bit>
 
 namespace hemilux {
 namespace {
 
-constexpr std::size_t word = sizeof(std::uint64_t);
+/// The least byte first.
+template <class Whole>
+std::array<char, sizeof(Whole)> bytes_of(Whole value) {
+    std::array<char, sizeof(Whole)> bytes;
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        bytes[i] = static_cast<char>(value >> (8 * i) & 0xff);
+    return bytes;
+}
+
+template <class Whole>
+Whole from_bytes(std::string_view bytes) {
+    Whole value = 0;
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        value |= Whole{static_cast<unsigned char>(bytes[i])} << (8 * i);
+    return value;
+}
 
 } // namespace
 
 void StateWriter::add(std::uint64_t value) {
-    for (std::size_t i = 0; i < word; ++i)
-        bytes_.push_back(static_cast<char>(value >> (8 * i) & 0xff));
+    const auto bytes = bytes_of(value);
+    bytes_.append(bytes.data(), bytes.size());
+}
+
+void StateWriter::add(std::uint32_t value) {
+    const auto bytes = bytes_of(value);
+    bytes_.append(bytes.data(), bytes.size());
 }
 
 void StateWriter::add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
@@ -35,11 +56,11 @@ std::string_view StateReader::take(std::size_t bytes) {
 }
 
 std::uint64_t StateReader::whole() {
-    const std::string_view bytes = take(word);
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < word; ++i)
-        value |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * i);
-    return value;
+    return from_bytes<std::uint64_t>(take(sizeof(std::uint64_t)));
+}
+
+void StateReader::get(std::uint32_t& value) {
+    value = from_bytes<std::uint32_t>(take(sizeof(std::uint32_t)));
 }
 
 double StateReader::number() { return std::bit_cast<double>(whole()); }

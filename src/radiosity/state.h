@@ -1,6 +1,6 @@
 #pragma once
-// A solver's state as bytes, for checkpoints: whole numbers of 64 bits and doubles by their bits,
-// in little-endian order whatever the machine.
+// A solver's state as bytes, for checkpoints: whole numbers of 32 and 64 bits and doubles by their
+// bits, in little-endian order whatever the machine.
 
 #include "geometry/vector.h"
 
@@ -20,6 +20,7 @@ struct StateError : std::runtime_error {
 class StateWriter {
   public:
     void add(std::uint64_t value);
+    void add(std::uint32_t value);
     void add(double value);
     void add(const Vec3& value);
     void add(std::string_view text);
@@ -50,6 +51,7 @@ class StateReader {
     [[nodiscard]] std::size_t count(std::size_t bytes_each);
 
     void get(std::uint64_t& value) { value = whole(); }
+    void get(std::uint32_t& value);
     void get(double& value) { value = number(); }
     void get(Vec3& value);
     /// Exactly as many values as there is room for; else StateError.

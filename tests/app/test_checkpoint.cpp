@@ -14,7 +14,8 @@ using test::Workplace;
 
 namespace {
 
-const std::string run_of_8 = "solve room.obj --rays 20 --max-edge .3 --steps 8 -o ";
+const std::string run_of_8 =
+    "solve room.obj --method hemisphere --rays 20 --max-edge .3 --steps 8 -o ";
 
 void check_refused(const Workplace& place, const std::string& arguments,
                    const std::string& message) {
@@ -62,8 +63,9 @@ void check_kills(const Workplace& place, int kills, const std::string& run, doub
 TEST_CASE("a resumed run ends with the bytes of one that was not interrupted") {
     const Workplace place;
     place.write_room();
-    const std::string method = GENERATE("hemisphere", "hemisphere --literal", "hemisphere-1997",
-                                        "monte-carlo", "progressive-monte-carlo", "stratified");
+    const std::string method =
+        GENERATE("gathering", "hemisphere", "hemisphere --literal", "hemisphere-1997",
+                 "monte-carlo", "progressive-monte-carlo", "stratified");
     CAPTURE(method);
     const std::string run = "solve room.obj --rays 20 --method " + method;
     REQUIRE(place.hemilux(run + " --steps 6 -o whole.csv --steps-log whole_steps.csv").code == 0);
@@ -88,20 +90,25 @@ TEST_CASE("a resumed run ends with the bytes of one that was not interrupted") {
 TEST_CASE("a run to an error resumes, and the time before counts") {
     const Workplace place;
     place.write_room();
-    const std::string run = "solve room.obj --rays 20 --error .03";
+    const std::string run = "solve room.obj --method hemisphere --rays 20 --error .03";
     REQUIRE(place.hemilux(run + " -o whole.csv").code == 0);
-    REQUIRE(place.hemilux("solve room.obj --rays 20 --steps 3 --checkpoint saved -o a.csv").code ==
-            0);
+    REQUIRE(place
+                .hemilux("solve room.obj --method hemisphere --rays 20 --steps 3 --checkpoint "
+                         "saved -o a.csv")
+                .code == 0);
     REQUIRE(place.hemilux(run + " --resume saved -o a.csv").code == 0);
     CHECK(place.read("a.csv") == place.read("whole.csv"));
 
-    const std::string timed = "solve room.obj --rays 2000 --time .5 --checkpoint saved -o a.csv";
+    const std::string timed =
+        "solve room.obj --method hemisphere --rays 2000 --time .5 --checkpoint saved -o a.csv";
     REQUIRE(place.hemilux(timed).code == 0);
     const std::string before = place.read("a.csv");
-    REQUIRE(place
-                .hemilux("solve room.obj --rays 2000 --time .5 --resume saved -o a.csv "
-                         "--steps-log steps.csv")
-                .code == 0);
+    REQUIRE(
+        place
+            .hemilux(
+                "solve room.obj --method hemisphere --rays 2000 --time .5 --resume saved -o a.csv "
+                "--steps-log steps.csv")
+            .code == 0);
     const std::string log = place.read("steps.csv"); // of .5 seconds in all, as far as steps fit
     const std::size_t last = log.rfind("hemisphere,0,");
     double seconds = 0;
@@ -113,7 +120,8 @@ TEST_CASE("a run to an error resumes, and the time before counts") {
 TEST_CASE("Ctrl-C leaves a checkpoint of all steps that were done") {
     const Workplace place;
     place.write_room();
-    const std::string run = "solve room.obj --rays 20";
+    const std::string run =
+        GENERATE("solve room.obj --rays 20", "solve room.obj --rays 20 --method hemisphere");
     Running running(place, run + " --steps 4000000000 -v --checkpoint saved -o a.csv",
                     place.path("talk.txt").c_str());
     REQUIRE(wait_for(place, "talk.txt", "step 3:"));
@@ -128,20 +136,24 @@ TEST_CASE("checkpoints of other runs are refused") {
     const Workplace place;
     place.write_room();
     REQUIRE(place.hemilux(run_of_8 + "a.csv --checkpoint saved").code == 0);
-    const std::string same = "solve room.obj --rays 20 --max-edge .3 --steps 8 --resume saved";
-    for (const char* option : {"--seed 2", "--depth 1", "--threshold 3", "--literal", "--keep-all",
-                               "--method stratified"})
-        check_refused(place, same + " " + option,
+    const std::string same =
+        "solve room.obj --rays 20 --max-edge .3 --steps 8 --resume saved --method";
+    for (const char* option : {"--seed 2", "--depth 1", "--threshold 3", "--literal", "--keep-all"})
+        check_refused(place, same + " hemisphere " + option,
                       "is a checkpoint of another run: expected " +
                           std::string(option).substr(0, std::string(option).find(' ')));
-    check_refused(place, "solve room.obj --rays 21 --max-edge .3 --resume saved",
+    check_refused(place, same + " stratified", "is a checkpoint of another run: expected --method");
+    check_refused(place,
+                  "solve room.obj --method hemisphere --rays 21 --max-edge .3 --resume saved",
                   "expected --rays 21, it has 20");
     for (const char* arguments :
-         {"solve room.obj --rays 20 --resume saved",
-          "solve room.obj --rays 20 --max-edge .2 --resume saved",
-          "solve room.obj --rays 20 --max-edge .3 --two-sided --resume saved",
-          "solve room.obj --rays 20 --max-edge .3 --reflectance white=.51 --resume saved",
-          "solve room.obj --rays 20 --max-edge .3 --emission lamp=1 --resume saved"})
+         {"solve room.obj --method hemisphere --rays 20 --resume saved",
+          "solve room.obj --method hemisphere --rays 20 --max-edge .2 --resume saved",
+          "solve room.obj --method hemisphere --rays 20 --max-edge .3 --two-sided --resume saved",
+          "solve room.obj --method hemisphere --rays 20 --max-edge .3 --reflectance white=.51 "
+          "--resume saved",
+          "solve room.obj --method hemisphere --rays 20 --max-edge .3 --emission lamp=1 --resume "
+          "saved"})
         check_refused(place, arguments, "saved: is a checkpoint of another scene");
     check_refused(place, "solve room.obj --resume nothing", "nothing: cannot read");
     check_refused(place, "solve room.obj --resume room.mtl",
@@ -205,7 +217,7 @@ TEST_CASE("what contradicts a checkpoint is wrong usage") {
     check_usage("--checkpoint a.png", "named twice");
     check_usage("--checkpoint room.obj", "named twice");
     check_usage("--resume a.png", "named twice");
-    check_usage("--method matrix --checkpoint c", "these do: hemisphere, ");
+    check_usage("--method matrix --checkpoint c", "these do: gathering, hemisphere, ");
     check_usage("--method matrix --resume c", "monte-carlo");
     check_usage("--every-step --resume c", "--camera and --exposure");
     CHECK(place.hemilux("solve room.obj -o a.png --checkpoint no/where").code == 3);
@@ -214,11 +226,14 @@ TEST_CASE("what contradicts a checkpoint is wrong usage") {
 TEST_CASE("runs killed at random moments resume") {
     const Workplace place;
     place.write_room();
-    check_kills(place, 6, "solve room.obj --rays 100 --max-edge .15 --steps 12", 250);
+    const std::string method = GENERATE("gathering", "hemisphere");
+    check_kills(place, 6, "solve room.obj --rays 100 --max-edge .15 --steps 12 --method " + method,
+                250);
 }
 
 TEST_CASE("runs killed at 50 random moments resume", "[slow]") {
     const Workplace place;
     place.write_room();
-    check_kills(place, 50, "solve room.obj --rays 100 --max-edge .1 --steps 150", 300);
+    const std::string method = GENERATE("gathering --steps 40", "hemisphere --steps 150");
+    check_kills(place, 50, "solve room.obj --rays 100 --max-edge .1 --method " + method, 300);
 }

@@ -188,7 +188,8 @@ TEST_CASE("a scene too large for --memory stops with what it would need") {
     const Workplace place;
     place.write_room();
     const auto outcome =
-        place.hemilux("solve room.obj --max-edge .001 --memory 500M -o a.csv --steps 1");
+        place.hemilux("solve room.obj --max-edge .001 --memory 500M -o a.csv --steps 1 "
+                      "--method hemisphere");
     CHECK(outcome.code == 3);
     CHECK_THAT(outcome.err, Contains("room.obj: needs about 2.") && Contains("GB (scene") &&
                                 Contains("--memory is 524 MB"));

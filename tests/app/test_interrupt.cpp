@@ -108,7 +108,7 @@ TEST_CASE("a terminal gets a progress bar, which is gone at the end") {
 
     const Workplace place;
     place.write_room();
-    Running run(place, "solve room.obj --time 1.5 -o a.csv", name.c_str());
+    Running run(place, "solve room.obj --method hemisphere --time 1.5 -o a.csv", name.c_str());
     std::string seen;
     std::thread reader([&] {
         char buffer[256];

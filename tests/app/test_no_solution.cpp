@@ -34,7 +34,8 @@ TEST_CASE("an overflow within a run writes what was computed before") {
     place.write_room();
     const std::string scene = "room.obj --reflectance '*=.5' --emission '*=4.6e144' --rays 200 ";
     const auto outcome =
-        place.hemilux("solve " + scene + "--steps 9999 -o a.csv -o a.json -o a.png --size 9x9");
+        place.hemilux("solve " + scene +
+                      "--method hemisphere --steps 9999 -o a.csv -o a.json -o a.png --size 9x9");
     CHECK(outcome.code == 2);
     CHECK_THAT(outcome.err, Contains("room.obj:") && Contains(": step ") &&
                                 Contains("before that") && Contains("wrote a.csv"));

@@ -25,9 +25,9 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST_CASE("each output appears, whole and by its extension") {
     const Workplace place;
     place.write_room();
-    const auto outcome = place.hemilux(
-        "solve room.obj --steps 3 --size 40x30 --max-edge .3 -o p.png -o p.hdr -o p.ply -o p.csv "
-        "-o p.json --stats s.json --steps-log steps.csv");
+    const auto outcome = place.hemilux("solve room.obj --method hemisphere --steps 3 --size 40x30 "
+                                       "--max-edge .3 -o p.png -o p.hdr -o p.ply -o p.csv "
+                                       "-o p.json --stats s.json --steps-log steps.csv");
     REQUIRE(outcome.code == 0);
     CHECK(outcome.out.empty());
     CHECK(place.read("p.png").substr(1, 3) == "PNG");
@@ -200,4 +200,23 @@ TEST_CASE("what a method alone can do is asked of that method alone") {
     CHECK_THAT(large.err, Contains("--exact is for up to"));
     CHECK(place.hemilux("solve room.obj --every-step -o b.json").code == 1);
     CHECK_FALSE(place.has("b.json"));
+}
+
+TEST_CASE("gathering solves, or hemisphere where one of its own options is given") {
+    const Workplace place;
+    place.write_room();
+    const auto method_of = [&](const std::string& arguments) {
+        const auto outcome = place.hemilux("solve room.obj --steps 1 -o a.csv " + arguments);
+        REQUIRE(outcome.code == 0);
+        return outcome.err.substr(0, outcome.err.find(':'));
+    };
+    CHECK(method_of("") == "gathering");
+    for (const char* option : {"--depth 1", "--threshold 2", "--guide visible", "--literal"}) {
+        CHECK(method_of(option) == "hemisphere");
+        CHECK(method_of(std::string("--method stratified ") + option) == "stratified");
+    }
+    const auto unasked = place.hemilux("solve room.obj -o a.csv --stats a.json");
+    CHECK(unasked.code == 0);
+    CHECK_THAT(unasked.err, Contains("gathering: ") && Contains("give or take"));
+    CHECK_THAT(place.read("a.json"), Contains("\"estimated_error\": 0.00"));
 }

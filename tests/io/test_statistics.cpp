@@ -49,6 +49,7 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
   "bytes_transport": 0,
   "bytes_peak": 1048576,
   "estimated_error": null,
+  "estimated_error_uncertainty": null,
   "energy": {
     "emitted": [
       1.0,

@@ -5,12 +5,14 @@
 #include "radiosity/exchange_matrix.h"
 #include "radiosity/ray_counts.h"
 #include "radiosity/ray_deal.h"
+#include "radiosity/state.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -233,4 +235,94 @@ TEST_CASE("With little memory gathering goes on, and its rays take no more") {
     CHECK(off(many) < .6 * off(few));
     CHECK(off(many) < .02);
     CHECK(estimated_error(model.mesh, many) > off(many) / 2);
+}
+
+namespace {
+
+/// Asks the run to stop when so many streams of rays have been traced.
+class Interrupting final : public Tracer {
+  public:
+    Interrupting(const Tracer& tracer, Monitor& monitor, int streams)
+        : tracer_(tracer), monitor_(monitor), left_(streams) {}
+    [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override {
+        return tracer_.closest(ray);
+    }
+    [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target) const override {
+        return tracer_.occluded(ray, target);
+    }
+    [[nodiscard]] std::uint32_t count(const Ray& ray) const override { return tracer_.count(ray); }
+    void closest_stream(std::span<const Ray> rays, std::span<Struck> out) const override {
+        if (--left_ == 0)
+            monitor_.interrupted = true;
+        tracer_.closest_stream(rays, out);
+    }
+
+  private:
+    const Tracer& tracer_;
+    Monitor& monitor_;
+    mutable std::atomic<int> left_;
+};
+
+bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    return std::ranges::equal(a, b, [](const Vec3& x, const Vec3& y) { return x == y; });
+}
+
+} // namespace
+
+TEST_CASE("A step of gathering that was interrupted is taken up where it was left") {
+    const Model model(test::room_with_block());
+    SolveOptions options;
+    options.rays = 200;
+    options.threads = 2;
+    Monitor monitor;
+    const auto whole = gathering().make({model.mesh, model.bvh, options, monitor});
+    for (int step = 0; step < 3; ++step)
+        REQUIRE(whole->step());
+    for (const int streams : {1, 5, 30}) {
+        CAPTURE(streams);
+        const Interrupting tracer(model.bvh, monitor, streams);
+        const SolverInput input{model.mesh, tracer, options, monitor};
+        const auto stopped = gathering().make(input);
+        while (stopped->step())
+            ;
+        REQUIRE(monitor.interrupted.exchange(false));
+        REQUIRE(stopped->solution().steps < 3);
+        StateWriter saved;
+        stopped->save(saved);
+        const auto resumed = gathering().make(input);
+        StateReader state(saved.bytes());
+        resumed->load(state);
+        CHECK_NOTHROW(state.expect_end());
+        for (Solver* solver : {stopped.get(), resumed.get()}) {
+            while (solver->solution().steps < 3)
+                REQUIRE(solver->step());
+            CHECK(same_bits(solver->solution().radiosity, whole->solution().radiosity));
+            CHECK(same_bits(solver->solution().standard_error, whole->solution().standard_error));
+            CHECK(solver->solution().rays_energy == whole->solution().rays_energy);
+        }
+    }
+}
+
+TEST_CASE("Equal steps take as many rays as were asked for, and an error is reached in few") {
+    const Model model(test::room_with_block());
+    const auto patches = static_cast<double>(model.mesh.patches().size());
+    SolveOptions options;
+    options.rays = 100;
+    options.growing_steps = false;
+    for (const int steps : {1, 2, 5, 9}) {
+        const Solution s =
+            test::solve(model, gathering(), options, test::steps(std::uint32_t(steps)));
+        CAPTURE(steps);
+        CHECK(double(s.rays_energy) / patches < 100 * steps + 1);
+        CHECK(double(s.rays_energy) / patches > 60 * steps);
+    }
+    options.growing_steps = true;
+    const Solution doubled = test::solve(model, gathering(), options, test::steps(5));
+    CHECK(double(doubled.rays_energy) / patches > 900);
+    options.aim = .005;
+    StopRule stop;
+    stop.error = .005;
+    const Solution aimed = test::solve(model, gathering(), options, stop);
+    CHECK(estimated_error(model.mesh, aimed) <= .005);
+    CHECK(aimed.steps <= 6);
 }

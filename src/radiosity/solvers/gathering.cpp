@@ -6,10 +6,10 @@
 // (conjugate_gradients.h): no ray is traced twice for another bounce. Small lamps are reached by
 // shadow rays with their exact factor (direct_light.h).
 //
-// Parameter: --rays, in the first step, half of them random, half to the lamps. Each step doubles
-// one of the two kinds, that which the larger part of the error comes from, or both. Four
-// independent sets of both give four solutions, whose spread is the standard error; the result is
-// the solution of all rays together.
+// Parameter: --rays, of the first step, half of them random, half to the lamps. Each step adds as
+// many, or as many as there are, or as many as an error asked for will take (gathering_plan.h), of
+// the kind that the error comes from. Four independent sets of both give four solutions, whose
+// spread is the standard error; the result is the solution of all rays together.
 //
 // Consistent: the solution depends on what was counted in a non-linear way, so its bias falls as
 // one over the rays, and its error more slowly. Good nearly everywhere: it needs ten to fifty times
@@ -20,17 +20,22 @@
 #include "radiosity/conjugate_gradients.h"
 #include "radiosity/direct_light.h"
 #include "radiosity/energy_closing.h"
+#include "radiosity/error_spread.h"
 #include "radiosity/exchange_matrix.h"
+#include "radiosity/gathered_light.h"
 #include "radiosity/gathering_plan.h"
 #include "radiosity/mesh.h"
 #include "radiosity/ray_counts.h"
 #include "radiosity/rng.h"
 #include "radiosity/shot.h"
+#include "radiosity/solution_state.h"
 #include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
+#include "radiosity/state.h"
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
 namespace hemilux {
@@ -48,11 +53,10 @@ class GatheringSolver final : public Solver {
   public:
     explicit GatheringSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)),
-          plan_(first_plan(input, !emitters_.empty())) {
+          plan_(first_plan(input, !emitters_.empty())), light_(sets, input.mesh.patches().size()) {
         check_input(input);
         const auto patches = input.mesh.patches();
         renew();
-        finished_.assign(sets + 1, std::vector<Vec3>(patches.size(), Vec3(0.0)));
         std::vector<bool> small(patches.size());
         for (const std::uint32_t e : emitters_)
             small[e] = true;
@@ -66,37 +70,33 @@ class GatheringSolver final : public Solver {
         solution_.energy.emitted =
             input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
         solution_.energy.unshot = solution_.energy.emitted;
-        incident_.assign(sets + 1, std::vector<Vec3>(patches.size(), Vec3(0.0)));
         solution_.radiosity = emission_;
         solution_.standard_error.resize(patches.size());
         solution_.hits.resize(patches.size());
     }
 
     bool step() override {
-        plan_.grow(variance_, direct_variance_);
-        if (!fits()) {
-            plan_.shrink_back();
-            begin_generation();
-        }
+        plan();
         const auto& [rays, samples] = plan_.rays();
         input_.monitor.phase = "rays";
         for (std::size_t s = 0; s < sets; ++s) {
             traced_ += counts_[s].trace_up_to(rays, workers_, input_.monitor);
             input_.monitor.step_share = static_cast<double>(s + 1) / (sets + 2);
-            if (input_.monitor.interrupted)
-                return false;
         }
         traced_ += direct_->sample_up_to(samples, workers_, input_.monitor);
         if (input_.monitor.interrupted)
             return false;
         input_.monitor.phase = "solving";
+        planned_ = false;
         const ExchangeMatrix all = solve_all();
-        if (!std::ranges::all_of(energies_, is_drained)) {
-            require_more_rays(!finished());
-            return step();
-        }
-        for (const std::vector<Vec3>& incident : incident_)
-            check_finite(input_.mesh, incident, "the light that reaches", solution_.steps + 1);
+        for (std::size_t s = 0; s <= sets; ++s)
+            if (!is_drained(light_.solved(s).energy)) {
+                require_more_rays(!finished());
+                return step();
+            }
+        for (std::size_t s = 0; s <= sets; ++s)
+            check_finite(input_.mesh, light_.solved(s).incident, "the light that reaches",
+                         solution_.steps + 1);
         combine(all);
         return true;
     }
@@ -104,10 +104,57 @@ class GatheringSolver final : public Solver {
     [[nodiscard]] bool finished() const override { return plan_.at_most(); }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
+    /// Also within a step that was interrupted.
+    void save(StateWriter& state) const override {
+        light_.save(state);
+        state.add(std::uint64_t{planned_});
+        state.add(traced_);
+        state.add(variance_);
+        state.add(direct_variance_);
+        plan_.save(state);
+        for (const RayCounts& set : counts_)
+            set.save(state);
+        direct_->save(state);
+        save_solution(solution_, state);
+    }
+    void load(StateReader& state) override {
+        light_.load(state);
+        renew();
+        planned_ = state.whole() != 0;
+        state.get(traced_);
+        state.get(variance_);
+        state.get(direct_variance_);
+        plan_.load(state);
+        for (RayCounts& set : counts_)
+            set.load(state);
+        direct_->load(state);
+        load_solution(solution_, state);
+    }
+
   private:
     static GatheringPlan first_plan(const SolverInput& input, bool lamps) {
         const double each = input.options.rays / (lamps ? 2 * sets : sets);
-        return {input.mesh, input.needs, each, lamps ? each : 0};
+        return {input.mesh, input.needs, each, lamps ? each : 0,
+                Pace{input.options.growing_steps, input.options.aim}};
+    }
+
+    /// Unless an interrupted step is to be taken up.
+    void plan() {
+        if (planned_)
+            return;
+        KnownError known{0, variance_, direct_variance_};
+        if (solution_.steps > 0) // as far below an error asked for as the run is to come
+            known.relative =
+                estimated_error(input_.mesh, solution_) *
+                std::max(1.0, error_spread(input_.mesh, solution_).bound() / StopRule::tolerance);
+        const double room = room_to_grow();
+        if (room >= GatheringPlan::least_growth) {
+            plan_.grow(known, room);
+        } else { // as many rays as before, all anew
+            light_.begin_generation();
+            renew();
+        }
+        planned_ = true;
     }
 
     /// New rays, independent of all before.
@@ -115,7 +162,7 @@ class GatheringSolver final : public Solver {
         counts_.clear();
         std::vector<std::uint64_t> seeds;
         for (std::uint64_t s = 0; s < sets; ++s) {
-            const std::uint64_t seed = hash_words({input_.options.seed, s, generation_});
+            const std::uint64_t seed = hash_words({input_.options.seed, s, light_.generation()});
             counts_.emplace_back(input_.mesh, input_.tracer, hash_words({seed, 0}));
             seeds.push_back(hash_words({seed, 1}));
         }
@@ -140,30 +187,15 @@ class GatheringSolver final : public Solver {
         return std::move(*all);
     }
 
-    /// What is known is kept as a solution, and its rays are forgotten.
-    void begin_generation() {
-        for (std::size_t s = 0; s <= sets; ++s)
-            for (std::size_t i = 0; i < area_.size(); ++i)
-                finished_[s][i] += incident_[s][i];
-        finished_energy_.absorbed += energies_[sets].absorbed;
-        finished_energy_.escaped += energies_[sets].escaped;
-        ++generation_;
-        renew();
-    }
-
-    /// Whether so many rays as planned may be stored.
-    [[nodiscard]] bool fits() const {
+    /// How many times as many rays may be stored.
+    [[nodiscard]] double room_to_grow() const {
         std::uint64_t stored = 0;
         for (const RayCounts& set : counts_)
             stored += set.bytes();
-        return input_.options.memory == 0 || plan_.growth() == 1 ||
-               merging * plan_.growth() * static_cast<double>(stored) <=
-                   static_cast<double>(input_.options.memory);
-    }
-
-    /// Mean over the generations; `set` == sets: of all sets together.
-    [[nodiscard]] Vec3 incident(std::size_t set, std::size_t patch) const {
-        return (finished_[set][patch] + incident_[set][patch]) / double(generation_ + 1);
+        return input_.options.memory == 0 || solution_.steps == 0
+                   ? std::numeric_limits<double>::infinity()
+                   : static_cast<double>(input_.options.memory) /
+                         (merging * static_cast<double>(stored));
     }
 
     /// What arrives at each patch in the end, by the factors of a set or (`set` == sets) of all.
@@ -182,33 +214,38 @@ class GatheringSolver final : public Solver {
         }
         const Transport transport{area_, emission_, reflectance_, factors.lost(), factors.rays()};
         scale_direct_light(transport, d);
-        solve_by_gradients(factors, area_, reflectance_, d, incident_[set], workers,
+        GatheredLight::Light& light = light_.solved(set);
+        solve_by_gradients(factors, area_, reflectance_, d, light.incident, workers,
                            {.tolerance = residual});
-        energies_[set] = close_energy(transport, incident_[set]);
+        light.energy = close_energy(transport, light.incident);
     }
 
     void combine(const ExchangeMatrix& all) {
         variance_ = direct_variance_ = 0;
+        std::array<double, sets * sets> products{};
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
-            Vec3 mean(0.0), squares(0.0), direct_squares(0.0);
-            const Vec3 direct_mean = direct_->irradiance(i);
-            for (std::size_t s = 0; s < sets; ++s)
-                mean += incident(s, i) / double(sets);
+            const Vec3 rho = reflectance_[i], direct_mean = direct_->irradiance(i);
+            const auto off = light_.deviations<sets>(i);
+            Vec3 squares(0.0), direct_squares(0.0);
             for (std::size_t s = 0; s < sets; ++s) {
-                const Vec3 off = incident(s, i) - mean;
+                squares += off[s] * off[s];
+                for (std::size_t t = 0; t < sets; ++t)
+                    products[s * sets + t] += area_[i] * glm::dot(rho * off[s], rho * off[t]);
+            }
+            for (std::size_t s = 0; s < sets; ++s) {
                 const Vec3 direct_off = direct_->irradiance(i, s) - direct_mean;
-                squares += off * off;
                 direct_squares += direct_off * direct_off;
             }
-            const Vec3 rho = reflectance_[i];
-            solution_.radiosity[i] = emission_[i] + rho * incident(sets, i);
+            solution_.radiosity[i] = emission_[i] + rho * light_.incident(sets, i);
             solution_.standard_error[i] = rho * glm::sqrt(squares / double(sets * (sets - 1)));
             solution_.hits[i] = direct_->hits(i) + std::uint64_t{plan_.rays().random[i]} * sets;
             variance_ += area_[i] * glm::dot(rho * rho, squares);
             direct_variance_ +=
-                area_[i] * glm::dot(rho * rho, direct_squares) / double(generation_ + 1);
+                area_[i] * glm::dot(rho * rho, direct_squares) / light_.generations();
         }
         variance_ = std::max(variance_, direct_variance_);
+        solution_.error_samples = sets;
+        solution_.error_parts = error_parts(products, sets);
         std::vector<Vec3> light(area_.size());
         for (std::size_t i = 0; i < light.size(); ++i)
             light[i] = solution_.radiosity[i] - emission_[i] + seen_emission_[i];
@@ -221,31 +258,24 @@ class GatheringSolver final : public Solver {
         ++solution_.steps;
     }
 
-    /// Mean over the generations, as of the light that arrives.
     void account() {
         const double to_world = input_.mesh.frame().area_to_world(1.0);
-        const double generations = double(generation_ + 1);
-        const EnergyBalance& energy = energies_[sets];
-        solution_.energy = {to_world * energy.emitted,
-                            to_world / generations * (finished_energy_.absorbed + energy.absorbed),
-                            to_world / generations * (finished_energy_.escaped + energy.escaped),
-                            Vec3(0.0)};
+        const EnergyBalance local = light_.energy();
+        solution_.energy = {to_world * local.emitted, to_world * local.absorbed,
+                            to_world * local.escaped, Vec3(0.0)};
     }
 
     SolverInput input_;
     Workers workers_;
     std::vector<std::uint32_t> emitters_; ///< those reached by shadow rays
     GatheringPlan plan_;
+    GatheredLight light_;
     std::vector<double> area_;
     std::vector<Vec3> reflectance_, emission_;
     std::vector<Vec3> seen_emission_; ///< of those that rays at random are to find
     std::vector<RayCounts> counts_;
-    std::optional<DirectLight> direct_;            ///< an estimate for each set
-    std::vector<std::vector<Vec3>> incident_;      ///< of each set, at last of all together
-    std::vector<std::vector<Vec3>> finished_;      ///< sums over the generations before
-    std::array<EnergyBalance, sets + 1> energies_; ///< likewise, of what was solved last; local
-    EnergyBalance finished_energy_;                ///< of all together, sums; local
-    std::uint64_t generation_ = 0;
+    std::optional<DirectLight> direct_; ///< an estimate for each set
+    bool planned_ = false; ///< rays of the present step, which may have been traced in part
     double variance_ = 0, direct_variance_ = 0;
     std::uint64_t traced_ = 0;
     Solution solution_;
@@ -267,6 +297,7 @@ const Method gathering_method{
     .make = make_gathering,
     .strategy = nullptr,
     .work = {.pairs = true},
+    .saves = true,
 };
 
 } // namespace hemilux

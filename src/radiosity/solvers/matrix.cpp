@@ -66,6 +66,7 @@ class MatrixSolver final : public Solver {
             factors_.emplace_back(input.mesh, input.tracer, emitters,
                                   hash_words({input.options.seed, r}), needs);
         solution_.standard_error.resize(patches.size());
+        solution_.error_samples = replicates;
         solution_.hits.resize(patches.size());
         for (std::uint32_t i = 0; i < patches.size(); ++i)
             solution_.radiosity.push_back(input.mesh.material(i).emission);

@@ -1,0 +1,37 @@
+#pragma once
+// How well an estimated error is known itself.
+//
+// The error of a solution consists of independent parts: thousands where each patch errs for
+// itself, a handful where all patches err together, as by the light of a sky that few rays found.
+// The estimate comes from the spread of a few samples. Its square, and that of the true error, are
+// sums over the parts, so both scatter by 1 / sqrt(parts): one error in a few parts may well be
+// twice what was told.
+
+#include <span>
+
+namespace hemilux {
+
+class Mesh;
+struct Solution;
+
+struct ErrorSpread {
+    double parts = 0;   ///< of equal size, to which the error amounts; at least 1
+    double freedom = 0; ///< samples less one, of which the estimate is made
+
+    /// Relative standard deviation of the estimated error.
+    [[nodiscard]] double uncertainty() const;
+    /// In 95 of 100 runs the true error is below so many times the estimated one.
+    [[nodiscard]] double bound() const;
+};
+
+/// Of the solution's estimated_error(). Where a method does not say how many parts there are
+/// (Solution::error_parts) patches are taken to err each for itself. NaN before two steps.
+[[nodiscard]] ErrorSpread error_spread(const Mesh& mesh, const Solution& solution);
+
+/// Parts from the scalar products of what each of some samples is off from their mean, all with
+/// all: row by row, `samples` squared of them. With G this matrix of n degrees of freedom and P
+/// parts, tr G^2 / (tr G)^2 is about (1 + (n + 1) / P) / (n + 2 / P) (moments of the Wishart
+/// distribution).
+[[nodiscard]] double error_parts(std::span<const double> products, std::size_t samples);
+
+} // namespace hemilux

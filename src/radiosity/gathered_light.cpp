@@ -1,0 +1,42 @@
+#include "radiosity/gathered_light.h"
+
+#include "radiosity/solution_state.h"
+#include "radiosity/state.h"
+
+namespace hemilux {
+
+EnergyBalance GatheredLight::energy() const {
+    const EnergyBalance &now = solved_[sets_].energy, &sums = before_[sets_].energy;
+    return {now.emitted, (sums.absorbed + now.absorbed) / generations(),
+            (sums.escaped + now.escaped) / generations(), Vec3(0.0)};
+}
+
+void GatheredLight::begin_generation() {
+    for (std::size_t s = 0; s <= sets_; ++s) {
+        for (std::size_t i = 0; i < solved_[s].incident.size(); ++i)
+            before_[s].incident[i] += solved_[s].incident[i];
+        before_[s].energy.absorbed += solved_[s].energy.absorbed;
+        before_[s].energy.escaped += solved_[s].energy.escaped;
+    }
+    ++generation_;
+}
+
+void GatheredLight::save(StateWriter& state) const {
+    state.add(generation_);
+    for (const std::vector<Light>* lights : {&solved_, &before_})
+        for (const Light& light : *lights) {
+            state.add(std::span<const Vec3>(light.incident));
+            save_energy(light.energy, state);
+        }
+}
+
+void GatheredLight::load(StateReader& state) {
+    generation_ = state.whole();
+    for (std::vector<Light>* lights : {&solved_, &before_})
+        for (Light& light : *lights) {
+            state.get(std::span(light.incident));
+            load_energy(light.energy, state);
+        }
+}
+
+} // namespace hemilux

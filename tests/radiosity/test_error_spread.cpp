@@ -1,0 +1,68 @@
+// How well an estimated error is known: parts of an error, and what follows from few of them.
+#include "radiosity/error_spread.h"
+#include "support/scenes.h"
+#include "support/solve.h"
+
+#include <catch2/catch.hpp>
+
+#include <random>
+#include <vector>
+
+using namespace hemilux;
+
+namespace {
+
+/// Parts that are found, on average of many draws, where `parts` independent errors make up that of
+/// each of four samples.
+double mean_share_found(int parts) {
+    constexpr std::size_t samples = 4;
+    constexpr int draws = 400;
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    double inverse = 0;
+    for (int draw = 0; draw < draws; ++draw) {
+        std::vector<double> products(samples * samples, 0.0);
+        for (int part = 0; part < parts; ++part) {
+            double off[samples], mean = 0;
+            for (double& each : off)
+                mean += (each = normal(random)) / samples;
+            for (std::size_t s = 0; s < samples; ++s)
+                for (std::size_t t = 0; t < samples; ++t)
+                    products[s * samples + t] += (off[s] - mean) * (off[t] - mean);
+        }
+        inverse += 1 / error_parts(products, samples) / draws;
+    }
+    return inverse;
+}
+
+} // namespace
+
+TEST_CASE("The parts of an error are found from the products of few samples") {
+    CHECK(mean_share_found(1) == Approx(1));
+    CHECK(1 / mean_share_found(4) == Approx(4).epsilon(.25));
+    CHECK(1 / mean_share_found(30) == Approx(30).epsilon(.25));
+    CHECK(1 / mean_share_found(1000) > 500);
+    const std::vector<double> none(16, 0.0);
+    CHECK(error_parts(none, 4) == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("An error of many parts is well known, one of few is not") {
+    const ErrorSpread many{1e4, 3}, few{2, 3}, sure{std::numeric_limits<double>::infinity(), 3};
+    CHECK(many.uncertainty() < .01);
+    CHECK(few.uncertainty() > .25);
+    CHECK(many.bound() < 1.05);
+    CHECK(few.bound() > 2);
+    CHECK(sure.bound() == 1);
+    const test::Model model(test::room_with_block());
+    Solution nothing;
+    nothing.steps = 1;
+    CHECK(std::isnan(error_spread(model.mesh, nothing).bound()));
+    for (const char* name : {"gathering", "hemisphere", "matrix"}) {
+        const Solution s = test::solve(model, *find_method(name), {}, test::steps(3));
+        const ErrorSpread spread = error_spread(model.mesh, s);
+        CAPTURE(name, spread.parts);
+        CHECK(spread.parts > 1);
+        CHECK(spread.uncertainty() > 0);
+        CHECK(spread.uncertainty() < .5);
+    }
+}
