@@ -15,7 +15,11 @@ namespace hemilux {
 
 namespace {
 
-constexpr std::string_view default_method = "hemisphere";
+constexpr std::string_view default_method = "gathering";
+/// Taken where one of its own options is given and no --method.
+constexpr std::string_view method_of_division = "hemisphere";
+constexpr auto division_options =
+    std::to_array<const char*>({"--depth", "--threshold", "--guide", "--literal"});
 constexpr const char* comparison_group = "Comparison";
 
 /// The method named, or UsageError with the nearest name.
@@ -33,9 +37,16 @@ void add_method_option(CLI::App& app, const Method*& method) {
     app.add_option_function<std::string>(
            "--method",
            [&method](const std::string& name) { method = method_by_name("--method", name); },
-           "how to solve, see below [" + std::string(default_method) + "]")
+           "how to solve, see below [" + std::string(default_method) + "; " +
+               std::string(method_of_division) +
+               " where --depth, --threshold, --guide or --literal are given]")
         ->type_name("NAME")
         ->group("Method");
+    app.parse_complete_callback([&app, &method] {
+        const auto given = [&app](const char* name) { return app.count(name) > 0; };
+        if (!given("--method") && std::ranges::any_of(division_options, given))
+            method = find_method(method_of_division);
+    });
 }
 
 /// Names with commas between them.
