@@ -1,6 +1,6 @@
 // Any bytes as a checkpoint, as they are and with a first line, length and checksum that are right:
 // refused by InputError, or read and written again to the same bytes; its state loads or is
-// refused.
+// refused, by both kinds of solvers.
 
 #include "bvh/brute_force.h"
 #include "io/checkpoint.h"
@@ -38,14 +38,16 @@ std::string sealed(std::string_view content) {
 void load(std::string_view state) {
     static const Mesh mesh(one_triangle());
     static const BruteForce tracer(mesh.soup());
-    static const SolveOptions options;
+    static const SolveOptions options{.threads = 1};
     static Monitor monitor;
-    const auto solver = find_method("progressive-monte-carlo")
-                            ->make({mesh, tracer, options, monitor, everything_needed});
-    try {
-        StateReader reader(state);
-        solver->load(reader);
-    } catch (const StateError&) {
+    for (const char* name : {"progressive-monte-carlo", "gathering"}) {
+        const auto solver =
+            find_method(name)->make({mesh, tracer, options, monitor, everything_needed});
+        try {
+            StateReader reader(state);
+            solver->load(reader);
+        } catch (const StateError&) {
+        }
     }
 }
 
