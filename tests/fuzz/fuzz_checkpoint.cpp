@@ -11,6 +11,8 @@
 #include "radiosity/state.h"
 
 #include <cstdlib>
+#include <memory>
+#include <vector>
 
 namespace {
 
@@ -35,20 +37,27 @@ std::string sealed(std::string_view content) {
     return bytes + sum.bytes();
 }
 
-void load(std::string_view state) {
+/// A solver of each kind. They are made once: a state replaces all of the one before.
+std::vector<std::unique_ptr<Solver>> make_solvers() {
     static const Mesh mesh(one_triangle());
     static const BruteForce tracer(mesh.soup());
     static const SolveOptions options{.threads = 1};
     static Monitor monitor;
-    for (const char* name : {"progressive-monte-carlo", "gathering"}) {
-        const auto solver =
-            find_method(name)->make({mesh, tracer, options, monitor, everything_needed});
+    std::vector<std::unique_ptr<Solver>> solvers;
+    for (const char* name : {"progressive-monte-carlo", "gathering"})
+        solvers.push_back(
+            find_method(name)->make({mesh, tracer, options, monitor, everything_needed}));
+    return solvers;
+}
+
+void load(std::string_view state) {
+    static const std::vector<std::unique_ptr<Solver>> solvers = make_solvers();
+    for (const auto& solver : solvers)
         try {
             StateReader reader(state);
             solver->load(reader);
         } catch (const StateError&) {
         }
-    }
 }
 
 void read(const std::string& bytes) {
