@@ -13,7 +13,7 @@ out=out/demo
 mkdir -p "$out"
 echo
 echo "Solving $scene"
-build/release/hemilux solve "$scene" --steps 32 \
+build/release/hemilux solve "$scene" --error .005 \
     -o "$out/picture.png" -o "$out/patches.csv" -o "$out/mesh.ply" \
     --stats "$out/statistics.json" --steps-log "$out/steps.csv"
 

@@ -118,7 +118,9 @@ int finish(const Contest& contest, std::vector<MethodRuns> results) {
 }
 
 int run_comparison(const CompareSettings& settings) {
-    std::vector<const Method*> methods = settings.methods;
+    std::vector<const Method*> methods;
+    for (const Entrant& entrant : settings.entrants)
+        methods.push_back(entrant.method);
     if (settings.reference.empty())
         methods.push_back(find_method("matrix"));
     check_own_options(settings.options, methods);

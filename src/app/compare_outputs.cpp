@@ -82,12 +82,12 @@ void write_pictures(const Contest& contest, std::span<const MethodRuns> results,
     std::vector<std::vector<float>> differences;
     for (const MethodRuns& result : results) {
         const Image image = picture(result.runs.front().radiosity);
-        write(std::string(result.method->name) + ".png", image, exposure);
+        write(result.entrant.name + ".png", image, exposure);
         differences.push_back(luminance_difference(image, truth, exposure));
     }
     const DifferenceScale scale = common_scale(differences);
     for (std::size_t i = 0; i < results.size(); ++i)
-        write(std::string(results[i].method->name) + "_difference.png",
+        write(results[i].entrant.name + "_difference.png",
               false_colour(differences[i], truth.width, truth.height, scale), 1);
 }
 

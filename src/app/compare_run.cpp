@@ -22,14 +22,15 @@ Budget budget_of(const Contest& contest) {
 /// A method at work. Its time is the sum of its own steps and of what it does before the first.
 class Runner {
   public:
-    Runner(const Contest& contest, const Method& method, std::uint32_t run, const Budget& budget)
-        : contest_(contest), method_(method), run_(run), budget_(budget),
+    Runner(const Contest& contest, const Entrant& entrant, std::uint32_t run, const Budget& budget)
+        : contest_(contest), entrant_(entrant), run_(run), budget_(budget),
           options_(with_memory(contest.settings.options, contest.settings.scene)) {
         options_.seed += run;
-        options_.literal = options_.literal && method.has_literal;
+        options_.literal = options_.literal && entrant.method->has_literal;
+        options_.guide = entrant.guide.value_or(options_.guide);
         const Stopwatch preparing;
-        solver_ =
-            method.make({contest.mesh, contest.tracer, options_, contest.monitor, contest.needs});
+        solver_ = entrant.method->make(
+            {contest.mesh, contest.tracer, options_, contest.monitor, contest.needs});
         seconds_ = preparing.seconds();
     }
 
@@ -76,13 +77,13 @@ class Runner {
     [[nodiscard]] StepRow row() const {
         const Solution& solution = solver_->solution();
         const auto step = static_cast<std::uint32_t>(result_.rows.size() + 1);
-        return {std::string(method_.name), run_,
+        return {entrant_.name, run_,
                 StepRecord{step, rays(), seconds_, estimated_error(contest_.mesh, solution)},
                 contest_.reference.error(contest_.mesh, solution.radiosity)};
     }
 
     const Contest& contest_;
-    const Method& method_;
+    const Entrant& entrant_;
     std::uint32_t run_;
     Budget budget_;
     SolveOptions options_;
@@ -106,18 +107,18 @@ double mean_share(const Runners& runners, std::size_t of) {
 void run_once(const Contest& contest, std::uint32_t run, Runners& runners,
               const std::function<void(const StepRow&, double share)>& after_step) {
     const Budget budget = budget_of(contest);
-    const std::vector<const Method*>& methods = contest.settings.methods;
-    for (const Method* const method : methods) {
+    const std::vector<Entrant>& entrants = contest.settings.entrants;
+    for (const Entrant& entrant : entrants) {
         if (contest.monitor.interrupted)
             return;
-        runners.push_back(std::make_unique<Runner>(contest, *method, run, budget));
+        runners.push_back(std::make_unique<Runner>(contest, entrant, run, budget));
     }
     while (!contest.monitor.interrupted) {
         const auto least = std::ranges::min_element(
             runners, {}, [](const auto& runner) { return runner->share(); });
         if ((*least)->done() || !(*least)->step())
             break;
-        after_step((*least)->last_row(), mean_share(runners, methods.size()));
+        after_step((*least)->last_row(), mean_share(runners, entrants.size()));
     }
 }
 
@@ -127,8 +128,8 @@ std::vector<MethodRuns>
 run_methods(const Contest& contest, std::optional<SolveError>& fault,
             const std::function<void(const StepRow&, double share)>& after_step) {
     std::vector<MethodRuns> results;
-    for (const Method* const method : contest.settings.methods)
-        results.push_back({method, {}});
+    for (const Entrant& entrant : contest.settings.entrants)
+        results.push_back({entrant, {}});
     const std::uint32_t runs = contest.settings.runs;
     for (std::uint32_t run = 0; run < runs && !contest.monitor.interrupted && !fault; ++run) {
         Runners runners;

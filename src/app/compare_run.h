@@ -12,7 +12,7 @@
 
 namespace hemilux {
 
-/// One run of one method.
+/// One run of one entrant.
 struct MethodRun {
     std::vector<StepRow> rows;
     std::vector<Vec3> radiosity; ///< at the end of the budget
@@ -20,9 +20,9 @@ struct MethodRun {
     bool complete = false; ///< not interrupted
 };
 
-/// All runs of one method; those that were begun.
+/// All runs of one entrant; those that were begun.
 struct MethodRuns {
-    const Method* method = nullptr;
+    Entrant entrant;
     std::vector<MethodRun> runs;
 };
 

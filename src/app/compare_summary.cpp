@@ -52,8 +52,8 @@ std::vector<ErrorCurve> curves_of(const std::vector<const MethodRun*>& runs, Fig
 MethodSummary summarise(const MethodRuns& result, bool literal) {
     const std::vector<const MethodRun*> runs = runs_that_count(result);
     MethodSummary summary;
-    summary.label = std::string(result.method->name) +
-                    (literal && result.method->has_literal ? " (literal)" : "");
+    summary.label =
+        result.entrant.name + (literal && result.entrant.method->has_literal ? " (literal)" : "");
     summary.rays = mean(runs, rays_of);
     summary.seconds = mean(runs, seconds_of);
     summary.error = {geometric_mean(runs, [](const StepRow& row) { return row.error->all; }),
@@ -114,7 +114,7 @@ std::vector<MethodSummary> summarise(std::span<const MethodRuns> results, bool l
     for (const MethodRuns& result : results)
         summaries.push_back(summarise(result, literal));
     const auto base =
-        std::ranges::find(results, base_method, [](const MethodRuns& r) { return r.method->name; });
+        std::ranges::find(results, base_method, [](const MethodRuns& r) { return r.entrant.name; });
     if (base == results.end())
         return summaries;
     const MethodSummary yardstick = summaries[static_cast<std::size_t>(base - results.begin())];

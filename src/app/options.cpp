@@ -23,20 +23,19 @@ constexpr auto division_options =
 constexpr const char* comparison_group = "Comparison";
 
 /// The method named, or UsageError with the nearest name.
-const Method* method_by_name(const std::string& option, std::string_view name) {
+const Method* method_by_name(std::string_view name) {
     if (const Method* const method = find_method(name))
         return method;
     std::vector<std::string> names;
     for (const Method* const method : methods())
         names.emplace_back(method->name);
-    throw UsageError(option + ": " + unknown_name("method", name, names));
+    throw UsageError("--method: " + unknown_name("method", name, names));
 }
 
 void add_method_option(CLI::App& app, const Method*& method) {
     method = find_method(default_method);
     app.add_option_function<std::string>(
-           "--method",
-           [&method](const std::string& name) { method = method_by_name("--method", name); },
+           "--method", [&method](const std::string& name) { method = method_by_name(name); },
            "how to solve, see below [" + std::string(default_method) + "; " +
                std::string(method_of_division) +
                " where --depth, --threshold, --guide or --literal are given]")
@@ -49,14 +48,37 @@ void add_method_option(CLI::App& app, const Method*& method) {
     });
 }
 
+/// All that --methods may name.
+std::vector<Entrant> possible_entrants() {
+    std::vector<Entrant> list;
+    for (const Method* const method : methods()) {
+        list.push_back({std::string(method->name), method, {}});
+        if (method->name == method_of_division) {
+            list.push_back({list.back().name + "-visible", method, Guide::visible});
+            list.push_back({std::string(method->name) + "-learned", method, Guide::learned});
+        }
+    }
+    return list;
+}
+
+Entrant entrant_by_name(std::string_view name) {
+    std::vector<std::string> names;
+    for (const Entrant& entrant : possible_entrants()) {
+        if (entrant.name == name)
+            return entrant;
+        names.push_back(entrant.name);
+    }
+    throw UsageError("--methods: " + unknown_name("method", name, names));
+}
+
 /// Names with commas between them.
-std::vector<const Method*> method_list(std::string_view text) {
-    std::vector<const Method*> list;
+std::vector<Entrant> entrants_from(std::string_view text) {
+    std::vector<Entrant> list;
     for (bool more = true; more;) {
         const std::size_t comma = text.find(',');
-        list.push_back(method_by_name("--methods", text.substr(0, comma)));
-        if (std::ranges::count(list, list.back()) > 1)
-            throw UsageError("--methods: '" + std::string(list.back()->name) + "' is named twice");
+        list.push_back(entrant_by_name(text.substr(0, comma)));
+        if (std::ranges::count(list, list.back().name, &Entrant::name) > 1)
+            throw UsageError("--methods: '" + list.back().name + "' is named twice");
         more = comma != std::string_view::npos;
         if (more)
             text.remove_prefix(comma + 1);
@@ -64,13 +86,14 @@ std::vector<const Method*> method_list(std::string_view text) {
     return list;
 }
 
-void add_methods_option(CLI::App& app, std::vector<const Method*>& list) {
-    for (const Method* const method : methods())
-        if (method->unbiased)
-            list.push_back(method);
+void add_methods_option(CLI::App& app, std::vector<Entrant>& list) {
+    for (const Entrant& entrant : possible_entrants())
+        if ((entrant.method->unbiased || entrant.name == default_method) && !entrant.guide)
+            list.push_back(entrant);
     app.add_option_function<std::string>(
-           "--methods", [&list](const std::string& text) { list = method_list(text); },
-           "what to compare, see below [all that are unbiased]")
+           "--methods", [&list](const std::string& text) { list = entrants_from(text); },
+           "what to compare, see below; also hemisphere-visible, hemisphere-learned [" +
+               std::string(default_method) + " and all that are unbiased]")
         ->type_name("NAME,NAME,...")
         ->group("Method");
 }
@@ -249,7 +272,7 @@ CLI::App* add_compare_command(CLI::App& program, CompareSettings& settings) {
         "compare", "error against run time of several methods, side by side");
     add_scene_options(*app, settings.scene);
     add_memory_option(*app, settings.scene);
-    add_methods_option(*app, settings.methods);
+    add_methods_option(*app, settings.entrants);
     add_method_options(*app, settings.options);
     add_own_options(*app, settings.options);
     add_budget_options(*app, settings);

@@ -62,9 +62,17 @@ struct Budget {
     static constexpr double default_steps = 64; ///< of the mean rays per patch and step
 };
 
+/// A method as `compare` names it: `hemisphere-visible` and `hemisphere-learned` are hemisphere
+/// with another guide.
+struct Entrant {
+    std::string name;
+    const Method* method = nullptr;
+    std::optional<Guide> guide; ///< empty: as --guide says
+};
+
 struct CompareSettings {
     SceneSettings scene;
-    std::vector<const Method*> methods;
+    std::vector<Entrant> entrants;
     SolveOptions options; ///< run r has the seed plus r; `literal` is for methods that have it
     Budget budget;
     std::uint32_t runs = 3;

@@ -113,19 +113,44 @@ TEST_CASE("a comparison leaves a log, charts, pictures and a table") {
         CHECK(std::stod(table.at(method)[3]) < 6);
 }
 
-TEST_CASE("by default all unbiased methods are compared, by rays") {
+TEST_CASE("by default gathering and all unbiased methods are compared, by rays") {
     const Workplace place;
     place.write_room();
     const auto outcome = place.hemilux("compare room.obj -o a --runs 1 --rays 4 -q " + quick);
     REQUIRE(outcome.code == 0);
     CHECK(outcome.err.empty());
     const auto table = table_of(outcome.out);
-    std::size_t unbiased = 0;
+    std::size_t expected = 0;
     for (const hemilux::Method* const method : hemilux::methods()) {
-        CHECK(table.contains(std::string(method->name)) == method->unbiased);
-        unbiased += method->unbiased;
+        const bool compared = method->unbiased || method->name == "gathering";
+        CHECK(table.contains(std::string(method->name)) == compared);
+        expected += compared;
     }
-    CHECK(table.size() == unbiased + 1);
+    CHECK(table.size() == expected + 1);
+}
+
+TEST_CASE("hemisphere is compared with itself, guided in other ways") {
+    const Workplace place;
+    place.write_room();
+    place.write("room.obj", place.read("room.obj") + // something that hides something
+                                "v .2 .2 .2\nv .6 .2 .5\nv .3 .7 .4\nf -3 -2 -1\n");
+    const auto outcome =
+        place.hemilux("compare room.obj -o a --runs 1 --rays 4 -q --methods "
+                      "hemisphere,hemisphere-visible,hemisphere-learned,progressive-monte-carlo " +
+                      quick);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const auto table = table_of(outcome.out);
+    for (const char* name : {"hemisphere", "hemisphere-visible", "hemisphere-learned"}) {
+        CHECK(table.contains(name));
+        CHECK(place.has(std::string("a/") + name + "_difference.png"));
+    }
+    CHECK(table.at("hemisphere")[3] != table.at("hemisphere-visible")[3]);
+    CHECK(table.at("hemisphere-learned")[3] != table.at("hemisphere-visible")[3]);
+    const auto twice =
+        place.hemilux("compare room.obj -o a --methods hemisphere-learned,hemisphere-learned");
+    CHECK(twice.code == 1);
+    CHECK_THAT(twice.err, Contains("named twice"));
 }
 
 TEST_CASE("the reference that was computed serves again, and steps do not depend on threads") {
