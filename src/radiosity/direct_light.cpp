@@ -23,9 +23,6 @@ constexpr std::size_t patches_per_chunk = 16;
 /// Emitters that together are more than this share of all surface are found by rays at random.
 constexpr double largest_share = .3;
 
-/// More emitters are drawn by their power, wherever the receiver is.
-constexpr std::size_t most_weighed = 4096;
-
 /// An emitter is distant if a receiver keeps off by so many of its radii. Half or twice as many
 /// change the errors by less than a twentieth (measured).
 constexpr double distant_radii = 3;
@@ -87,16 +84,11 @@ struct DirectLight::Volley {
 
 DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                          std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds)
-    : mesh_(mesh), tracer_(tracer), needs_(needs), emitters_(emitters), seeds_(std::move(seeds)),
-      sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)), samples_(mesh.patches().size()),
-      hits_(mesh.patches().size()) {
+    : mesh_(mesh), tracer_(tracer), needs_(needs), emitters_(emitters), choice_(mesh, emitters),
+      seeds_(std::move(seeds)), sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)),
+      samples_(mesh.patches().size()), hits_(mesh.patches().size()) {
     for (const std::uint32_t e : emitters_)
         shapes_.push_back({PolygonSampler(mesh.patches()[e].shape), radius_of(mesh.patches()[e])});
-    if (emitters_.size() <= most_weighed)
-        return;
-    double sum = 0;
-    for (const std::uint32_t e : emitters_)
-        powers_.push_back(sum += power_of(mesh, e));
 }
 
 Vec3 DirectLight::irradiance(std::uint32_t patch) const {
@@ -124,25 +116,11 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
     return traced;
 }
 
-void DirectLight::unobstructed(std::uint32_t patch, std::vector<double>& sums) const {
-    const Patch& receiver = mesh_.patches()[patch];
-    double sum = 0;
-    sums.clear();
-    for (const std::uint32_t e : emitters_) {
-        const Patch& emitter = mesh_.patches()[e];
-        if (e != patch && may_see(receiver, emitter))
-            sum += mean_of_channels(mesh_.material(e).emission) * rough_factor(receiver, emitter);
-        sums.push_back(sum);
-    }
-}
-
 void DirectLight::sample(std::uint32_t patch, std::uint32_t end, std::vector<double>& sent,
                          Volley& volley) {
     const std::uint32_t begin = std::exchange(samples_[patch], end);
-    if (powers_.empty())
-        unobstructed(patch, sent);
-    const std::vector<double>& sums = powers_.empty() ? sent : powers_;
-    if (!(sums.back() > 0))
+    choice_.weigh(patch, sent);
+    if (!(sent.back() > 0))
         return;
     const Patch& receiver = mesh_.patches()[patch];
     const PolygonSampler origins(receiver.shape);
@@ -151,10 +129,9 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, std::vector<dou
         const std::uint64_t seed = hash_words({seeds_[s], patch});
         for (std::uint32_t k = begin; k < end; ++k) {
             const auto u = sobol5(k, seed);
-            const auto drawn = std::ranges::upper_bound(sums, u[4] * sums.back());
-            const auto e =
-                std::min(static_cast<std::size_t>(drawn - sums.begin()), sums.size() - 1);
-            const double chance = (sums[e] - (e > 0 ? sums[e - 1] : 0.0)) / sums.back();
+            const auto [e, chance] = choice_.choose(sent, u[4]);
+            if (emitters_[e] == patch)
+                continue;
             const Patch& emitter = mesh_.patches()[emitters_[e]];
             const bool distant = glm::distance(receiver.centre, emitter.centre) >
                                  radius + (1 + distant_radii) * shapes_[e].radius;

@@ -3,13 +3,14 @@
 //
 // Rays at random find a small lamp by luck. Here a sample is a point of the receiver, an emitter,
 // and a point of that: well-distributed in five dimensions (sobol.h). The emitter is drawn by the
-// light that it would send without obstacles; its contribution is the kernel of form factors times
-// the visibility along one ray (point_to_patch.h): the closed form of point and polygon, or of two
-// points where the emitter looks small.
+// light that it would send without obstacles (emitter_choice.h); its contribution is the kernel of
+// form factors times the visibility along one ray (point_to_patch.h): the closed form of point and
+// polygon, or of two points where the emitter looks small.
 
 #include "bvh/tracer.h"
 #include "geometry/polygon_sampler.h"
 #include "geometry/vector.h"
+#include "radiosity/emitter_choice.h"
 #include "radiosity/needs.h"
 #include "radiosity/workers.h"
 
@@ -65,13 +66,12 @@ class DirectLight {
     struct Volley;
     void sample(std::uint32_t patch, std::uint32_t end, std::vector<double>& sent, Volley& volley);
     void send(Volley& volley);
-    /// Running sums of the light that the emitters would send to this patch.
-    void unobstructed(std::uint32_t patch, std::vector<double>& sums) const;
 
     const Mesh& mesh_;
     const Tracer& tracer_;
     const Needs& needs_;
     std::span<const std::uint32_t> emitters_;
+    EmitterChoice choice_;
     std::vector<std::uint64_t> seeds_;
     std::vector<Vec3> sum_; ///< by patch and estimate
     std::vector<std::uint32_t> samples_, hits_;
@@ -79,8 +79,7 @@ class DirectLight {
         PolygonSampler points;
         double radius; ///< from the centre
     };
-    std::vector<Shape> shapes_;  ///< of the emitters
-    std::vector<double> powers_; ///< running sums, for emitters too many to weigh one by one
+    std::vector<Shape> shapes_; ///< of the emitters
 };
 
 } // namespace hemilux
