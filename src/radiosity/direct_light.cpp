@@ -104,11 +104,11 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
     if (!emitters_.empty())
         workers.for_chunks(
             hits_.size(), patches_per_chunk, [&](std::size_t begin, std::size_t end) {
-                std::vector<double> sent;
+                EmitterChoice::Cut cut;
                 Volley volley;
                 for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
                     if (samples[i] > samples_[i])
-                        sample(static_cast<std::uint32_t>(i), samples[i], sent, volley);
+                        sample(static_cast<std::uint32_t>(i), samples[i], cut, volley);
                 send(volley);
                 traced += volley.traced;
                 monitor.rays += volley.traced;
@@ -116,11 +116,11 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
     return traced;
 }
 
-void DirectLight::sample(std::uint32_t patch, std::uint32_t end, std::vector<double>& sent,
+void DirectLight::sample(std::uint32_t patch, std::uint32_t end, EmitterChoice::Cut& cut,
                          Volley& volley) {
     const std::uint32_t begin = std::exchange(samples_[patch], end);
-    choice_.weigh(patch, sent);
-    if (!(sent.back() > 0))
+    choice_.weigh(patch, cut);
+    if (cut.dark())
         return;
     const Patch& receiver = mesh_.patches()[patch];
     const PolygonSampler origins(receiver.shape);
@@ -129,7 +129,7 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, std::vector<dou
         const std::uint64_t seed = hash_words({seeds_[s], patch});
         for (std::uint32_t k = begin; k < end; ++k) {
             const auto u = sobol5(k, seed);
-            const auto [e, chance] = choice_.choose(sent, u[4]);
+            const auto [e, chance] = choice_.choose(cut, u[4]);
             if (emitters_[e] == patch)
                 continue;
             const Patch& emitter = mesh_.patches()[emitters_[e]];

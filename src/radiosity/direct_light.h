@@ -64,7 +64,7 @@ class DirectLight {
 
   private:
     struct Volley;
-    void sample(std::uint32_t patch, std::uint32_t end, std::vector<double>& sent, Volley& volley);
+    void sample(std::uint32_t patch, std::uint32_t end, EmitterChoice::Cut& cut, Volley& volley);
     void send(Volley& volley);
 
     const Mesh& mesh_;

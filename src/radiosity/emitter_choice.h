@@ -2,10 +2,15 @@
 // Which emitter a shadow ray of a patch goes to: drawn by the light that each would send there if
 // nothing stood between.
 //
-// With up to 128 emitters each is weighed by itself. Where there are more, neighbours are put
-// together into 128 clusters; these are weighed, and within a cluster emitters are drawn by their
-// power. So the work for a patch does not grow with the emitters. Any emitter that may send light
-// there has a chance, so what is found is right on average.
+// With up to 128 emitters each is weighed by itself. Where there are more, they form a tree of
+// clusters, and each patch weighs 128 of these: near ones are divided, far ones are not (as in
+// Walter et al. 2005, "Lightcuts"); within a cluster emitters are drawn by their power. So the work
+// for a patch does not grow with the emitters. Any emitter that may send light there has a chance,
+// so what is found is right on average.
+//
+// The best chance is as the root of the mean square of what a ray would bring: an emitter beside a
+// large patch brings little on the whole but much to the points that touch it, and if it were
+// drawn by the mean alone, those few rays would make most of the error.
 
 #include "geometry/vector.h"
 
@@ -22,34 +27,46 @@ class EmitterChoice {
     /// `emitters`: patches that emit; they outlive this.
     EmitterChoice(const Mesh& mesh, std::span<const std::uint32_t> emitters);
 
-    /// Fills the running sums of the weights that choose() takes. The last one is 0 where no light
-    /// can come from anywhere.
-    void weigh(std::uint32_t receiver, std::vector<double>& sums) const;
+    /// What a patch weighs: clusters, and running sums of their weights.
+    struct Cut {
+        std::vector<std::uint32_t> clusters;
+        std::vector<double> sums;
+        /// No light can come from anywhere.
+        [[nodiscard]] bool dark() const { return sums.empty() || !(sums.back() > 0); }
+    };
+    /// For choose().
+    void weigh(std::uint32_t receiver, Cut& cut) const;
 
     struct Choice {
         std::uint32_t emitter; ///< its place among the emitters
         double chance;         ///< with which it is drawn
     };
-    /// `u` in [0, 1).
-    [[nodiscard]] Choice choose(std::span<const double> sums, double u) const;
+    /// `u` in [0, 1), from a cut that is not dark.
+    [[nodiscard]] Choice choose(const Cut& cut, double u) const;
 
   private:
     struct Cluster {
         std::uint32_t begin, end; ///< of order_
-        Vec3 centre;
-        double radius; ///< of a sphere around all of them
-        double power;
+        Vec3 centre{0.0};
+        double radius = 0; ///< of a sphere around all of them
+        double power = 0;
+        std::uint32_t left = 0, right = 0; ///< its halves; 0: it is one emitter
     };
-    void divide(std::uint32_t begin, std::uint32_t end, std::size_t clusters);
-    void add_cluster(std::uint32_t begin, std::uint32_t end);
+    std::uint32_t add(std::uint32_t begin, std::uint32_t end);
+    void divide(std::uint32_t cluster);
+    [[nodiscard]] double power_of(std::uint32_t place) const;
+    [[nodiscard]] double excess(std::uint32_t receiver, double distance, double area) const;
     [[nodiscard]] double weight(std::uint32_t receiver, const Cluster& cluster) const;
+    [[nodiscard]] double weight_of_one(std::uint32_t receiver, std::uint32_t emitter) const;
+    [[nodiscard]] double nearness(std::uint32_t receiver, const Cluster& cluster) const;
     [[nodiscard]] const Vec3& centre(std::uint32_t place) const;
 
     const Mesh& mesh_;
     std::span<const std::uint32_t> emitters_;
     std::vector<std::uint32_t> order_; ///< places among the emitters, cluster by cluster
-    std::vector<double> power_sums_;   ///< by order_, from the beginning of each cluster on
-    std::vector<Cluster> clusters_;
+    std::vector<double> power_sums_;   ///< by order_, one more: of all before
+    std::vector<Cluster> clusters_;    ///< the first is all of them
+    std::vector<double> radius_;       ///< of each patch, from its centre
 };
 
 } // namespace hemilux

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hemilux {
 namespace {
@@ -42,10 +43,11 @@ GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random
         reflectance_.push_back(mesh.material(i).reflectance);
         const double reflectance = glm::length(reflectance_[i]);
         const double area = needs.power(i) ? std::pow(patches[i].area, area_exponent) : 0;
-        lamp_weights_.push_back(area * reflectance);
+        prior_lamp_weights_.push_back(area * reflectance);
         prior_weights_.push_back(area * std::max(reflectance, least_reflectance));
     }
     weights_ = prior_weights_;
+    lamp_weights_ = prior_lamp_weights_;
     some_without_ = to_lamps > 0 && std::ranges::count(lamp_weights_, 0.0) > 0;
 }
 
@@ -103,6 +105,17 @@ double GatheringPlan::predicted(const KnownError& known) const {
 
 bool GatheringPlan::at_most() const { return std::max(now_.random, now_.to_lamps) >= most_rays; }
 
+/// What is known counts as much as what was thought before; both have the same sum.
+void GatheringPlan::mix(std::span<const double> known, std::span<const double> prior,
+                        std::vector<double>& weights) {
+    const double sum = std::accumulate(known.begin(), known.end(), 0.0);
+    const double prior_sum = std::accumulate(prior.begin(), prior.end(), 0.0);
+    if (!(sum > 0))
+        return;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] = trust * known[i] * prior_sum / sum + (1 - trust) * prior[i];
+}
+
 /// A ray is worth most where it takes most from the error. A patch counts by its area and its
 /// reflectance, and the variance of random rays is the spread of the light that comes from all
 /// sides, as far as it is known; half of the weight does not trust that.
@@ -114,18 +127,25 @@ void GatheringPlan::weigh(const ExchangeMatrix& factors, std::span<const Vec3> l
         squares[i] = light[i] * light[i];
     factors.multiply(light, mean, workers);
     factors.multiply(squares, mean_of_squares, workers);
-    std::vector<double> spread(n);
-    double sum = 0, sum_of_weights = 0;
+    std::vector<double> known(n);
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3 variance = glm::max(mean_of_squares[i] - mean[i] * mean[i], 0.0);
-        spread[i] = std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance));
-        sum += prior_weights_[i] * spread[i];
-        sum_of_weights += prior_weights_[i];
+        known[i] =
+            prior_weights_[i] * std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance));
     }
-    if (sum > 0)
-        for (std::size_t i = 0; i < n; ++i)
-            weights_[i] =
-                prior_weights_[i] * (trust * spread[i] * sum_of_weights / sum + 1 - trust);
+    mix(known, prior_weights_, weights_);
+}
+
+/// With a variance that falls as v n^-fall, the sum over patches is least for n as
+/// v^(1 / (1 + fall)), v being what one ray alone would leave.
+void GatheringPlan::weigh_lamps(std::span<const double> variance) {
+    std::vector<double> known(variance.size());
+    for (std::size_t i = 0; i < known.size(); ++i)
+        known[i] =
+            prior_lamp_weights_[i] > 0
+                ? std::pow(variance[i] * std::pow(now_.rays.to_lamps[i], fall), 1 / (1 + fall))
+                : 0;
+    mix(known, prior_lamp_weights_, lamp_weights_);
 }
 
 /// What was planned, and what is known of the patches; the rest follows from the scene.
@@ -137,6 +157,7 @@ void GatheringPlan::save(StateWriter& state) const {
         state.add(std::span<const std::uint32_t>(stage->rays.to_lamps));
     }
     state.add(std::span<const double>(weights_));
+    state.add(std::span<const double>(lamp_weights_));
 }
 
 void GatheringPlan::load(StateReader& state) {
@@ -149,10 +170,12 @@ void GatheringPlan::load(StateReader& state) {
         state.get(std::span(stage->rays.random));
         state.get(std::span(stage->rays.to_lamps));
     }
-    state.get(std::span(weights_));
-    for (const double weight : weights_)
-        if (!(weight >= 0 && std::isfinite(weight)))
-            throw StateError("a weight is no weight");
+    for (std::vector<double>* weights : {&weights_, &lamp_weights_}) {
+        state.get(std::span(*weights));
+        for (const double weight : *weights)
+            if (!(weight >= 0 && std::isfinite(weight)))
+                throw StateError("a weight is no weight");
+    }
 }
 
 } // namespace hemilux

@@ -57,6 +57,10 @@ class GatheringPlan {
     /// random rays to find [W/m2].
     void weigh(const ExchangeMatrix& factors, std::span<const Vec3> light, const Workers& workers);
 
+    /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`:
+    /// of each patch, times its area, in any unit.
+    void weigh_lamps(std::span<const double> variance);
+
     void save(StateWriter& state) const;
     /// Of a plan made with the same arguments. Throws StateError for what save() cannot have
     /// written.
@@ -67,6 +71,8 @@ class GatheringPlan {
         double random = 0, to_lamps = 0; ///< means
         GatheringRays rays;
     };
+    static void mix(std::span<const double> known, std::span<const double> prior,
+                    std::vector<double>& weights);
     void choose(const KnownError& known);
     void split(double rays, const KnownError& known);
     [[nodiscard]] double predicted(const KnownError& known) const;
@@ -76,6 +82,7 @@ class GatheringPlan {
     std::vector<Vec3> reflectance_;
     std::vector<double> weights_, lamp_weights_; ///< what a ray is worth
     std::vector<double> prior_weights_;          ///< of random rays, before anything is known
+    std::vector<double> prior_lamp_weights_;     ///< likewise of shadow rays
     bool some_without_ = false;
 };
 

@@ -188,16 +188,16 @@ TEST_CASE("Direct light is unbiased where emitters are drawn by clusters") {
     Monitor monitor;
     const Workers workers(2);
     const EmitterChoice choice(fine.mesh, emitters);
-    std::vector<double> sums;
+    EmitterChoice::Cut cut;
     for (std::uint32_t i = 0; i < n; i += 97) {
-        choice.weigh(i, sums);
-        if (!(sums.back() > 0))
+        choice.weigh(i, cut);
+        if (cut.dark())
             continue;
         // A fine sweep through [0, 1) meets each emitter by its chance.
         std::vector<double> met(emitters.size()), told(emitters.size());
         constexpr int sweep = 30000;
         for (int k = 0; k < sweep; ++k) {
-            const auto [e, chance] = choice.choose(sums, (k + .5) / sweep);
+            const auto [e, chance] = choice.choose(cut, (k + .5) / sweep);
             met[e] += 1.0 / sweep;
             told[e] = chance;
         }

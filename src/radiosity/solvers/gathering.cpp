@@ -223,6 +223,7 @@ class GatheringSolver final : public Solver {
     void combine(const ExchangeMatrix& all) {
         variance_ = direct_variance_ = 0;
         std::array<double, sets * sets> products{};
+        std::vector<double> direct_variances(area_.size());
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
             const Vec3 rho = reflectance_[i], direct_mean = direct_->irradiance(i);
             const auto off = light_.deviations<sets>(i);
@@ -240,8 +241,8 @@ class GatheringSolver final : public Solver {
             solution_.standard_error[i] = rho * glm::sqrt(squares / double(sets * (sets - 1)));
             solution_.hits[i] = direct_->hits(i) + std::uint64_t{plan_.rays().random[i]} * sets;
             variance_ += area_[i] * glm::dot(rho * rho, squares);
-            direct_variance_ +=
-                area_[i] * glm::dot(rho * rho, direct_squares) / light_.generations();
+            direct_variances[i] = area_[i] * glm::dot(rho * rho, direct_squares);
+            direct_variance_ += direct_variances[i] / light_.generations();
         }
         variance_ = std::max(variance_, direct_variance_);
         solution_.error_samples = sets;
@@ -250,6 +251,7 @@ class GatheringSolver final : public Solver {
         for (std::size_t i = 0; i < light.size(); ++i)
             light[i] = solution_.radiosity[i] - emission_[i] + seen_emission_[i];
         plan_.weigh(all, light, workers_);
+        plan_.weigh_lamps(direct_variances);
         account();
         solution_.rays_energy = traced_;
         solution_.bytes_transport = all.bytes() + direct_->bytes();
