@@ -91,6 +91,8 @@ class GatheringSolver final : public Solver {
             return false;
         input_.monitor.phase = "solving";
         const ExchangeMatrix all = solve_all();
+        if (input_.monitor.interrupted)
+            return false;
         if (!std::ranges::all_of(energies_, is_drained)) {
             require_more_rays(!finished());
             return step();
@@ -183,7 +185,7 @@ class GatheringSolver final : public Solver {
         const Transport transport{area_, emission_, reflectance_, factors.lost(), factors.rays()};
         scale_direct_light(transport, d);
         solve_by_gradients(factors, area_, reflectance_, d, incident_[set], workers,
-                           {.tolerance = residual});
+                           {.tolerance = residual, .interrupted = &input_.monitor.interrupted});
         energies_[set] = close_energy(transport, incident_[set]);
     }
 
