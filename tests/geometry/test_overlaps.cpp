@@ -42,7 +42,7 @@ bool contains(const FlatPolygon& polygon, const Vec2& point) {
 TEST_CASE("The common part of two polygons has the area that both contain") {
     Rng rng(1);
     int met = 0;
-    for (int trial = 0; trial < 200; ++trial) {
+    for (std::size_t trial = 0; trial < 200; ++trial) {
         const FlatPolygon a = random_polygon(rng, 3 + trial % 2);
         const FlatPolygon b = random_polygon(rng, 3 + trial / 2 % 2);
         constexpr int n = 60; // points of a grid over [-1.2,2.2]^2, which holds both
