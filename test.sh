@@ -33,11 +33,8 @@ cores=$(nproc 2>/dev/null || echo 2)
 cmake --preset "$preset" >/dev/null
 cmake --build --preset "$preset" --parallel "$cores"
 
-status=0
-echo "fast tests ($preset)"
-ctest --preset "$preset" --label-exclude slow --parallel "$cores" || status=$?
 if [ $slow = yes ]; then
-    echo "slow tests ($preset)"
-    ctest --preset "$preset" --label-regex slow --parallel "$cores" || status=$?
+    ctest --preset "$preset" --parallel "$cores"
+else
+    ctest --preset "$preset" --label-exclude slow --parallel "$cores"
 fi
-exit $status

@@ -1,9 +1,8 @@
 #pragma once
 // hemilux density: what preprocessing found (paper section 5a), as drawings.
 
+#include "app/command_line.h"
 #include "app/settings.h"
-
-#include <CLI/CLI.hpp>
 
 namespace hemilux {
 

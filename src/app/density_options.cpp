@@ -4,6 +4,7 @@
 #include "app/option_groups.h"
 #include "app/option_kinds.h"
 
+#include <CLI/CLI.hpp>
 #include <limits>
 
 namespace hemilux {

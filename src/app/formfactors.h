@@ -1,9 +1,8 @@
 #pragma once
 // hemilux formfactors: the matrix that the method `matrix` solves with.
 
+#include "app/command_line.h"
 #include "app/settings.h"
-
-#include <CLI/CLI.hpp>
 
 namespace hemilux {
 

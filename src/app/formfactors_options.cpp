@@ -3,6 +3,7 @@
 #include "app/option_groups.h"
 #include "app/option_kinds.h"
 
+#include <CLI/CLI.hpp>
 #include <bit>
 
 namespace hemilux {

@@ -9,6 +9,7 @@
 #include "app/signals.h"
 #include "io/error.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 #include <new>

@@ -4,6 +4,7 @@
 #include "app/text.h"
 #include "radiosity/exact_form_factors.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <string>

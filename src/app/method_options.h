@@ -1,9 +1,8 @@
 #pragma once
 // Options that are of one method alone.
 
+#include "app/command_line.h"
 #include "app/settings.h"
-
-#include <CLI/CLI.hpp>
 
 #include <span>
 

@@ -1,9 +1,8 @@
 #pragma once
 // Groups of options that several subcommands share.
 
+#include "app/command_line.h"
 #include "app/settings.h"
-
-#include <CLI/CLI.hpp>
 
 namespace hemilux {
 

@@ -6,6 +6,7 @@
 #include "app/option_groups.h"
 #include "app/option_kinds.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <limits>

@@ -1,9 +1,8 @@
 #pragma once
 // The command line: which options there are, what they accept, and the text of --help.
 
+#include "app/command_line.h"
 #include "app/settings.h"
-
-#include <CLI/CLI.hpp>
 
 namespace hemilux {
 

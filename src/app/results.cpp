@@ -4,19 +4,37 @@
 #include "app/view.h"
 #include "io/image.h"
 #include "io/ply.h"
+#include "io/smooth.h"
 #include "radiosity/workers.h"
 
 #include <algorithm>
+#include <mutex>
 #include <optional>
 
 namespace hemilux {
 
 namespace {
 
+/// Found when they are first asked for, once for pictures and meshes.
+class SharedClasses {
+  public:
+    explicit SharedClasses(const Mesh& mesh) : mesh_(mesh) {}
+    const CornerClasses& get() {
+        std::call_once(found_, [&] { classes_ = find_corner_classes(mesh_); });
+        return classes_;
+    }
+
+  private:
+    const Mesh& mesh_;
+    std::once_flag found_;
+    CornerClasses classes_;
+};
+
 /// Renders when the first picture is asked for, and once only.
 class Picture {
   public:
-    Picture(const ViewSettings& view, const Results& results) : view_(view), results_(results) {}
+    Picture(const ViewSettings& view, const Results& results, SharedClasses& classes)
+        : view_(view), results_(results), classes_(classes) {}
 
     void write(const Output& output) {
         if (!image_)
@@ -31,22 +49,25 @@ class Picture {
     [[nodiscard]] Image render() const {
         const auto& [mesh, tracer, solution, statistics, steps] = results_;
         const Camera camera = camera_of(view_, mesh, tracer, solution.radiosity);
-        return render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads);
+        return render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads,
+                           &classes_.get());
     }
 
     const ViewSettings& view_;
     const Results& results_;
+    SharedClasses& classes_;
     std::optional<Image> image_;
 };
 
-void write_output(const Output& output, const Results& results, Picture& picture) {
+void write_output(const Output& output, const Results& results, SharedClasses& classes,
+                  Picture& picture) {
     const Solution& solution = results.solution;
     switch (output.kind) {
     case OutputKind::png:
     case OutputKind::hdr:
         return picture.write(output);
     case OutputKind::ply:
-        return write_ply(output.path, results.mesh, solution.radiosity);
+        return write_ply(output.path, results.mesh, solution.radiosity, classes.get());
     case OutputKind::csv:
         return write_patch_table(output.path, results.mesh, solution.radiosity,
                                  solution.standard_error);
@@ -91,11 +112,12 @@ void check_outputs(const SolveSettings& settings) {
 }
 
 WriteReport write_results(const SolveSettings& settings, const Results& results) {
-    Picture picture(settings.view, results);
+    SharedClasses classes(results.mesh);
+    Picture picture(settings.view, results, classes);
     std::vector<WriteReport> reports(settings.outputs.size());
     const auto write = [&](std::size_t k) {
         const Output& output = settings.outputs[k];
-        reports[k].attempt(output.path, [&] { write_output(output, results, picture); });
+        reports[k].attempt(output.path, [&] { write_output(output, results, classes, picture); });
     };
     // All pictures are one, made by all threads; meanwhile each of the tables has one.
     std::vector<std::vector<std::size_t>> jobs(1);

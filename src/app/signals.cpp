@@ -3,7 +3,9 @@
 #include "app/exit_code.h"
 
 #include <csignal>
+#include <cstdio>
 #include <fcntl.h>
+#include <iostream>
 #include <string_view>
 #include <unistd.h>
 
@@ -53,6 +55,12 @@ InterruptGuard::~InterruptGuard() {
 void InterruptGuard::watch(std::atomic<bool>& flag) { interrupted = &flag; }
 
 int exit_code_of_signal() { return exit_code; }
+
+void end_at_once(int code) {
+    std::cout.flush();
+    std::fflush(nullptr);
+    _exit(code);
+}
 
 void prepare_process() {
     std::signal(SIGPIPE, SIG_IGN);

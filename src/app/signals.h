@@ -24,6 +24,10 @@ class InterruptGuard {
 /// How the program ends after the first signal: 130 or 143.
 [[nodiscard]] int exit_code_of_signal();
 
+/// Ends the program after a signal, when all is written: the system takes the memory back sooner
+/// than it could be given back piece by piece.
+[[noreturn]] void end_at_once(int code);
+
 /// For main: writing to a pipe that nobody reads or beyond the limit of a file's size is an error
 /// to be reported, not a death; and no file is ever opened in the place of a closed stdout or
 /// stderr.

@@ -171,8 +171,11 @@ int solve(const SolveSettings& settings) {
     statistics.bytes_peak = peak_memory_bytes();
     WriteReport of_run = step_pictures.report();
     of_run.add(checkpointer.report());
+    const bool interrupted = !completed && !fault;
     const int code = finish(settings, {mesh, *tracer, solver->solution(), statistics, rows}, of_run,
-                            reference, !completed && !fault);
+                            reference, interrupted);
+    if (interrupted)
+        end_at_once(code);
     if (!fault || code != exit_done)
         return code;
     say(settings.talk, Talk::quiet,

@@ -13,10 +13,11 @@ Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& trace
 }
 
 Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
-                  std::span<const Vec3> radiosity, const Camera& camera, unsigned threads) {
+                  std::span<const Vec3> radiosity, const Camera& camera, unsigned threads,
+                  const CornerClasses* classes) {
     const auto [width, height] = view.size;
     return render(mesh, tracer, radiosity, camera,
-                  {.width = width, .height = height, .threads = threads});
+                  {.width = width, .height = height, .threads = threads, .classes = classes});
 }
 
 double exposure_of(const ViewSettings& view, const Image& image) {

@@ -3,6 +3,7 @@
 
 #include "app/settings.h"
 #include "io/image.h"
+#include "io/smooth.h"
 
 #include <span>
 
@@ -12,10 +13,10 @@ namespace hemilux {
 [[nodiscard]] Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                                std::span<const Vec3> radiosity);
 
-/// Linear radiosity in the size asked for.
+/// Linear radiosity in the size asked for; the mesh's classes of corners, where they are known.
 [[nodiscard]] Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                                 std::span<const Vec3> radiosity, const Camera& camera,
-                                unsigned threads);
+                                unsigned threads, const CornerClasses* classes = nullptr);
 
 /// The factor given, or one chosen for the picture.
 [[nodiscard]] double exposure_of(const ViewSettings& view, const Image& image);

@@ -3,6 +3,7 @@
 #include "geometry/polygon.h"
 #include "io/welded_edges.h"
 #include "radiosity/check_input.h"
+#include "radiosity/mesh.h"
 #include "radiosity/stacked_facets.h"
 
 #include <algorithm>
@@ -99,7 +100,9 @@ SceneInfo inspect(const ReadResult& read) {
     const EdgeCounts edges = count_edges(scene);
     info.open_edges = edges.open;
     info.nonmanifold_edges = edges.nonmanifold;
-    info.covered_facets = find_stacks(scene, scene.vertices).covered;
+    const Stacks stacks = find_stacks(scene, LocalFrame::of(scene).to_local(scene.vertices));
+    info.covered_facets = stacks.covered;
+    info.all_compared = stacks.complete;
     info.degenerate_faces = read.degenerate_faces;
     info.nonplanar_faces = read.nonplanar_faces;
     info.concave_faces = read.concave_faces;
@@ -148,7 +151,10 @@ std::string describe(const SceneInfo& info) {
               "edges of only one face: a boundary, or a vertex on an edge of another face");
     add_doubt(text, "shared edges", info.nonmanifold_edges, "edges of more than two faces");
     add_doubt(text, "covered", info.covered_facets,
-              "facets in the place of another that faces the same way; one of them is seen");
+              "facets in the place of another that faces the same way, wholly or in part; one of "
+              "them is seen");
+    if (!info.all_compared)
+        add_line(text, "covered", "perhaps more: there are too many slivers over each other");
     for (const std::string& message : info.bad_reflectances)
         add_line(text, "bad reflectance", message);
     return text;

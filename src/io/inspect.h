@@ -24,6 +24,7 @@ struct SceneInfo {
     /// one. A closed scene has no open edges, unless vertices lie on edges of other facets.
     std::size_t open_edges = 0, nonmanifold_edges = 0;
     std::size_t covered_facets = 0; ///< stacked_facets.h
+    bool all_compared = true;       ///< else some more may be covered
     std::size_t degenerate_faces = 0, nonplanar_faces = 0, concave_faces = 0;
 
     std::vector<std::string> emitters; ///< names of materials that are used and emit

@@ -39,7 +39,11 @@ std::string header(std::size_t vertices, std::size_t faces) {
 } // namespace
 
 void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity) {
-    const CornerClasses classes = find_corner_classes(mesh);
+    write_ply(path, mesh, radiosity, find_corner_classes(mesh));
+}
+
+void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
+               const CornerClasses& classes) {
     const std::vector<Vec3> colours = smooth(mesh, classes, radiosity);
     AtomicFile file(path);
     file.write(header(classes.position.size(), mesh.patches().size()));

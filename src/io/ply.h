@@ -10,10 +10,14 @@
 namespace hemilux {
 
 class Mesh;
+struct CornerClasses;
 
 /// Vertices x, y, z (double, world units) and red, green, blue (float, linear radiosity, smoothed
 /// over corners); faces are the patches, in the mesh's order. Patches share a vertex where they
 /// share its radiosity. Throws OutputError.
 void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity);
+/// The same where the mesh's classes of corners are known already.
+void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
+               const CornerClasses& classes);
 
 } // namespace hemilux

@@ -4,6 +4,7 @@
 #include "radiosity/mesh.h"
 #include "radiosity/workers.h"
 
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -26,27 +27,32 @@ std::vector<Vec2> pixel_samples(int count) {
 /// Radiosity at a point of a patch.
 class Shading {
   public:
-    Shading(const Mesh& mesh, std::span<const Vec3> radiosity, bool interpolate)
-        : mesh_(mesh), radiosity_(radiosity) {
-        if (!interpolate)
+    Shading(const Mesh& mesh, std::span<const Vec3> radiosity, const RenderOptions& options)
+        : mesh_(mesh), radiosity_(radiosity), classes_(options.classes) {
+        if (!options.smooth)
             return;
-        classes_ = find_corner_classes(mesh);
-        corner_radiosity_ = smooth(mesh, classes_, radiosity);
+        if (!classes_)
+            classes_ = &own_classes_.emplace(find_corner_classes(mesh));
+        corner_radiosity_ = smooth(mesh, *classes_, radiosity);
     }
+    Shading(const Shading&) = delete;
+    Shading& operator=(const Shading&) = delete;
+
     Vec3 at(std::uint32_t patch, const Vec3& point) const {
         if (corner_radiosity_.empty())
             return radiosity_[patch];
         const auto weights = corner_weights(mesh_.patches()[patch].shape, point);
         Vec3 sum(0.0);
         for (std::size_t c = 0; c < weights.size(); ++c)
-            sum += weights[c] * corner_radiosity_[classes_.of_patch[patch][c]];
+            sum += weights[c] * corner_radiosity_[classes_->of_patch[patch][c]];
         return sum;
     }
 
   private:
     const Mesh& mesh_;
     std::span<const Vec3> radiosity_;
-    CornerClasses classes_;
+    const CornerClasses* classes_;
+    std::optional<CornerClasses> own_classes_;
     std::vector<Vec3> corner_radiosity_;
 };
 
@@ -58,7 +64,7 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
         throw std::invalid_argument("a picture needs at least one pixel and one sample");
     const double width = options.width, height = options.height;
     const CameraRays rays(camera, mesh, width / height);
-    const Shading shading(mesh, radiosity, options.smooth);
+    const Shading shading(mesh, radiosity, options);
     const std::vector<Vec2> samples = pixel_samples(options.samples);
     Image image(options.width, options.height);
     const auto pixel = [&](int x, int y) {

@@ -9,11 +9,14 @@
 
 namespace hemilux {
 
+struct CornerClasses;
+
 struct RenderOptions {
     int width = 800, height = 600; ///< pixels
     int samples = 4;               ///< rays per pixel; more: smoother edges, proportionally slower
     bool smooth = true;            ///< interpolate over patches; else each shows its own radiosity
     unsigned threads = 0;          ///< 0: one per core. The picture does not depend on it
+    const CornerClasses* classes = nullptr; ///< of the mesh, where they are known already
 };
 
 /// Linear radiosity seen through the camera; black where nothing is. Throws std::invalid_argument

@@ -29,14 +29,29 @@ struct Meetings {
     std::vector<Vec3> position;
 };
 
-Meetings find_meetings(std::span<const Patch> patches) {
-    Welder welder(weld_distance);
+/// The numbers of the points of all corners in turn. A patch often has two of the one before,
+/// which need not be looked for.
+std::vector<std::uint32_t> weld_corners(std::span<const Patch> patches, Welder& welder) {
     std::vector<std::uint32_t> point;
     point.reserve(4 * patches.size());
-    for (const Patch& patch : patches)
-        for (int c = 0; c < patch.shape.size(); ++c)
-            point.push_back(welder.add(patch.shape.corner[static_cast<std::size_t>(c)]));
+    std::span<const Vec3> before;
+    for (const Patch& patch : patches) {
+        const auto corners =
+            std::span(patch.shape.corner).first(static_cast<std::size_t>(patch.shape.size()));
+        const std::size_t first_before = point.size() - before.size();
+        for (const Vec3& corner : corners) {
+            const auto same =
+                static_cast<std::size_t>(std::ranges::find(before, corner) - before.begin());
+            point.push_back(same < before.size() ? point[first_before + same] : welder.add(corner));
+        }
+        before = corners;
+    }
+    return point;
+}
 
+Meetings find_meetings(std::span<const Patch> patches) {
+    Welder welder(weld_distance);
+    const std::vector<std::uint32_t> point = weld_corners(patches, welder);
     Meetings result;
     result.position = welder.take_points();
     result.first.assign(result.position.size() + 1, 0);

@@ -44,8 +44,9 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
         const Vec3 share = glm::sqrt(ratio(squares, size));
         return std::max({share.x, share.y, share.z});
     };
+    const auto interrupted = [&] { return options.interrupted && *options.interrupted; };
     for (result.residual = worst();
-         result.residual > options.tolerance && result.iterations < options.most;
+         result.residual > options.tolerance && result.iterations < options.most && !interrupted();
          result.residual = worst(), ++result.iterations) {
         apply(p, q);
         const Vec3 step = ratio(squares, product(p, q));

@@ -7,6 +7,7 @@
 
 #include "radiosity/exchange_matrix.h"
 
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace hemilux {
 struct GradientOptions {
     double tolerance = 1e-9; ///< of the residual relative to d, channel by channel
     int most = 1000;         ///< iterations
+    const std::atomic<bool>* interrupted = nullptr; ///< ends them; h is void then
 };
 
 /// h and how it was found.

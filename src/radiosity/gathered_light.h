@@ -25,8 +25,8 @@ class GatheredLight {
         std::vector<Vec3> incident; ///< arrives at each patch [W/m2]
         EnergyBalance energy;       ///< local units
     };
-    /// What the rays of the present generation tell; `set` == sets: all together.
-    [[nodiscard]] Light& solved(std::size_t set) { return solved_[set]; }
+    /// What the rays of the present generation tell, set by set; at last of all together.
+    [[nodiscard]] std::vector<Light>& solved() { return solved_; }
 
     /// Mean over the generations.
     [[nodiscard]] Vec3 incident(std::size_t set, std::size_t patch) const {

@@ -21,17 +21,6 @@ std::uint32_t pieces(double length, double max_edge) {
     return n < 1 ? 1 : static_cast<std::uint32_t>(std::min(n, 1e9));
 }
 
-LocalFrame frame_of(const Scene& scene) {
-    Box bounds;
-    for (const Facet& facet : scene.facets)
-        for (const std::uint32_t v : facet.vertex)
-            bounds.include(scene.vertices[v]);
-    const Vec3 half = 0.5 * bounds.extent();
-    int exponent = 0;
-    std::frexp(std::max({half.x, half.y, half.z}), &exponent);
-    return {bounds.centre(), std::ldexp(1.0, -exponent)};
-}
-
 /// Piece i of n for a coordinate in [0,1] that may be outside by a rounding error; NaN is 0.
 std::uint32_t piece_at(double x, std::uint32_t n) {
     const double i = std::floor(x * n);
@@ -73,14 +62,31 @@ void divide_fan(const Vec3& a, const Vec3& ab, const Vec3& ac, std::uint32_t n, 
 
 } // namespace
 
+LocalFrame LocalFrame::of(const Scene& scene) {
+    Box bounds;
+    for (const Facet& facet : scene.facets)
+        for (const std::uint32_t v : facet.vertex)
+            bounds.include(scene.vertices[v]);
+    const Vec3 half = 0.5 * bounds.extent();
+    int exponent = 0;
+    std::frexp(std::max({half.x, half.y, half.z}), &exponent);
+    return {bounds.centre(), std::ldexp(1.0, -exponent)};
+}
+
+std::vector<Vec3> LocalFrame::to_local(std::span<const Vec3> world) const {
+    std::vector<Vec3> local;
+    local.reserve(world.size());
+    for (const Vec3& point : world)
+        local.push_back(to_local(point));
+    return local;
+}
+
 Mesh::Mesh(Scene scene, const MeshOptions& options)
     : scene_(std::move(scene)), two_sided_(options.two_sided) {
     if (scene_.facets.empty())
         throw std::invalid_argument("the scene has no face with an area");
-    frame_ = frame_of(scene_);
-    vertices_.reserve(scene_.vertices.size());
-    for (const Vec3& v : scene_.vertices)
-        vertices_.push_back(frame_.to_local(v));
+    frame_ = LocalFrame::of(scene_);
+    vertices_ = frame_.to_local(scene_.vertices);
     for (const Facet& facet : scene_.facets)
         corners_.push_back(facet.vertex);
     lay_apart();
@@ -103,7 +109,6 @@ Polygon Mesh::shape_of(std::uint32_t facet) const {
     return shape;
 }
 
-/// One of a stack stays, so that a room remains as closed as it was.
 void Mesh::lay_apart() {
     constexpr double step = 0x1p-28; // larger than what is taken for rounding elsewhere
     const Stacks stacks = find_stacks(scene_, vertices_);

@@ -45,6 +45,10 @@ struct LocalFrame {
     [[nodiscard]] Vec3 to_local(const Vec3& world) const { return (world - centre) * scale; }
     [[nodiscard]] Vec3 to_world(const Vec3& local) const { return centre + local / scale; }
     [[nodiscard]] double area_to_world(double area) const { return area / (scale * scale); }
+
+    /// Around what the facets use of the scene.
+    [[nodiscard]] static LocalFrame of(const Scene& scene);
+    [[nodiscard]] std::vector<Vec3> to_local(std::span<const Vec3> world) const;
 };
 
 class Mesh {
@@ -59,7 +63,7 @@ class Mesh {
         return scene_.materials[patches_[patch].material];
     }
     /// Vertices of the scene in the local frame, indexed by Facet::vertex; then those of facets
-    /// that lay in the same place and were laid one upon the other (stacked_facets.h).
+    /// that lay in one plane over each other and were laid apart (stacked_facets.h).
     [[nodiscard]] std::span<const Vec3> vertices() const { return vertices_; }
     /// The frame in which the subdivided hemisphere of a patch stands: turned about the normal by
     /// an angle hashed from the patch's index, so that its vertices do not run along the edges of a

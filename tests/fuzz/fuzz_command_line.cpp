@@ -5,6 +5,7 @@
 #include "app/formfactors.h"
 #include "app/options.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <sstream>
 #include <string>

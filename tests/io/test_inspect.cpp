@@ -119,4 +119,6 @@ TEST_CASE("facets beneath another that faces the same way are counted", "[inspec
     CHECK(describe(info).find("covered             2 (facets in the place of another") !=
           std::string::npos);
     CHECK(inspect(read_box(true)).covered_facets == 0);
+    CHECK(inspect(read_box(true, "v .2 .2 3\nv .7 .2 3\nv .7 .9 3\nv .2 .9 3\nf -4 -3 -2 -1\n"))
+              .covered_facets == 1);
 }

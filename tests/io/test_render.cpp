@@ -1,5 +1,6 @@
 #include "bvh/bvh.h"
 #include "io/render.h"
+#include "io/smooth.h"
 #include "radiosity/mesh.h"
 #include "support/scenes.h"
 
@@ -87,10 +88,13 @@ TEST_CASE("a picture does not depend on the number of threads") {
     for (const Patch& patch : mesh.patches())
         b.push_back(glm::abs(patch.centre) + 0.1);
     const Camera camera = automatic_camera(mesh, bvh, b);
-    const auto picture = [&](unsigned threads) {
-        return render(mesh, bvh, b, camera, {.width = 50, .height = 37, .threads = threads});
+    const CornerClasses known = find_corner_classes(mesh);
+    const auto picture = [&](unsigned threads, const CornerClasses* classes) {
+        return render(mesh, bvh, b, camera,
+                      {.width = 50, .height = 37, .threads = threads, .classes = classes});
     };
-    CHECK(picture(1).pixels == picture(3).pixels);
+    CHECK(picture(1, nullptr).pixels == picture(3, nullptr).pixels);
+    CHECK(picture(1, nullptr).pixels == picture(1, &known).pixels);
 }
 
 TEST_CASE("a picture without pixels or samples is refused") {

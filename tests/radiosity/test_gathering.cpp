@@ -117,6 +117,23 @@ TEST_CASE("Rays are dealt by weight, in powers of two, and none is taken back") 
     CHECK(uneven[8] >= 8);
 }
 
+TEST_CASE("Conjugate gradients end where they are interrupted") {
+    const Model model(test::cube_with_lit_floor(2, .5));
+    const std::size_t n = model.mesh.patches().size();
+    const Workers workers(1);
+    const std::vector<RayCounts> sets = traced(model, 1, 64);
+    const ExchangeMatrix f(model.mesh, sets, workers);
+    const std::vector<double> area(n, 1.0);
+    const std::vector<Vec3> half(n, Vec3(.5)), d(n, Vec3(1));
+    for (const bool stopped : {false, true}) {
+        const std::atomic<bool> flag(stopped);
+        std::vector<Vec3> h(n);
+        const GradientResult result =
+            solve_by_gradients(f, area, half, d, h, workers, {.interrupted = &flag});
+        CHECK((result.iterations == 0) == stopped);
+    }
+}
+
 TEST_CASE("Conjugate gradients solve what was stored, however reflective") {
     const Model model(test::cube_with_lit_floor(4, .5));
     const std::size_t n = model.mesh.patches().size();

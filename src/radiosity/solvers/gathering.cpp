@@ -87,15 +87,17 @@ class GatheringSolver final : public Solver {
         if (input_.monitor.interrupted)
             return false;
         input_.monitor.phase = "solving";
-        planned_ = false;
         const ExchangeMatrix all = solve_all();
+        if (input_.monitor.interrupted)
+            return false;
+        planned_ = false;
         for (std::size_t s = 0; s <= sets; ++s)
-            if (!is_drained(light_.solved(s).energy)) {
+            if (!is_drained(light_.solved()[s].energy)) {
                 require_more_rays(!finished());
                 return step();
             }
         for (std::size_t s = 0; s <= sets; ++s)
-            check_finite(input_.mesh, light_.solved(s).incident, "the light that reaches",
+            check_finite(input_.mesh, light_.solved()[s].incident, "the light that reaches",
                          solution_.steps + 1);
         combine(all);
         return true;
@@ -171,8 +173,10 @@ class GatheringSolver final : public Solver {
 
     /// Each set by a thread of its own, while another puts the whole together; then the whole by
     /// all threads.
+    /// Nothing is changed when it is interrupted.
     ExchangeMatrix solve_all() {
         std::optional<ExchangeMatrix> all;
+        std::vector<GatheredLight::Light> found = light_.solved();
         const unsigned busy = std::min(sets, workers_.threads() - 1);
         workers_.for_chunks(sets + 1, 1, [&](std::size_t task, std::size_t) {
             if (task == 0) {
@@ -181,9 +185,12 @@ class GatheringSolver final : public Solver {
             }
             const std::size_t set = task - 1;
             const Workers alone(1);
-            solve({input_.mesh, std::span(&counts_[set], 1), alone}, set, alone, roughly);
+            solve({input_.mesh, std::span(&counts_[set], 1), alone}, set, found[set], alone,
+                  roughly);
         });
-        solve(*all, sets, workers_, precisely);
+        solve(*all, sets, found[sets], workers_, precisely);
+        if (!input_.monitor.interrupted)
+            light_.solved() = std::move(found);
         return std::move(*all);
     }
 
@@ -198,9 +205,10 @@ class GatheringSolver final : public Solver {
                          (merging * static_cast<double>(stored));
     }
 
-    /// What arrives at each patch in the end, by the factors of a set or (`set` == sets) of all.
-    void solve(const ExchangeMatrix& factors, std::size_t set, const Workers& workers,
-               double residual) {
+    /// What arrives at each patch in the end, by the factors of a set or (`set` == sets) of all;
+    /// from what `light` holds on.
+    void solve(const ExchangeMatrix& factors, std::size_t set, GatheredLight::Light& light,
+               const Workers& workers, double residual) const {
         const std::size_t n = area_.size();
         std::vector<Vec3> d(n), seen(n);
         factors.multiply(seen_emission_, d, workers);
@@ -214,9 +222,8 @@ class GatheringSolver final : public Solver {
         }
         const Transport transport{area_, emission_, reflectance_, factors.lost(), factors.rays()};
         scale_direct_light(transport, d);
-        GatheredLight::Light& light = light_.solved(set);
         solve_by_gradients(factors, area_, reflectance_, d, light.incident, workers,
-                           {.tolerance = residual});
+                           {.tolerance = residual, .interrupted = &input_.monitor.interrupted});
         light.energy = close_energy(transport, light.incident);
     }
 

@@ -1,0 +1,60 @@
+#include "geometry/flat_polygon.h"
+
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+
+/// Whether the whole of `b` lies right of an edge of `a`, or on it.
+bool lies_beside_an_edge(const FlatPolygon& b, const FlatPolygon& a, double distance) {
+    for (std::size_t i = 0; i < a.size; ++i) {
+        const Vec2 from = a.corner[i], edge = a.corner[i + 1 < a.size ? i + 1 : 0] - from;
+        const double limit = distance * (std::abs(edge.x) + std::abs(edge.y));
+        std::size_t beside = 0;
+        while (beside < b.size && cross(edge, b.corner[beside] - from) <= limit)
+            ++beside;
+        if (beside == b.size)
+            return true;
+    }
+    return false;
+}
+
+/// What lies left of the line from `from` along `edge`.
+FlatPolygon left_part(const FlatPolygon& shape, const Vec2& from, const Vec2& edge) {
+    FlatPolygon kept;
+    for (std::size_t i = 0; i < shape.size; ++i) {
+        const Vec2 here = shape.corner[i], next = shape.corner[i + 1 < shape.size ? i + 1 : 0];
+        const double h = cross(edge, here - from), n = cross(edge, next - from);
+        if (h >= 0)
+            kept.add(here);
+        if ((h >= 0) != (n >= 0))
+            kept.add(here + (h / (h - n)) * (next - here));
+    }
+    return kept;
+}
+
+} // namespace
+
+double FlatPolygon::area() const {
+    double twice = 0;
+    for (std::size_t i = 2; i < size; ++i)
+        twice += cross(corner[i - 1] - corner[0], corner[i] - corner[0]);
+    return 0.5 * twice;
+}
+
+bool are_apart(const FlatPolygon& a, const FlatPolygon& b, double distance) {
+    return lies_beside_an_edge(a, b, distance) || lies_beside_an_edge(b, a, distance);
+}
+
+FlatPolygon common_part(const FlatPolygon& a, const FlatPolygon& b) {
+    FlatPolygon common = a;
+    for (std::size_t i = 0; i < b.size && common.size > 0; ++i) {
+        const Vec2 from = b.corner[i];
+        common = left_part(common, from, b.corner[i + 1 < b.size ? i + 1 : 0] - from);
+    }
+    return common;
+}
+
+} // namespace hemilux
