@@ -47,16 +47,13 @@ struct Queue {
         walker[size] = w;
         size += is_mine;
     }
-    /// Leaves none.
-    Queue taken() {
-        Queue all;
-        __builtin_memcpy(all.walker, walker, sizeof walker);
-        all.size = size;
+    /// Empties the queue; returns how many it held. They may still be read one after the other
+    /// while no more than have been read are added.
+    unsigned empty() {
+        const unsigned held = size;
         size = 0;
-        return all;
+        return held;
     }
-    [[nodiscard]] Walker* const* begin() const { return walker; }
-    [[nodiscard]] Walker* const* end() const { return walker + size; }
 };
 
 /// All walkers, by what they do next.
@@ -88,29 +85,34 @@ inline void wave(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
     for (Walker& walker : walkers)
         queues.idle.add_if(true, &walker);
     for (;;) {
-        const unsigned idle = queues.idle.size; // read faster than written again
-        queues.idle.size = 0;
+        const unsigned idle = queues.idle.empty();
         for (unsigned i = 0; i < idle; ++i)
             if (Walker& walker = *queues.idle.walker[i]; begin(walker))
                 queues.add(walker);
         if (queues.nodes.size + queues.leaves.size == 0)
             return;
-        const Queue at_nodes = queues.nodes.taken();
-        for (Walker* walker : at_nodes)
-            visit_node<rays>(tree.nodes[walker->next], walker->slabs, walker->t_max, walker->stack);
-        for (Walker* walker : at_nodes) {
-            walker->next = walker->stack.pop();
-            queues.add(*walker);
+        for (unsigned i = 0; i < queues.nodes.size; ++i) {
+            Walker& walker = *queues.nodes.walker[i];
+            visit_node<rays>(tree.nodes[walker.next], walker.slabs, walker.t_max, walker.stack);
+        }
+        const unsigned at_nodes = queues.nodes.empty();
+        for (unsigned i = 0; i < at_nodes; ++i) {
+            Walker& walker = *queues.nodes.walker[i];
+            walker.next = walker.stack.pop();
+            queues.add(walker);
         }
         if (queues.nodes.size > queues.leaves.size)
             continue;
-        const Queue at_leaves = queues.leaves.taken();
-        for (Walker* walker : at_leaves)
-            if (on_leaf(*walker, tree.leaves[walker->next & ~flag]))
-                walker->stack.clear();
-        for (Walker* walker : at_leaves) {
-            walker->pop_before_end<rays>();
-            queues.add(*walker);
+        for (unsigned i = 0; i < queues.leaves.size; ++i) {
+            Walker& walker = *queues.leaves.walker[i];
+            if (on_leaf(walker, tree.leaves[walker.next & ~flag]))
+                walker.stack.clear();
+        }
+        const unsigned at_leaves = queues.leaves.empty();
+        for (unsigned i = 0; i < at_leaves; ++i) {
+            Walker& walker = *queues.leaves.walker[i];
+            walker.pop_before_end<rays>();
+            queues.add(walker);
         }
     }
 }
