@@ -152,10 +152,10 @@ Hit WideBvh::locate(const Ray& ray, std::uint32_t facet) const {
 
 /// The limits were found by measurement (hemilux_bench).
 wide::Tree WideBvh::tree() const {
-    constexpr std::size_t small = 1 << 19, cache = 1 << 20;
+    constexpr std::size_t small = 1 << 19, cache = 1 << 21;
     const std::size_t bytes = built_.quality.bytes;
     return {built_.nodes.data(), built_.leaves.data(), built_.nodes.size() == 0 ? flag : 0u,
-            bytes < small ? 0u : 3u, bytes > cache};
+            bytes < small ? 0u : 5u, bytes > cache};
 }
 
 Fit WideBvh::fit_ray(const Ray& ray, FloatRay& scaled) const {

@@ -1,6 +1,7 @@
 #pragma once
 // Loops over several threads whose result does not depend on their number: the caller writes to a
-// place of its own for each index or chunk and sums in order, afterwards or meanwhile.
+// place of its own for each index or chunk and sums in order, afterwards or meanwhile. Helping
+// threads are started when they are first needed and then wait for more until the program ends.
 
 #include <algorithm>
 #include <atomic>
@@ -11,6 +12,12 @@
 #include <vector>
 
 namespace hemilux {
+
+/// Calls work() on this thread and on up to `helpers` others, as far as these have nothing else to
+/// do, and returns when all calls have returned. It must not throw, and each call must do with what
+/// the others leave: perhaps nobody comes to help. May be used from several threads, and from
+/// within work itself.
+void work_together(std::size_t helpers, void (*work)(const void* context), const void* context);
 
 class Workers {
   public:
@@ -39,11 +46,13 @@ class Workers {
                 next = chunks;
             }
         };
-        std::vector<std::jthread> helpers;
-        for (std::size_t i = 1; i < std::min<std::size_t>(threads_, chunks); ++i)
-            helpers.emplace_back(work);
-        work();
-        helpers.clear(); // joins
+        const std::size_t threads = std::min<std::size_t>(threads_, chunks);
+        if (threads > 1)
+            work_together(
+                threads - 1, [](const void* it) { (*static_cast<const decltype(work)*>(it))(); },
+                &work);
+        else
+            work();
         if (failure)
             std::rethrow_exception(failure);
     }

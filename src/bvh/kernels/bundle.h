@@ -72,13 +72,13 @@ inline bool closest_bundle(const Tree& tree, Packet* packets, unsigned number, c
             [&](const Leaf& leaf, Bits lanes) {
                 const SharedLeaf shared(leaf, packet.origin);
                 if (count_bits(lanes) <= few_in_leaf)
-                    return sift_lanes(leaf, shared, packet, lanes,
-                                      [&](unsigned lane, auto... told) {
-                                          LaneNearest own(packet, lane);
-                                          consider(told..., lane_of(packet, lane), first + lane,
-                                                   own.nearest, judge);
-                                          return false;
-                                      });
+                    return sift_lanes(
+                        shared, packet, lanes,
+                        [&](unsigned lane, const Sifted<F8>& sifted, const Interval<F8>& t) {
+                            LaneNearest own(packet, lane);
+                            settle(leaf, sifted, t, lane_of(packet, lane), first + lane,
+                                   own.nearest, judge);
+                        });
                 sift_packet(leaf, shared, packet, lanes,
                             [&](unsigned k, const Sifted<F16>& sifted, Bits maybe) {
                                 consider_lanes(leaf, shared, k, sifted, maybe, first, packet,
@@ -119,10 +119,11 @@ inline bool count_bundle(const Tree& tree, Packet* packets, unsigned number, con
                 const SharedLeaf shared(leaf, packet.origin);
                 if (count_bits(lanes) <= few_in_leaf)
                     return sift_lanes(
-                        leaf, shared, packet, lanes, [&](unsigned lane, auto... told) {
-                            packet.slot[lane] += pierces(told..., lane_of(packet, lane),
-                                                         first + lane, infinity, infinity, judge);
-                            return false;
+                        shared, packet, lanes,
+                        [&](unsigned lane, const Sifted<F8>& sifted, const Interval<F8>& t) {
+                            const Verdict verdict(leaf, sifted, t, lane_of(packet, lane), infinity,
+                                                  infinity);
+                            packet.slot[lane] += count_of(verdict, leaf, first + lane, judge);
                         });
                 sift_packet(leaf, shared, packet, lanes,
                             [&](unsigned k, const Sifted<F16>& sifted, Bits maybe) {

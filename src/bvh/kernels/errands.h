@@ -67,9 +67,12 @@ struct FromErrands {
             const Packet& packet = packets[k / packet_size];
             errands.ray[k] = lane_of(packet, k % packet_size);
             walker.take(errands.ray[k], k, packet.high[k % packet_size], 0);
+            const float limit = walker.t_max * slab_slack;
             for (unsigned i = n; i-- > 0;)
-                walker.stack.push_one(errands.child[k][i], errands.enter[k][i]);
-            if (walker.pop<rays>()) {
+                walker.stack.push_if(errands.enter[k][i] <= limit, errands.child[k][i],
+                                     errands.enter[k][i]);
+            walker.next = walker.stack.pop();
+            if (walker.next != no_facet) {
                 ++started;
                 return true;
             }

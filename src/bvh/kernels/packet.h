@@ -4,8 +4,6 @@
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-inline unsigned count_bits(Bits bits) { return static_cast<unsigned>(__builtin_popcount(bits)); }
-
 /// The lanes that meet one child's box before they end; where, in `enter`.
 inline Bits meet_box(const Node& node, unsigned lane, const Packet& packet, F16& enter) {
     enter = F16::splat(0);

@@ -4,7 +4,7 @@
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-inline constexpr unsigned few_in_leaf = 12; ///< rays that are held against eight triangles at once
+inline constexpr unsigned few_in_leaf = 8; ///< rays that are held against eight triangles at once
 
 /// What eight triangles have in common for all rays of the packet.
 struct alignas(64) SharedLeaf {
@@ -61,19 +61,15 @@ inline void sift_packet(const Leaf& leaf, const SharedLeaf& shared, const Packet
     }
 }
 
-/// The same where few lanes are left: visit(lane, slot, low, high, known, inside, front).
+/// The same where few lanes are left: visit(lane, sifted, t).
 template <class Visit>
-inline void sift_lanes(const Leaf& leaf, const SharedLeaf& shared, const Packet& packet, Bits lanes,
-                       Visit&& visit) {
+inline void sift_lanes(const SharedLeaf& shared, const Packet& packet, Bits lanes, Visit&& visit) {
     for (; lanes; lanes &= lanes - 1) {
         const unsigned lane = first_of(lanes);
         const float direction[3] = {packet.direction[0][lane], packet.direction[1][lane],
                                     packet.direction[2][lane]};
         const Sifted<F8> sifted = shared.sift(direction);
-        if (const Bits maybe = sifted.maybe())
-            visit_slots(leaf, sifted,
-                        Interval<F8>(sifted, F8::load(shared.volume), F8::load(shared.size)), maybe,
-                        packet.from, [&](auto... told) { return visit(lane, told...); });
+        visit(lane, sifted, Interval<F8>(sifted, F8::load(shared.volume), F8::load(shared.size)));
     }
 }
 

@@ -14,6 +14,8 @@ namespace hemilux::wide::HEMILUX_KERNELS {
 using Bits = std::uint32_t;
 
 inline unsigned first_of(Bits bits) { return static_cast<unsigned>(__builtin_ctz(bits)); }
+inline unsigned last_of(Bits bits) { return 31 - static_cast<unsigned>(__builtin_clz(bits)); }
+inline unsigned count_bits(Bits bits) { return static_cast<unsigned>(__builtin_popcount(bits)); }
 
 /// Four lanes: what every compiler has.
 struct F4 {
@@ -122,6 +124,22 @@ struct F8 {
 #else
 using F8 = Pair<F4>;
 #endif
+
+/// Which of eight words, but for the bits of `ignored`, are `word`.
+inline Bits equal(const std::uint32_t* words, std::uint32_t ignored, std::uint32_t word) {
+#if defined(__AVX2__)
+    const __m256i eight = _mm256_load_si256(reinterpret_cast<const __m256i*>(words));
+    const __m256i same =
+        _mm256_cmpeq_epi32(_mm256_andnot_si256(_mm256_set1_epi32(static_cast<int>(ignored)), eight),
+                           _mm256_set1_epi32(static_cast<int>(word)));
+    return static_cast<Bits>(_mm256_movemask_ps(_mm256_castsi256_ps(same)));
+#else
+    Bits bits = 0;
+    for (unsigned k = 0; k < 8; ++k)
+        bits |= Bits{(words[k] & ~ignored) == word} << k;
+    return bits;
+#endif
+}
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 struct F16 {

@@ -8,16 +8,17 @@ inline constexpr float slab_slack = 1 + 0x1p-20f;
 
 /// The ray as the box tests take it: a plane p is met at p * inverse + offset.
 struct SlabRay {
+    using Byte = unsigned char; // so that a walker's head fits a line of the cache
+
     float inverse[3], offset[3];
-    unsigned octant;
-    unsigned near[3], far[3]; ///< where in a node the planes lie that are met first and last
+    Byte octant, near[3], far[3]; ///< where in a node the planes lie that are met first and last
 
     void set(const FloatRay& ray) {
-        octant = octant_of(ray.inverse);
+        octant = static_cast<Byte>(octant_of(ray.inverse));
         for (unsigned i = 0; i < 3; ++i) {
             inverse[i] = ray.inverse[i];
             offset[i] = -ray.origin[i] * ray.inverse[i];
-            near[i] = width * (2 * i + (ray.inverse[i] < 0));
+            near[i] = static_cast<Byte>(width * (2 * i + (ray.inverse[i] < 0)));
             far[i] = near[i] ^ width;
         }
     }
@@ -26,7 +27,7 @@ struct SlabRay {
 /// Pushes the children met before t_max.
 template <Rays rays>
 inline void visit_node(const Node& node, const SlabRay& ray, float t_max, Stack& stack) {
-    const auto met_at = [&](const unsigned* place, unsigned axis) {
+    const auto met_at = [&](const SlabRay::Byte* place, unsigned axis) {
         return F8::load(node.plane[0] + place[axis]) * F8::splat(ray.inverse[axis]) +
                F8::splat(ray.offset[axis]);
     };
@@ -37,7 +38,8 @@ inline void visit_node(const Node& node, const SlabRay& ray, float t_max, Stack&
     stack.push<rays>(node, ray.octant, enter, leave * F8::splat(slab_slack));
 }
 
-/// Depth-first from `root`; leaf(const Leaf&) returns true to stop; t_max may shrink meanwhile.
+/// Depth-first from `root`; leaf(const Leaf&) returns true to stop; t_max may shrink meanwhile,
+/// where rays are stopped.
 template <Rays rays, class OnLeaf>
 inline void walk(const Tree& tree, std::uint32_t root, const FloatRay& ray, const float& t_max,
                  OnLeaf&& on_leaf) {
@@ -45,13 +47,16 @@ inline void walk(const Tree& tree, std::uint32_t root, const FloatRay& ray, cons
     slabs.set(ray);
     Stack stack;
     stack.clear();
-    std::uint32_t now = root;
-    do {
-        if ((now & flag) == 0)
+    for (std::uint32_t now = root; now != no_facet;) {
+        if ((now & flag) == 0) {
             visit_node<rays>(tree.nodes[now], slabs, t_max, stack);
-        else if (on_leaf(tree.leaves[now & ~flag]))
-            return;
-    } while (stack.pop<rays>(t_max * slab_slack, now));
+            now = stack.pop();
+        } else {
+            if (on_leaf(tree.leaves[now & ~flag]))
+                return;
+            now = stack.pop_before<rays>(t_max * slab_slack);
+        }
+    }
 }
 
 inline V3<F8> load3(const float (&p)[3][width]) {
@@ -78,53 +83,81 @@ struct LeafTest {
     }
 };
 
-/// The slots in `maybe`, one by one: visit(slot, low, high, known, inside, front), true to stop.
-/// `known`: low and high bound t; `inside`: the ray surely passes within the edges.
-template <class Visit>
-inline void visit_slots(const Leaf& leaf, const Sifted<F8>& sifted, const Interval<F8>& t,
-                        Bits maybe, std::uint32_t from, Visit&& visit) {
-    const Bits inside = sifted.inside(), front = sifted.front();
-    alignas(64) float low[width], high[width];
-    t.low.store(low);
-    t.high.store(high);
-    for (; maybe; maybe &= maybe - 1) {
-        const unsigned k = first_of(maybe);
-        const Bits bit = Bits{1} << k;
-        if ((leaf.slot[k] & ~flag) != from)
-            if (visit(leaf.slot[k], low[k], high[k], (t.known & bit) != 0, (inside & bit) != 0,
-                      (front & bit) != 0))
-                return;
+/// The slots of a leaf that a ray strikes before it ends: surely, or perhaps. Its end is known to
+/// lie between `low` and `high`.
+struct Verdict {
+    Bits sure, unsure;
+
+    Verdict(const Leaf& leaf, const Sifted<F8>& sifted, const Interval<F8>& t, const FloatRay& ray,
+            float low, float high) {
+        const Bits out =
+            t.known & (less(F8::splat(high), t.low) | less(t.high, F8::splat(ray.t_min_low)));
+        const Bits maybe = sifted.maybe() & ~out & ~equal(leaf.slot, flag, ray.from);
+        sure = maybe & t.known & sifted.inside() & less(F8::splat(ray.t_min_high), t.low) &
+               less(t.high, F8::splat(low));
+        unsure = maybe & ~sure;
+    }
+};
+
+/// Bounds of t for each slot of a leaf, and what to take where no slot is nearer.
+struct Candidates {
+    alignas(64) float low[2 * width], high[2 * width];
+    alignas(64) std::uint32_t slot[2 * width];
+    Bits front;
+
+    Candidates(const Leaf& leaf, const Sifted<F8>& sifted, const Interval<F8>& t,
+               const Nearest& otherwise)
+        : front(sifted.front() | otherwise.front << width) {
+        t.low.store(low);
+        t.high.store(high);
+        __builtin_memcpy(slot, leaf.slot, sizeof leaf.slot);
+        low[width] = otherwise.low;
+        high[width] = otherwise.high;
+        slot[width] = otherwise.slot;
+    }
+    [[nodiscard]] Nearest operator[](unsigned k) const {
+        return {low[k], high[k], slot[k], front >> k & 1};
+    }
+};
+
+/// The slots of a leaf against the nearest so far, one after the other.
+inline void consider(const Verdict& verdict, const Candidates& candidates, Bits known,
+                     unsigned index, Nearest& nearest, const Judge& judge) {
+    for (Bits left = verdict.sure | verdict.unsure; left; left &= left - 1) {
+        const unsigned k = first_of(left);
+        const Nearest at = candidates[k];
+        if ((known >> k & 1) != 0 && at.low > nearest.high)
+            continue;
+        if ((verdict.sure >> k & 1) != 0 && at.high < nearest.low)
+            nearest = at;
+        else if (nearest.slot == no_facet || ((at.slot ^ nearest.slot) & ~flag) != 0)
+            judge.closer(judge.query, index, at.slot, nearest);
     }
 }
 
-/// The slots of a leaf that a ray may strike.
-template <class Visit>
-inline void sift_leaf(const Leaf& leaf, const FloatRay& ray, Visit&& visit) {
-    const LeafTest test(leaf, ray);
-    if (const Bits maybe = test.sifted.maybe())
-        visit_slots(leaf, test.sifted, test.interval(), maybe, ray.from, visit);
+/// A tested leaf against the nearest so far. Nearly always one slot is nearer or none, and surely
+/// so: that is seen to without a branch, which the processor could not foresee.
+[[gnu::always_inline]] inline void settle(const Leaf& leaf, const Sifted<F8>& sifted,
+                                          const Interval<F8>& t, const FloatRay& ray,
+                                          unsigned index, Nearest& nearest, const Judge& judge) {
+    const Verdict verdict(leaf, sifted, t, ray, nearest.low, nearest.high);
+    const Candidates candidates(leaf, sifted, t, nearest);
+    if (verdict.unsure | (verdict.sure & (verdict.sure - 1))) [[unlikely]]
+        consider(verdict, candidates, t.known, index, nearest, judge);
+    else
+        nearest = candidates[first_of(verdict.sure | Bits{1} << width)];
 }
 
-/// A slot that may be struck against the nearest so far.
-inline void consider(std::uint32_t slot, float low, float high, bool known, bool inside, bool front,
-                     const FloatRay& ray, unsigned index, Nearest& nearest, const Judge& judge) {
-    if (known && (low > nearest.high || high < ray.t_min_low))
-        return;
-    if (inside && known && low > ray.t_min_high && high < nearest.low)
-        nearest = {low, high, slot, front};
-    else if (nearest.slot == no_facet || ((slot ^ nearest.slot) & ~flag) != 0)
-        judge.closer(judge.query, index, slot, nearest);
+[[gnu::always_inline]] inline void closest_in(const Leaf& leaf, const FloatRay& ray, unsigned index,
+                                              Nearest& nearest, const Judge& judge) {
+    const LeafTest test(leaf, ray);
+    settle(leaf, test.sifted, test.interval(), ray, index, nearest, judge);
 }
 
 inline void closest_from(const Tree& tree, std::uint32_t root, const FloatRay& ray, unsigned index,
                          Nearest& nearest, const Judge& judge) {
     walk<Rays::stop>(tree, root, ray, nearest.high, [&](const Leaf& leaf) {
-        sift_leaf(
-            leaf, ray,
-            [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool front) {
-                consider(slot, low, high, known, inside, front, ray, index, nearest, judge);
-                return false;
-            });
+        closest_in(leaf, ray, index, nearest, judge);
         return false;
     });
 }
@@ -137,47 +170,41 @@ inline void closest(const Tree& tree, const FloatRay& ray, unsigned index, Neare
 /// Whether anything in a leaf but `target` is struck before t.
 inline bool blocks(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low, float t_high,
                    std::uint32_t target, const Judge& judge) {
-    bool blocked = false;
-    sift_leaf(leaf, ray,
-              [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool) {
-                  if ((slot & ~flag) == target || (known && (low > t_high || high < ray.t_min_low)))
-                      return false;
-                  blocked = (inside && known && low > ray.t_min_high && high < t_low) ||
-                            judge.struck(judge.query, index, slot);
-                  return blocked;
-              });
-    return blocked;
+    const LeafTest test(leaf, ray);
+    const Verdict verdict(leaf, test.sifted, test.interval(), ray, t_low, t_high);
+    const Bits others = ~equal(leaf.slot, flag, target);
+    if (verdict.sure & others)
+        return true;
+    for (Bits left = verdict.unsure & others; left; left &= left - 1)
+        if (judge.struck(judge.query, index, leaf.slot[first_of(left)]))
+            return true;
+    return false;
 }
 
 inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
                      float t_high, std::uint32_t target, const Judge& judge) {
     bool blocked = false;
-    walk<Rays::stop>(tree, tree.root, ray, t_high, [&](const Leaf& leaf) {
+    walk<Rays::pierce>(tree, tree.root, ray, t_high, [&](const Leaf& leaf) {
         blocked = blocks(leaf, ray, index, t_low, t_high, target, judge);
         return blocked;
     });
     return blocked;
 }
 
-/// Whether a slot that may be struck counts.
-inline bool pierces(std::uint32_t slot, float low, float high, bool known, bool inside, bool,
-                    const FloatRay& ray, unsigned index, float t_low, float t_high,
-                    const Judge& judge) {
-    if (known && (low > t_high || high < ray.t_min_low))
-        return false;
-    return (inside && known && low > ray.t_min_high && high < t_low) ||
-           judge.counts(judge.query, index, slot);
+/// How many facets are pierced.
+inline std::uint32_t count_of(const Verdict& verdict, const Leaf& leaf, unsigned index,
+                              const Judge& judge) {
+    std::uint32_t pierced = count_bits(verdict.sure);
+    for (Bits left = verdict.unsure; left; left &= left - 1)
+        pierced += judge.counts(judge.query, index, leaf.slot[first_of(left)]);
+    return pierced;
 }
 
-/// How many facets of a leaf are pierced.
 inline std::uint32_t count_in(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low,
                               float t_high, const Judge& judge) {
-    std::uint32_t pierced = 0;
-    sift_leaf(leaf, ray, [&](auto... told) {
-        pierced += pierces(told..., ray, index, t_low, t_high, judge);
-        return false;
-    });
-    return pierced;
+    const LeafTest test(leaf, ray);
+    return count_of(Verdict(leaf, test.sifted, test.interval(), ray, t_low, t_high), leaf, index,
+                    judge);
 }
 
 inline std::uint32_t count_from(const Tree& tree, std::uint32_t root, const FloatRay& ray,

@@ -22,9 +22,12 @@ struct Ordering {
     Ordering(const Node& node, unsigned octant, F8 low, F8 high) {
         place = _mm256_srlv_epi32(_mm256_set1_epi32(static_cast<int>(node.order[octant])),
                                   _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
-        met = less_equal(F8{_mm256_permutevar8x32_ps(low.v, place)},
-                         F8{_mm256_permutevar8x32_ps(high.v, place)});
-#if !defined(__AVX512VL__)
+        const F8 from{_mm256_permutevar8x32_ps(low.v, place)};
+        const F8 to{_mm256_permutevar8x32_ps(high.v, place)};
+#if defined(__AVX512VL__)
+        met = _mm256_cmp_ps_mask(from.v, to.v, _CMP_LE_OQ); // stays in a mask register
+#else
+        met = less_equal(from, to);
         place = _mm256_permutevar8x32_epi32(place, gaps_closed(met));
 #endif
     }
@@ -90,47 +93,57 @@ struct Ordering {
 
 #endif
 
-/// Whether rays are stopped by what they hit, or pierce everything: then nothing is ever skipped.
+/// Whether rays are stopped by what they hit, or pierce everything up to an end that is known.
 enum class Rays { stop, pierce };
 
 /// What remains to be visited, the nearest on top. At the bottom lies an entry that says so.
 struct Stack {
-    std::uint32_t child[stack_size + most_errands + width + 1];
-    float enter[stack_size + most_errands + width + 1];
+    static constexpr unsigned room = (stack_size + most_errands + width) / F16::lanes + 1;
+
     unsigned top;
+    alignas(64) std::uint32_t child[room * F16::lanes];
+    alignas(64) float enter[room * F16::lanes]; ///< where rays are stopped
 
     void clear() {
         child[0] = no_facet;
         enter[0] = -__builtin_inff();
         top = 1;
     }
-    void push_one(std::uint32_t c, float at) {
+    void push_if(bool wanted, std::uint32_t c, float at) {
         child[top] = c;
-        enter[top++] = at;
+        enter[top] = at;
+        top += wanted;
     }
     template <Rays rays>
     void push(const Node& node, unsigned octant, F8 from, F8 to) {
         const Ordering ordering(node, octant, from, to);
-        ordering.store(node.child, child + top);
+        const unsigned t = top;
+        ordering.store(node.child, child + t);
         if constexpr (rays == Rays::stop)
-            ordering.store(from, enter + top);
-        top += ordering.count();
+            ordering.store(from, enter + t);
+        top = t + ordering.count();
     }
-    /// Takes the topmost entry that lies before `limit`; false: there is none.
+    /// The topmost entry; no_facet: there is none.
+    std::uint32_t pop() { return child[--top]; }
+    /// The same after the ray was perhaps stopped: entries behind `limit` are passed over. One that
+    /// lies below others may stay; its children are not met then. Without branches that depend on
+    /// how many they are, which the processor cannot foresee.
     template <Rays rays>
-    bool pop(float limit, std::uint32_t& next) {
-        if constexpr (rays == Rays::pierce) {
-            next = child[--top];
-            return next != no_facet;
-        }
-        unsigned t = top - 1;
-        t -= enter[t] > limit; // how many there are is hard to foresee for the processor
-        t -= enter[t] > limit;
-        while (enter[t] > limit)
-            --t;
-        next = child[t];
-        top = t;
-        return next != no_facet;
+    std::uint32_t pop_before(float limit) {
+        if constexpr (rays == Rays::pierce)
+            return pop();
+        unsigned first = (top - 1) / F16::lanes * F16::lanes;
+        Bits before = entered(first, limit) & ((Bits{1} << (top - first)) - 1);
+        for (; before == 0; before = entered(first, limit))
+            first -= F16::lanes;
+        top = first + last_of(before);
+        return child[top];
+    }
+
+  private:
+    /// Which of sixteen entries lie before the limit.
+    [[nodiscard]] Bits entered(unsigned first, float limit) const {
+        return less_equal(F16::load(enter + first), F16::splat(limit));
     }
 };
 

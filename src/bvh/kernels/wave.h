@@ -1,17 +1,18 @@
 // Many independent rays in turn, a step of each: while one waits for memory or for a chain of
-// operations, the others go on. Steps through nodes and through leaves are done in turns, so that
-// the processor can foresee the branches. No #pragma once: see simd.h.
+// operations, the others go on. Steps through nodes and through leaves are done in turns, and what
+// follows from them in loops of its own: so the processor can foresee the branches, and finds many
+// walkers within its window. No #pragma once: see simd.h.
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-inline constexpr unsigned wave_size = 32;
+inline constexpr unsigned wave_size = 48;
 
 /// A ray on its way.
 struct alignas(64) Walker {
     SlabRay slabs;
     const FloatRay* ray;
     std::uint32_t index; ///< of the ray in the stream
-    std::uint32_t next;  ///< node or leaf to be visited
+    std::uint32_t next;  ///< node or leaf to be visited; no_facet: the ray is done
     float t_max;         ///< shrinks
     Stack stack;
 
@@ -24,8 +25,8 @@ struct alignas(64) Walker {
         stack.clear();
     }
     template <Rays rays>
-    bool pop() {
-        return stack.pop<rays>(t_max * slab_slack, next);
+    void pop_before_end() {
+        next = stack.pop_before<rays>(t_max * slab_slack);
     }
 };
 
@@ -46,6 +47,33 @@ struct Queue {
         walker[size] = w;
         size += is_mine;
     }
+    /// Empties the queue; returns how many it held. They may still be read one after the other
+    /// while no more than have been read are added.
+    unsigned empty() {
+        const unsigned held = size;
+        size = 0;
+        return held;
+    }
+};
+
+/// All walkers, by what they do next.
+struct Queues {
+    const Tree& tree;
+    Queue nodes, leaves, idle;
+
+    void add(Walker& walker) {
+        const std::uint32_t next = walker.next;
+        const bool node = (next & flag) == 0, done = next == no_facet;
+        if (tree.large) {
+            const char* place = place_of(tree, done ? tree.root : next);
+            for (unsigned line = 0; line < sizeof(Node); line += 64)
+                __builtin_prefetch(place + line);
+            __builtin_prefetch(place + (node ? 0 : sizeof(Leaf) - 64));
+        }
+        nodes.add_if(node, &walker);
+        leaves.add_if(!node && !done, &walker);
+        idle.add_if(done, &walker);
+    }
 };
 
 /// Sends rays through the tree. begin(walker) makes it the next ray and returns false when there is
@@ -53,38 +81,38 @@ struct Queue {
 template <Rays rays, class Begin, class OnLeaf>
 inline void wave(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
     Walker walkers[wave_size];
-    Queue nodes, leaves;
-    // Puts a walker into the queue of its next visit, or lets it begin with the next ray.
-    const auto send_on = [&](Walker& walker, bool more, Queue& to_nodes) {
-        if (!more && !begin(walker))
-            return;
-        const bool leaf = (walker.next & flag) != 0;
-        if (tree.large) { // not in a function of its own: g++ 12 takes that for one without effect
-            const char* place = place_of(tree, walker.next);
-            for (unsigned line = 0; line < sizeof(Leaf); line += 64)
-                __builtin_prefetch(place + line);
-        }
-        to_nodes.add_if(!leaf, &walker);
-        leaves.add_if(leaf, &walker);
-    };
+    Queues queues{tree, {}, {}, {}};
     for (Walker& walker : walkers)
-        send_on(walker, false, nodes);
-    while (nodes.size + leaves.size > 0) {
-        Queue again;
-        for (unsigned i = 0; i < nodes.size; ++i) {
-            Walker& walker = *nodes.walker[i];
+        queues.idle.add_if(true, &walker);
+    for (;;) {
+        const unsigned idle = queues.idle.empty();
+        for (unsigned i = 0; i < idle; ++i)
+            if (Walker& walker = *queues.idle.walker[i]; begin(walker))
+                queues.add(walker);
+        if (queues.nodes.size + queues.leaves.size == 0)
+            return;
+        for (unsigned i = 0; i < queues.nodes.size; ++i) {
+            Walker& walker = *queues.nodes.walker[i];
             visit_node<rays>(tree.nodes[walker.next], walker.slabs, walker.t_max, walker.stack);
-            send_on(walker, walker.pop<rays>(), again);
         }
-        nodes = again;
-        if (nodes.size > leaves.size)
+        const unsigned at_nodes = queues.nodes.empty();
+        for (unsigned i = 0; i < at_nodes; ++i) {
+            Walker& walker = *queues.nodes.walker[i];
+            walker.next = walker.stack.pop();
+            queues.add(walker);
+        }
+        if (queues.nodes.size > queues.leaves.size)
             continue;
-        const Queue visited = leaves;
-        leaves.size = 0;
-        for (unsigned i = 0; i < visited.size; ++i) {
-            Walker& walker = *visited.walker[i];
-            const bool done = on_leaf(walker, tree.leaves[walker.next & ~flag]);
-            send_on(walker, !done && walker.pop<rays>(), nodes);
+        for (unsigned i = 0; i < queues.leaves.size; ++i) {
+            Walker& walker = *queues.leaves.walker[i];
+            if (on_leaf(walker, tree.leaves[walker.next & ~flag]))
+                walker.stack.clear();
+        }
+        const unsigned at_leaves = queues.leaves.empty();
+        for (unsigned i = 0; i < at_leaves; ++i) {
+            Walker& walker = *queues.leaves.walker[i];
+            walker.pop_before_end<rays>();
+            queues.add(walker);
         }
     }
 }
@@ -106,16 +134,6 @@ struct FromArray {
     }
 };
 
-/// A leaf against one ray of many.
-inline void closest_in(const Leaf& leaf, const FloatRay& ray, unsigned index, Nearest& nearest,
-                       const Judge& judge) {
-    sift_leaf(leaf, ray,
-              [&](std::uint32_t slot, float low, float high, bool known, bool inside, bool front) {
-                  consider(slot, low, high, known, inside, front, ray, index, nearest, judge);
-                  return false;
-              });
-}
-
 inline void closest_stream(const Tree& tree, const FloatRay* rays, unsigned count, Nearest* nearest,
                            const Judge& judge) {
     unsigned started = 0;
@@ -133,7 +151,7 @@ inline void occluded_stream(const Tree& tree, const FloatRay* rays, unsigned cou
     for (unsigned k = 0; k < count; ++k)
         blocked[k] = 0;
     unsigned started = 0;
-    wave<Rays::stop>(
+    wave<Rays::pierce>(
         tree, FromArray{rays, count, t, tree.root, started}, [&](Walker& walker, const Leaf& leaf) {
             const unsigned k = walker.index;
             blocked[k] = blocks(leaf, *walker.ray, k, t[k].low, t[k].high, targets[k], judge);

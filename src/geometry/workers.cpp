@@ -1,0 +1,133 @@
+#include "geometry/workers.h"
+
+#include <condition_variable>
+#include <system_error>
+
+namespace hemilux {
+namespace {
+
+/// Looks at a condition for as long as waking a sleeping thread would take; true once it holds.
+template <class Condition>
+bool holds_soon(const Condition& condition) {
+    constexpr int looks = 2000, patient = 64;
+    for (int k = 0; k < looks; ++k) {
+        if (condition())
+            return true;
+        if (k % patient == patient - 1)
+            std::this_thread::yield(); // to one who has work, if there are too few cores
+#if defined(__x86_64__) || defined(__i386__)
+        __builtin_ia32_pause();
+#endif
+    }
+    return false;
+}
+
+/// A call of work_together: it lives until nobody is inside any more.
+struct Job {
+    void (*work)(const void*);
+    const void* context;
+    std::size_t wanted;                 ///< helpers that may still come
+    std::atomic<std::size_t> inside{0}; ///< helpers
+};
+
+class Pool {
+  public:
+    ~Pool() {
+        {
+            const std::lock_guard lock(mutex_);
+            ending_ = true;
+        }
+        posted_.notify_all();
+        threads_.clear(); // joins
+    }
+
+    void run(Job& job) {
+        post(job);
+        job.work(job.context);
+        withdraw(job);
+        const auto left_alone = [&] { return job.inside.load(std::memory_order_acquire) == 0; };
+        if (holds_soon(left_alone))
+            return;
+        std::unique_lock lock(mutex_);
+        left_.wait(lock, left_alone);
+    }
+
+  private:
+    void post(Job& job) {
+        std::size_t wake = 0;
+        {
+            const std::lock_guard lock(mutex_);
+            start_threads(job.wanted);
+            jobs_.push_back(&job);
+            open_jobs_.store(jobs_.size(), std::memory_order_relaxed);
+            wake = std::min(job.wanted, sleeping_);
+        }
+        for (; wake > 0; --wake)
+            posted_.notify_one();
+    }
+
+    void withdraw(Job& job) {
+        const std::lock_guard lock(mutex_);
+        std::erase(jobs_, &job);
+        open_jobs_.store(jobs_.size(), std::memory_order_relaxed);
+    }
+
+    /// As many as any job has wanted. If the system refuses, there are fewer.
+    void start_threads(std::size_t wanted) {
+        try {
+            while (threads_.size() < wanted)
+                threads_.emplace_back([this] { help(); });
+        } catch (const std::system_error&) {
+        }
+    }
+
+    void help() {
+        std::unique_lock lock(mutex_);
+        while (!ending_) {
+            if (!jobs_.empty()) {
+                help_with(*jobs_.back(), lock); // the innermost, for which others wait
+                continue;
+            }
+            lock.unlock();
+            const bool soon =
+                holds_soon([&] { return open_jobs_.load(std::memory_order_relaxed) > 0; });
+            lock.lock();
+            if (soon)
+                continue;
+            ++sleeping_;
+            posted_.wait(lock, [&] { return ending_ || !jobs_.empty(); });
+            --sleeping_;
+        }
+    }
+
+    void help_with(Job& job, std::unique_lock<std::mutex>& lock) {
+        ++job.inside;
+        if (--job.wanted == 0) {
+            std::erase(jobs_, &job);
+            open_jobs_.store(jobs_.size(), std::memory_order_relaxed);
+        }
+        lock.unlock();
+        job.work(job.context);
+        lock.lock();
+        if (job.inside.fetch_sub(1, std::memory_order_release) == 1) // the job may be gone now
+            left_.notify_all();
+    }
+
+    std::mutex mutex_;
+    std::condition_variable posted_, left_;
+    std::vector<Job*> jobs_; ///< that want helpers
+    std::atomic<std::size_t> open_jobs_{0};
+    std::size_t sleeping_ = 0;
+    bool ending_ = false;
+    std::vector<std::jthread> threads_;
+};
+
+} // namespace
+
+void work_together(std::size_t helpers, void (*work)(const void*), const void* context) {
+    static Pool pool;
+    Job job{work, context, helpers};
+    pool.run(job);
+}
+
+} // namespace hemilux
