@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace hemilux {
 
@@ -84,6 +85,7 @@ bool StepwiseSolver::find_ray_power() {
         return false;
     }
     solution_.rays_energy += pilot.rays;
+    pilot_ = std::move(pilot.radiosity);
     ray_power_ = pilot.shot / rays;
     return true;
 }
@@ -170,6 +172,7 @@ void StepwiseSolver::save(StateWriter& state) const {
     state.add(std::span<const Vec3>(solution_.standard_error));
     state.add(std::span<const Vec3>(squares_));
     state.add(std::span<const std::uint64_t>(solution_.hits));
+    save_more(state);
 }
 
 void StepwiseSolver::load(StateReader& state) {
@@ -191,6 +194,7 @@ void StepwiseSolver::load(StateReader& state) {
     state.get(std::span(solution_.standard_error));
     state.get(std::span(squares_));
     state.get(std::span(solution_.hits));
+    load_more(state);
 }
 
 } // namespace hemilux

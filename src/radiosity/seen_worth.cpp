@@ -1,0 +1,86 @@
+#include "radiosity/seen_worth.h"
+
+#include "radiosity/state.h"
+
+#include <bit>
+#include <numbers>
+
+namespace hemilux {
+namespace {
+
+/// How many hits the worth of the parent counts for.
+constexpr double hits_of_parent = 4;
+
+} // namespace
+
+SeenWorth::SeenWorth(const Hemisphere& hemisphere, std::size_t patches)
+    : hemisphere_(hemisphere), first_leaf_(Hemisphere::cells_up_to(hemisphere.depth() - 1)),
+      leaves_(hemisphere.cells().size() - first_leaf_), known_(patches * leaves_) {
+    for (const Hemisphere::Cell& cell : hemisphere.cells())
+        shares_.push_back(cell.projected_solid_angle / std::numbers::pi);
+}
+
+void SeenWorth::scale_sums(double factor) {
+    for (Known& known : known_)
+        known.sum *= static_cast<float>(factor);
+}
+
+double SeenWorth::sum_of(std::uint32_t patch) const {
+    double sum = 0;
+    for (std::size_t t = 0; t < leaves_; ++t)
+        sum += static_cast<double>(known_[patch * leaves_ + t].sum);
+    return sum;
+}
+
+void SeenWorth::estimate(std::uint32_t patch, double scale, double usual,
+                         std::span<double> worth) const {
+    const auto& cells = hemisphere_.cells();
+    thread_local std::vector<Known> tree; // by cell
+    thread_local std::vector<double> mean;
+    tree.assign(cells.size(), {});
+    mean.resize(cells.size());
+    const auto add = [](Known& to, const Known& more) {
+        to.sum += more.sum;
+        to.hits += more.hits;
+    };
+    for (std::size_t t = 0; t < leaves_; ++t)
+        tree[first_leaf_ + t] = known_[patch * leaves_ + t];
+    for (std::size_t c = first_leaf_; c-- > 0;)
+        for (std::size_t child = cells[c].first_child; child < cells[c].first_child + 4u; ++child)
+            add(tree[c], tree[child]);
+    Known whole;
+    for (std::size_t root = 0; root < 4; ++root)
+        add(whole, tree[root]);
+
+    const auto estimate_of = [&](const Known& known, double share, double parent) {
+        const double own = static_cast<double>(known.sum) * scale / share, hits = known.hits;
+        return parent + (own - parent) * hits / (hits + hits_of_parent);
+    };
+    const double of_patch = estimate_of(whole, 1, usual);
+    for (std::size_t root = 0; root < 4; ++root)
+        mean[root] = estimate_of(tree[root], shares_[root], of_patch);
+    for (std::size_t c = 0; c < first_leaf_; ++c)
+        for (std::size_t child = cells[c].first_child; child < cells[c].first_child + 4u; ++child)
+            mean[child] = estimate_of(tree[child], shares_[child], mean[c]);
+    for (std::size_t t = 0; t < leaves_; ++t)
+        worth[t] = mean[first_leaf_ + t];
+}
+
+void SeenWorth::save(StateWriter& state) const {
+    state.add(std::uint64_t{known_.size()});
+    for (const Known& known : known_)
+        state.add(std::uint64_t{std::bit_cast<std::uint32_t>(known.sum)} << 32 |
+                  std::bit_cast<std::uint32_t>(known.hits));
+}
+
+void SeenWorth::load(StateReader& state) {
+    if (state.whole() != known_.size())
+        throw StateError("the number of triangles is not that of the patches");
+    for (Known& known : known_) {
+        const std::uint64_t word = state.whole();
+        known.sum = std::bit_cast<float>(static_cast<std::uint32_t>(word >> 32));
+        known.hits = std::bit_cast<float>(static_cast<std::uint32_t>(word));
+    }
+}
+
+} // namespace hemilux

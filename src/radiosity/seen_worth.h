@@ -1,0 +1,59 @@
+#pragma once
+// What is known of the worth of rays, triangle by triangle of all hemispheres (seen_guide.h).
+//
+// A triangle's own hits say little when they are few. Its estimate is therefore moved towards that
+// of its parent, which counts for a few hits more, and so on up to the patch and the scene
+// (empirical Bayes): triangles between which the hits show no spread share their parent's worth.
+
+#include "radiosity/hemisphere.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class StateReader;
+class StateWriter;
+
+class SeenWorth {
+  public:
+    SeenWorth(const Hemisphere& hemisphere, std::size_t patches);
+
+    /// Adds to what is known of a leaf, the `leaf`-th triangle of the last level: the sum over hits
+    /// of value / (rays per area and share), and how many hits told it.
+    void add(std::uint32_t patch, std::size_t leaf, float sum, float hits) {
+        Known& known = known_[patch * leaves() + leaf];
+        known.sum += sum;
+        known.hits += hits;
+    }
+    /// All sums so far, times a factor.
+    void scale_sums(double factor);
+
+    [[nodiscard]] std::size_t leaves() const { return leaves_; }
+    /// Share of a patch's power that a leaf has.
+    [[nodiscard]] double share(std::size_t leaf) const { return shares_[first_leaf_ + leaf]; }
+    /// Integral of the worth over a patch's hemisphere by its own hits, times its area.
+    [[nodiscard]] double sum_of(std::uint32_t patch) const;
+    /// The worth of each leaf, for sums that are to be multiplied by `scale`; `usual` is the worth
+    /// where nothing is known.
+    void estimate(std::uint32_t patch, double scale, double usual, std::span<double> worth) const;
+
+    /// Of use when no worth will be asked for again.
+    void forget() { known_ = {}; }
+    [[nodiscard]] std::size_t bytes() const { return known_.size() * sizeof(Known); }
+    void save(StateWriter& state) const;
+    void load(StateReader& state);
+
+  private:
+    struct Known {
+        float sum = 0, hits = 0;
+    };
+
+    const Hemisphere& hemisphere_;
+    std::size_t first_leaf_, leaves_;
+    std::vector<double> shares_; ///< by cell
+    std::vector<Known> known_;   ///< by patch and leaf
+};
+
+} // namespace hemilux
