@@ -1,6 +1,7 @@
 #include "radiosity/seen_guide.h"
 
 #include "radiosity/hemisphere.h"
+#include "radiosity/log_byte.h"
 #include "radiosity/mesh.h"
 #include "radiosity/receivers.h"
 #include "radiosity/rng.h"
@@ -27,22 +28,6 @@ constexpr std::uint64_t steps_of_learning = 8, later_lessons = 4;
 /// Kept within what floats hold, whatever the areas.
 constexpr double most_value = 1e12, most_rays_per_area = 1e18, most_density = 1e12;
 
-/// sqrt(V) relative to the mean patch's, in eighths of an octave over 32 octaves; 0: nothing.
-constexpr double steps_per_octave = 8, lowest_octave = -16;
-constexpr std::size_t byte_values = 256;
-
-std::uint8_t to_byte(double value) {
-    if (!(value > 0))
-        return 0;
-    const double step = std::round(steps_per_octave * (std::log2(value) - lowest_octave));
-    return static_cast<std::uint8_t>(1 + std::clamp(step, 0.0, 254.0));
-}
-
-double from_byte(std::size_t byte) {
-    const double octave = (static_cast<double>(byte) - 1) / steps_per_octave + lowest_octave;
-    return byte == 0 ? 0 : std::exp2(octave);
-}
-
 /// After the first four, as often as what is known has grown by a third or a half: 6, 8, 12, 16 ...
 bool is_time_to_judge(std::uint64_t step) {
     const std::uint64_t odd = step >> std::countr_zero(step);
@@ -57,7 +42,7 @@ class SeenGuide final : public Strategy {
           first_leaf_(Hemisphere::cells_up_to(hemisphere.depth() - 1)), keeps_learning_(learn),
           known_(hemisphere, input.mesh.patches().size()) {
         const std::size_t patches = mesh_.patches().size();
-        worth_.assign(patches * known_.leaves(), to_byte(1));
+        worth_.assign(patches * known_.leaves(), log_byte::from(1));
         density_.fill(1);
         rays_for_power_.assign(patches, 1);
         describe_sides();
@@ -161,7 +146,6 @@ class SeenGuide final : public Strategy {
     void look(const SolverInput& input);
     void look_from(std::uint32_t patch, const SolverInput& input, Seen& seen) const;
     void judge(std::span<const Vec3> radiosity);
-    [[nodiscard]] double worth_of_energy(std::span<const Vec3> radiosity) const;
     [[nodiscard]] double usual_worth() const;
     void find_density(double mean_root);
     template <class Body>
@@ -177,12 +161,12 @@ class SeenGuide final : public Strategy {
     double lessons_ = 0;     ///< steps whose rays are in known_, the look being a part of one
     std::uint64_t step_ = 0; ///< from 1; 0 before the pilot
     std::uint64_t rays_ = 0;
-    double mean_root_ = 0;                    ///< of sqrt(V) over all power
-    std::vector<std::uint8_t> worth_;         ///< sqrt(V) by patch and leaf
-    std::array<double, byte_values> density_; ///< by the byte of worth_
-    std::vector<double> rays_for_power_;      ///< by patch
-    std::vector<Side> sides_;                 ///< by patch
-    std::vector<Frame> frames_;               ///< by patch
+    double mean_root_ = 0;                         ///< of sqrt(V) over all power
+    std::vector<std::uint8_t> worth_;              ///< sqrt(V) by patch and leaf
+    std::array<double, log_byte::values> density_; ///< by the byte of worth_
+    std::vector<double> rays_for_power_;           ///< by patch
+    std::vector<Side> sides_;                      ///< by patch
+    std::vector<Frame> frames_;                    ///< by patch
 };
 
 template <class Body>
@@ -263,26 +247,6 @@ double SeenGuide::mean_radiosity(std::span<const Vec3> radiosity) const {
     return area > 0 ? power / area : 0;
 }
 
-/// Rays of unequal power do not carry exactly the power to be shot. What is too much or too little
-/// goes on over all bounces and spreads over all patches, so every ray has a worth besides what it
-/// strikes: (rho M)^2 / N relative to the mean of N patches, M being all power shot over that
-/// emitted. In usual rooms it is next to nothing; at reflectance .99 it is above all else, and all
-/// rays are to be nearly equal.
-double SeenGuide::worth_of_energy(std::span<const Vec3> radiosity) const {
-    double shot = 0, reflected = 0, emitted = 0;
-    for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
-        const double area = mesh_.patches()[i].area;
-        const Material& material = mesh_.material(i);
-        shot += area * mean_of_channels(radiosity[i]);
-        reflected += area * mean_of_channels(radiosity[i] * material.reflectance);
-        emitted += area * mean_of_channels(material.emission);
-    }
-    if (!(emitted > 0) || !(shot > 0))
-        return 0;
-    const double onward = reflected / shot * (shot / emitted);
-    return onward * onward / static_cast<double>(radiosity.size());
-}
-
 /// Mean over the patches that shoot.
 double SeenGuide::usual_worth() const {
     std::vector<double> worth(sides_.size());
@@ -298,7 +262,7 @@ double SeenGuide::usual_worth() const {
 }
 
 void SeenGuide::judge(std::span<const Vec3> radiosity) {
-    const double usual = usual_worth(), energy = worth_of_energy(radiosity);
+    const double usual = usual_worth(), energy = worth_of_energy(mesh_, radiosity);
     std::vector<double> roots(sides_.size()); // mean of sqrt(V) over a patch's power
     for_patches([&](std::uint32_t i) {
         thread_local std::vector<double> worth;
@@ -306,8 +270,8 @@ void SeenGuide::judge(std::span<const Vec3> radiosity) {
         known_.estimate(i, 1 / (lessons_ * mesh_.patches()[i].area), usual, worth);
         for (std::size_t t = 0; t < worth.size(); ++t) {
             std::uint8_t& byte = worth_[i * worth.size() + t];
-            byte = to_byte(std::sqrt(worth[t] + energy));
-            roots[i] += known_.share(t) * from_byte(byte);
+            byte = log_byte::from(std::sqrt(worth[t] + energy));
+            roots[i] += known_.share(t) * log_byte::value(byte);
         }
     });
     double power = 0, sum = 0;
@@ -321,8 +285,8 @@ void SeenGuide::judge(std::span<const Vec3> radiosity) {
 
 void SeenGuide::find_density(double mean_root) {
     mean_root_ = mean_root;
-    for (std::size_t byte = 0; byte < byte_values; ++byte) {
-        const double guided = mean_root > 0 ? from_byte(byte) / mean_root : 1;
+    for (std::size_t byte = 0; byte < log_byte::values; ++byte) {
+        const double guided = mean_root > 0 ? log_byte::value(byte) / mean_root : 1;
         density_[byte] = lowest_density + (1 - lowest_density) * std::min(guided, most_density);
     }
     for_patches([&](std::uint32_t i) {

@@ -1,7 +1,10 @@
 #include "radiosity/seen_worth.h"
 
+#include "radiosity/mesh.h"
+#include "radiosity/shot.h"
 #include "radiosity/state.h"
 
+#include <algorithm>
 #include <bit>
 #include <numbers>
 
@@ -32,38 +35,39 @@ double SeenWorth::sum_of(std::uint32_t patch) const {
     return sum;
 }
 
-void SeenWorth::estimate(std::uint32_t patch, double scale, double usual,
-                         std::span<double> worth) const {
+/// From the leaves to the roots.
+void SeenWorth::collect(std::uint32_t patch, std::vector<Known>& tree) const {
     const auto& cells = hemisphere_.cells();
-    thread_local std::vector<Known> tree; // by cell
-    thread_local std::vector<double> mean;
     tree.assign(cells.size(), {});
-    mean.resize(cells.size());
-    const auto add = [](Known& to, const Known& more) {
-        to.sum += more.sum;
-        to.hits += more.hits;
-    };
     for (std::size_t t = 0; t < leaves_; ++t)
         tree[first_leaf_ + t] = known_[patch * leaves_ + t];
     for (std::size_t c = first_leaf_; c-- > 0;)
         for (std::size_t child = cells[c].first_child; child < cells[c].first_child + 4u; ++child)
-            add(tree[c], tree[child]);
-    Known whole;
-    for (std::size_t root = 0; root < 4; ++root)
-        add(whole, tree[root]);
+            tree[c] += tree[child];
+}
 
+void SeenWorth::estimate(std::uint32_t patch, double scale, double usual,
+                         std::span<double> worth) const {
+    thread_local std::vector<Known> tree; // by cell
+    thread_local std::vector<double> mean;
+    collect(patch, tree);
+    mean.resize(tree.size());
     const auto estimate_of = [&](const Known& known, double share, double parent) {
         const double own = static_cast<double>(known.sum) * scale / share, hits = known.hits;
         return parent + (own - parent) * hits / (hits + hits_of_parent);
     };
+    Known whole;
+    for (std::size_t root = 0; root < 4; ++root)
+        whole += tree[root];
     const double of_patch = estimate_of(whole, 1, usual);
     for (std::size_t root = 0; root < 4; ++root)
         mean[root] = estimate_of(tree[root], shares_[root], of_patch);
-    for (std::size_t c = 0; c < first_leaf_; ++c)
-        for (std::size_t child = cells[c].first_child; child < cells[c].first_child + 4u; ++child)
+    for (std::size_t c = 0; c < first_leaf_; ++c) {
+        const std::size_t first = hemisphere_.cells()[c].first_child;
+        for (std::size_t child = first; child < first + 4; ++child)
             mean[child] = estimate_of(tree[child], shares_[child], mean[c]);
-    for (std::size_t t = 0; t < leaves_; ++t)
-        worth[t] = mean[first_leaf_ + t];
+    }
+    std::copy(mean.begin() + static_cast<std::ptrdiff_t>(first_leaf_), mean.end(), worth.begin());
 }
 
 void SeenWorth::save(StateWriter& state) const {
@@ -81,6 +85,21 @@ void SeenWorth::load(StateReader& state) {
         known.sum = std::bit_cast<float>(static_cast<std::uint32_t>(word >> 32));
         known.hits = std::bit_cast<float>(static_cast<std::uint32_t>(word));
     }
+}
+
+double worth_of_energy(const Mesh& mesh, std::span<const Vec3> radiosity) {
+    double shot = 0, reflected = 0, emitted = 0;
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
+        const double area = mesh.patches()[i].area;
+        const Material& material = mesh.material(i);
+        shot += area * mean_of_channels(radiosity[i]);
+        reflected += area * mean_of_channels(radiosity[i] * material.reflectance);
+        emitted += area * mean_of_channels(material.emission);
+    }
+    if (!(emitted > 0) || !(shot > 0))
+        return 0;
+    const double onward = reflected / shot * (shot / emitted);
+    return onward * onward / static_cast<double>(radiosity.size());
 }
 
 } // namespace hemilux
