@@ -110,8 +110,12 @@ void StepwiseSolver::check_bounces(std::uint64_t bounces) const {
                      face_of(input_.mesh, brightest));
 }
 
-/// What a single ray of all steps so far would add to the patch's radiosity.
+/// What a single ray of all steps so far has added to the patch's radiosity, on average; where none
+/// has struck it, what one of mean power would add.
 Vec3 StepwiseSolver::one_ray(std::uint32_t patch) const {
+    if (equal_rays_ && solution_.hits[patch] > 0)
+        return (solution_.radiosity[patch] - input_.mesh.material(patch).emission) /
+               static_cast<double>(solution_.hits[patch]);
     const double area = input_.mesh.patches()[patch].area;
     const double emitted_power = mean_of_channels(solution_.energy.emitted);
     if (!equal_rays_ || !(emitted_power > 0) || !(area > 0))

@@ -132,7 +132,7 @@ TEST_CASE("checkpoints of other runs are refused") {
     REQUIRE(place.hemilux(run_of_8 + "a.csv --checkpoint saved").code == 0);
     const std::string same = "solve room.obj --rays 20 --max-edge .3 --steps 8 --resume saved";
     for (const char* option : {"--seed 2", "--depth 1", "--threshold 3", "--literal", "--keep-all",
-                               "--method stratified"})
+                               "--guide learned", "--method stratified"})
         check_refused(place, same + " " + option,
                       "is a checkpoint of another run: expected " +
                           std::string(option).substr(0, std::string(option).find(' ')));

@@ -239,7 +239,9 @@ TEST_CASE("Guided by what is seen where there is nothing to see") {
     const Scene black_room =
         test::box_room(Vec3(0.0), Vec3(1.0), 2, {black, lamp}, {0, 1, 0, 0, 0, 0});
     const Scene dark = test::furnace_box(2, .5, 0);
-    for (const Scene& scene : {one_patch, black_room, dark})
+    Scene speck = room_with_crowd();
+    add_cube(speck, Vec3(.5), 1e-9);
+    for (const Scene& scene : {one_patch, black_room, dark, speck})
         for (const Guide guide : {Guide::visible, Guide::learned}) {
             const Model model(scene);
             const Guided made(model, guided(guide), even_light(model));
