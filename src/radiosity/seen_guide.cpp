@@ -50,21 +50,30 @@ class SeenGuide final : public Strategy {
     }
 
     void prepare(std::span<const Vec3> radiosity, double ray_power) override {
-        ++step_;
-        if (step_ == 1 || (keeps_learning_ && is_time_to_judge(step_)))
+        prepared_ = true;
+        if (steps_ == 0 || (keeps_learning_ && is_time_to_judge(steps_ + 1)))
             judge(radiosity);
         if (!keeps_learning_)
             known_.forget();
-        const double unsure = mean_radiosity(radiosity) / static_cast<double>(step_);
+        const double unsure = mean_radiosity(radiosity) / static_cast<double>(steps_ + 1);
         for (std::size_t i = 0; i < sides_.size(); ++i)
             sides_[i].rays_per_area = static_cast<float>(std::min(
                 (mean_of_channels(radiosity[i]) + unsure) / ray_power, most_rays_per_area));
     }
 
     void begin_step(std::uint64_t) override {
-        learns_ = keeps_learning_ && step_ > 0 &&
-                  (step_ <= steps_of_learning || step_ % later_lessons == 0);
+        const std::uint64_t step = steps_ + 1;
+        learns_ = keeps_learning_ && prepared_ &&
+                  (step <= steps_of_learning || step % later_lessons == 0);
+        if (learns_)
+            known_.drop_news();
+    }
+
+    void end_step() override {
+        steps_ += prepared_;
         lessons_ += learns_;
+        if (learns_)
+            known_.settle(1);
     }
 
     [[nodiscard]] double rays_for_power(std::uint32_t patch) const override {
@@ -157,9 +166,10 @@ class SeenGuide final : public Strategy {
     Workers workers_;
     std::size_t first_leaf_;
     bool keeps_learning_, learns_ = false;
+    bool prepared_ = false; ///< not before the pilot
     SeenWorth known_;
-    double lessons_ = 0;     ///< steps whose rays are in known_, the look being a part of one
-    std::uint64_t step_ = 0; ///< from 1; 0 before the pilot
+    double lessons_ = 0;      ///< steps whose rays are in known_, the look being a part of one
+    std::uint64_t steps_ = 0; ///< from 1; 0 before the pilot
     std::uint64_t rays_ = 0;
     double mean_root_ = 0;                         ///< of sqrt(V) over all power
     std::vector<std::uint8_t> worth_;              ///< sqrt(V) by patch and leaf
@@ -216,7 +226,7 @@ void SeenGuide::look(const SolverInput& input) {
     input.monitor.rays += rays_;
     lessons_ =
         static_cast<double>(rays_) / (input.options.rays * static_cast<double>(sides_.size()));
-    known_.scale_sums(lessons_);
+    known_.settle(lessons_);
 }
 
 void SeenGuide::look_from(std::uint32_t patch, const SolverInput& input, Seen& seen) const {
@@ -299,7 +309,7 @@ void SeenGuide::find_density(double mean_root) {
 
 /// rays_per_area follows from the radiosity before each step.
 void SeenGuide::save(StateWriter& state) const {
-    state.add(step_);
+    state.add(steps_);
     state.add(lessons_);
     state.add(mean_root_);
     state.add(std::string_view(reinterpret_cast<const char*>(worth_.data()), worth_.size()));
@@ -308,7 +318,7 @@ void SeenGuide::save(StateWriter& state) const {
 }
 
 void SeenGuide::load(StateReader& state) {
-    step_ = state.whole();
+    steps_ = state.whole();
     lessons_ = state.number();
     const double mean_root = state.number();
     if (!(mean_root >= 0))

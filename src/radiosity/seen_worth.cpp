@@ -18,15 +18,19 @@ constexpr double hits_of_parent = 4;
 
 SeenWorth::SeenWorth(const Hemisphere& hemisphere, std::size_t patches)
     : hemisphere_(hemisphere), first_leaf_(Hemisphere::cells_up_to(hemisphere.depth() - 1)),
-      leaves_(hemisphere.cells().size() - first_leaf_), known_(patches * leaves_) {
+      leaves_(hemisphere.cells().size() - first_leaf_), known_(patches * leaves_),
+      news_(known_.size()) {
     for (const Hemisphere::Cell& cell : hemisphere.cells())
         shares_.push_back(cell.projected_solid_angle / std::numbers::pi);
 }
 
-void SeenWorth::scale_sums(double factor) {
-    for (Known& known : known_)
-        known.sum *= static_cast<float>(factor);
+void SeenWorth::settle(double factor) {
+    for (std::size_t k = 0; k < known_.size(); ++k)
+        known_[k] += {news_[k].sum * static_cast<float>(factor), news_[k].hits};
+    drop_news();
 }
+
+void SeenWorth::drop_news() { std::ranges::fill(news_, Known{}); }
 
 double SeenWorth::sum_of(std::uint32_t patch) const {
     double sum = 0;

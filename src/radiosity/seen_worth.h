@@ -22,12 +22,15 @@ class SeenWorth {
     SeenWorth(const Hemisphere& hemisphere, std::size_t patches);
 
     /// Adds to what is known of a leaf, the `leaf`-th triangle of the last level: the sum over hits
-    /// of value / (rays per area and share), and how many hits told it.
+    /// of value / (rays per area and share), and how many hits told it. It counts once it has
+    /// been settled.
     void add(std::uint32_t patch, std::size_t leaf, float sum, float hits) {
-        known_[patch * leaves() + leaf] += Known{sum, hits};
+        news_[patch * leaves() + leaf] += Known{sum, hits};
     }
-    /// All sums so far, times a factor.
-    void scale_sums(double factor);
+    /// What was added becomes known, its sums times a factor.
+    void settle(double factor);
+    /// What was added is forgotten: its step was not finished.
+    void drop_news();
 
     [[nodiscard]] std::size_t leaves() const { return leaves_; }
     /// Share of a patch's power that a leaf has.
@@ -39,8 +42,10 @@ class SeenWorth {
     void estimate(std::uint32_t patch, double scale, double usual, std::span<double> worth) const;
 
     /// Of use when no worth will be asked for again.
-    void forget() { known_ = {}; }
-    [[nodiscard]] std::size_t bytes() const { return known_.size() * sizeof(Known); }
+    void forget() { known_ = {}, news_ = {}; }
+    [[nodiscard]] std::size_t bytes() const {
+        return (known_.size() + news_.size()) * sizeof(Known);
+    }
     void save(StateWriter& state) const;
     void load(StateReader& state);
 
@@ -54,8 +59,8 @@ class SeenWorth {
 
     const Hemisphere& hemisphere_;
     std::size_t first_leaf_, leaves_;
-    std::vector<double> shares_; ///< by cell
-    std::vector<Known> known_;   ///< by patch and leaf
+    std::vector<double> shares_;      ///< by cell
+    std::vector<Known> known_, news_; ///< by patch and leaf
 };
 
 /// Rays of unequal power do not carry exactly the power to be shot. What is too much or too little

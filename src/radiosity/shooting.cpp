@@ -46,6 +46,14 @@ bool ShootingSolver::solve_once(std::uint64_t stream, StepResult& result) {
     if (stream != pilot_stream)
         strategy_->prepare(estimate(), ray_power());
     strategy_->begin_step(stream); // the pilot's is after all others
+    if (!shoot_all_bounces(stream, result))
+        return false;
+    strategy_->end_step();
+    return true;
+}
+
+/// False when interrupted.
+bool ShootingSolver::shoot_all_bounces(std::uint64_t stream, StepResult& result) {
     const auto patches = input_.mesh.patches();
     std::vector<Vec3> unshot(patches.size());
     Received received(patches.size());

@@ -62,6 +62,7 @@ class ShootingSolver final : public StepwiseSolver {
     bool solve_once(std::uint64_t stream, StepResult& result) override;
     void save_more(StateWriter& state) const override { strategy_->save(state); }
     void load_more(StateReader& state) override { strategy_->load(state); }
+    bool shoot_all_bounces(std::uint64_t stream, StepResult& result);
     /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
     std::uint64_t bounce(std::uint64_t stream, const std::vector<Vec3>& unshot, Received& received,
                          StepResult& result);

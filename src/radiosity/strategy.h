@@ -42,6 +42,8 @@ class Strategy {
     virtual void prepare(std::span<const Vec3> /*radiosity*/, double /*ray_power*/) {}
     /// What is dealt from now on belongs to this step, 0 being the first.
     virtual void begin_step(std::uint64_t) {}
+    /// Not of a step that was interrupted: what it has learned is to be forgotten.
+    virtual void end_step() {}
     /// How many times more rays than its power alone would give it a patch gets, each with as much
     /// less power; positive, and the same throughout a step. On average over all power about 1.
     [[nodiscard]] virtual double rays_for_power(std::uint32_t /*patch*/) const { return 1; }

@@ -152,9 +152,16 @@ TEST_CASE("What hits tell moves rays of both patches, after the step") {
     strategy.deal(5, shares);
     const std::uint16_t cell = shares[t].cell, arrival = shares[back].cell;
     const auto before = made.densities(5), before_there = made.densities(smallest);
+    StateWriter untaught, interrupted, taught;
+    strategy.save(untaught);
     strategy.learn(5, cell, std::vector<std::uint32_t>(3000, smallest),
                    std::vector<std::uint16_t>(3000, arrival));
     CHECK(made.densities(5) == before);
+    strategy.save(interrupted);
+    CHECK(interrupted.bytes() == untaught.bytes()); // until the step is finished
+    strategy.end_step();
+    strategy.save(taught);
+    CHECK(taught.bytes() != untaught.bytes());
     strategy.prepare(even_light(model), 1e-3);
     const auto after = made.densities(5), after_there = made.densities(smallest);
     CHECK(after[t] > 2 * before[t]);
