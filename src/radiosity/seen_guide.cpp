@@ -25,6 +25,11 @@ constexpr std::size_t rays_of_one_look = 32, rays_of_first_look = 16;
 /// Steps all of whose rays teach; then the rays of one in four do.
 constexpr std::uint64_t steps_of_learning = 8, later_lessons = 4;
 
+/// Radiosity that all patches are taken to have besides what is known of it, as a share of the
+/// mean: few rays have told the first step, and what none has struck is not black. More makes those
+/// in the dark seem to have sent more rays than they did.
+constexpr double unsure_share = .05;
+
 /// Kept within what floats hold, whatever the areas.
 constexpr double most_value = 1e12, most_rays_per_area = 1e18, most_density = 1e12;
 
@@ -55,7 +60,8 @@ class SeenGuide final : public Strategy {
             judge(radiosity);
         if (!keeps_learning_)
             known_.forget();
-        const double unsure = mean_radiosity(radiosity) / static_cast<double>(steps_ + 1);
+        const auto step = static_cast<double>(steps_ + 1);
+        const double unsure = unsure_share * mean_radiosity(radiosity) / (step * step);
         for (std::size_t i = 0; i < sides_.size(); ++i)
             sides_[i].rays_per_area = static_cast<float>(std::min(
                 (mean_of_channels(radiosity[i]) + unsure) / ray_power, most_rays_per_area));
