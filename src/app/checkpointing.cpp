@@ -20,6 +20,10 @@ std::string exact_text(double value) {
     return text;
 }
 
+std::string guide_name(Guide guide) {
+    return guide == Guide::density ? "density" : guide == Guide::visible ? "visible" : "learned";
+}
+
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 /// All but what decides when to stop, where to write and how many threads work. What changes the
@@ -31,6 +35,7 @@ Options options_of(const SolveSettings& settings) {
             {"--rays", exact_text(o.rays)},
             {"--depth", std::to_string(o.depth)},
             {"--threshold", exact_text(o.threshold)},
+            {"--guide", guide_name(o.guide)},
             {"--seed", std::to_string(o.seed)},
             {"--literal", yes_or_no(o.literal)},
             {"--keep-all", yes_or_no(o.keep_all)}};
@@ -68,8 +73,6 @@ void check_checkpoint_options(const SolveSettings& settings) {
         throw UsageError("--checkpoint and --resume: --method " +
                          std::string(settings.method->name) +
                          " does not keep its state; these do: " + resumable_methods());
-    if (settings.options.guide == Guide::learned)
-        throw UsageError("--checkpoint and --resume: what --guide learned has learned is not kept");
     if (!asked.resumed.empty() && settings.every_step &&
         !(settings.view.camera && settings.view.exposure))
         throw UsageError("--every-step after --resume needs --camera and --exposure, which the "

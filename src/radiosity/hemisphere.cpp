@@ -54,10 +54,25 @@ Hemisphere::Hemisphere(int depth) : depth_(depth) {
                             ca = midpoints.of(c, a);
         cell.midpoint = {ab, bc, ca};
         cell.first_child = static_cast<std::uint16_t>(cells_.size());
+        cuts_.push_back({glm::cross(vertices_[ab], vertices_[ca]),
+                         glm::cross(vertices_[bc], vertices_[ab]),
+                         glm::cross(vertices_[ca], vertices_[bc])});
         const auto level = static_cast<std::uint8_t>(cell.level + 1);
         for (const Corners child : {Corners{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
             cells_.push_back(make_cell(child, level, vertices_));
     }
+}
+
+std::uint16_t Hemisphere::leaf_at(const Vec3& direction) const {
+    const bool left = direction.x < 0;
+    std::size_t cell = direction.y >= 0 ? (left ? 1 : 0) : (left ? 2 : 3);
+    while (cell < cuts_.size()) {
+        const auto cuts = [&](std::size_t side) {
+            return glm::dot(cuts_[cell][side], direction) > 0;
+        };
+        cell = cells_[cell].first_child + (cuts(0) ? 0u : cuts(1) ? 1u : cuts(2) ? 2u : 3u);
+    }
+    return static_cast<std::uint16_t>(cell);
 }
 
 } // namespace hemilux

@@ -37,6 +37,9 @@ class Hemisphere {
     /// Unit vectors. Those of level 0 come first (the pole is vertex 0), then those that level 1
     /// adds, ...
     [[nodiscard]] const std::vector<Vec3>& vertices() const { return vertices_; }
+    /// The triangle of the last level that holds a direction, z >= 0; of several that meet there,
+    /// one.
+    [[nodiscard]] std::uint16_t leaf_at(const Vec3& direction) const;
     /// t = 4 (4^(n+1) - 1) / 3 triangles up to level n (paper section 6).
     [[nodiscard]] static std::size_t cells_up_to(int level) {
         return 4 * ((std::size_t{1} << (2 * (level + 1))) - 1) / 3;
@@ -46,6 +49,8 @@ class Hemisphere {
     int depth_;
     std::vector<Vec3> vertices_;
     std::vector<Cell> cells_;
+    /// Of each divided triangle, the planes that cut off its children 0, 1 and 2: normals to them.
+    std::vector<std::array<Vec3, 3>> cuts_;
 };
 
 } // namespace hemilux

@@ -43,7 +43,17 @@ ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strat
 }
 
 bool ShootingSolver::solve_once(std::uint64_t stream, StepResult& result) {
+    if (stream != pilot_stream)
+        strategy_->prepare(estimate(), ray_power());
     strategy_->begin_step(stream); // the pilot's is after all others
+    if (!shoot_all_bounces(stream, result))
+        return false;
+    strategy_->end_step();
+    return true;
+}
+
+/// False when interrupted.
+bool ShootingSolver::shoot_all_bounces(std::uint64_t stream, StepResult& result) {
     const auto patches = input_.mesh.patches();
     std::vector<Vec3> unshot(patches.size());
     Received received(patches.size());
@@ -106,6 +116,7 @@ void ShootingSolver::fire(const Piece& piece, std::uint64_t stream, const std::v
                           Volley& volley) const {
     volley.bursts.clear();
     volley.receivers.clear();
+    volley.arrivals.clear();
     if (input_.monitor.interrupted)
         return;
     std::vector<CellShare> shares;
@@ -126,7 +137,8 @@ void ShootingSolver::collect(const Volley& volley, const std::vector<Vec3>& unsh
         const Vec3 power = burst.ray_power * unshot[burst.patch]; // Phi_ray
         if (strategy_->learns())
             strategy_->learn(burst.patch, burst.cell,
-                             std::span(volley.receivers).subspan(ray, burst.rays));
+                             std::span(volley.receivers).subspan(ray, burst.rays),
+                             std::span(volley.arrivals).subspan(ray, burst.rays));
         std::uint32_t rays_escaped = 0, rays_absorbed = 0;
         for (std::uint32_t k = 0; k < burst.rays; ++k) {
             const std::uint32_t receiver = volley.receivers[ray++];
@@ -146,16 +158,19 @@ void ShootingSolver::collect(const Volley& volley, const std::vector<Vec3>& unsh
     result.rays += ray;
 }
 
-/// Rays in proportion to the power to be shot. Patch i owns the interval from rays_before_[i] to
-/// rays_before_[i+1] of a line on which a ray stands at each whole number: as the line's origin is
-/// random, each patch and each cell gets its expected number on average, rounded up or down.
+/// Rays in proportion to the power to be shot, times the strategy's factor. Patch i owns the
+/// interval from rays_before_[i] to rays_before_[i+1] of a line on which a ray stands at each whole
+/// number: as the line's origin is random, each patch and each cell gets its expected number on
+/// average, rounded up or down.
 void ShootingSolver::plan(std::uint64_t stream, const std::vector<Vec3>& unshot) {
     rays_before_.resize(unshot.size() + 1);
     rays_before_[0] = Rng(stream).uniform();
     for (std::size_t i = 0; i < unshot.size(); ++i) {
         const double power = mean_of_channels(unshot[i]);
         const double rays =
-            input_.options.literal ? (power > 0 ? input_.options.rays : 0) : power / ray_power();
+            input_.options.literal
+                ? (power > 0 ? input_.options.rays : 0)
+                : power / ray_power() * strategy_->rays_for_power(static_cast<std::uint32_t>(i));
         rays_before_[i + 1] = rays_before_[i] + rays;
     }
 }
@@ -254,6 +269,10 @@ Ray ShootingSolver::draw(const Patch& from, const Frame& frame, const Aim& aim, 
 
 void ShootingSolver::trace(Volley& volley) const {
     find_receivers(volley.waiting, input_.mesh, input_.tracer, volley.receivers);
+    if (strategy_->learns())
+        strategy_->find_arrivals(volley.waiting,
+                                 std::span(volley.receivers).last(volley.waiting.size()),
+                                 volley.arrivals);
     volley.waiting.clear();
 }
 

@@ -4,8 +4,9 @@
 // Each step is a complete, unbiased solution of all bounces (stepwise.h): power is shot from all
 // patches that hold some, what arrives is reflected and shot in turn, until nothing is left. Rays
 // are dealt in proportion to the power to be shot (docs/decisions.md, D10), so that each carries
-// about the same; numbers of rays are made whole by systematic sampling over all patches and cells
-// at once, which is unbiased and ends the series of bounces by itself.
+// about the same, unless the strategy gives some patches more and weaker ones; numbers of rays are
+// made whole by systematic sampling over all patches and cells at once, which is unbiased and ends
+// the series of bounces by itself.
 
 #include "geometry/frame.h"
 #include "geometry/polygon_sampler.h"
@@ -52,12 +53,16 @@ class ShootingSolver final : public StepwiseSolver {
     struct Volley {
         std::vector<Burst> bursts;
         std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
+        std::vector<std::uint16_t> arrivals;  ///< from which of its cells, if the strategy learns
         std::vector<Ray> waiting;             ///< rays that are not traced yet
     };
 
     using Received = std::vector<CompensatedSum<Vec3>>; ///< power by patch
 
     bool solve_once(std::uint64_t stream, StepResult& result) override;
+    void save_more(StateWriter& state) const override { strategy_->save(state); }
+    void load_more(StateReader& state) override { strategy_->load(state); }
+    bool shoot_all_bounces(std::uint64_t stream, StepResult& result);
     /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
     std::uint64_t bounce(std::uint64_t stream, const std::vector<Vec3>& unshot, Received& received,
                          StepResult& result);

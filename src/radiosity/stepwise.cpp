@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace hemilux {
 
@@ -84,6 +85,7 @@ bool StepwiseSolver::find_ray_power() {
         return false;
     }
     solution_.rays_energy += pilot.rays;
+    pilot_ = std::move(pilot.radiosity);
     ray_power_ = pilot.shot / rays;
     return true;
 }
@@ -108,8 +110,12 @@ void StepwiseSolver::check_bounces(std::uint64_t bounces) const {
                      face_of(input_.mesh, brightest));
 }
 
-/// What a single ray of all steps so far would add to the patch's radiosity.
+/// What a single ray of all steps so far has added to the patch's radiosity, on average; where none
+/// has struck it, what one of mean power would add.
 Vec3 StepwiseSolver::one_ray(std::uint32_t patch) const {
+    if (equal_rays_ && solution_.hits[patch] > 0)
+        return (solution_.radiosity[patch] - input_.mesh.material(patch).emission) /
+               static_cast<double>(solution_.hits[patch]);
     const double area = input_.mesh.patches()[patch].area;
     const double emitted_power = mean_of_channels(solution_.energy.emitted);
     if (!equal_rays_ || !(emitted_power > 0) || !(area > 0))
@@ -170,6 +176,7 @@ void StepwiseSolver::save(StateWriter& state) const {
     state.add(std::span<const Vec3>(solution_.standard_error));
     state.add(std::span<const Vec3>(squares_));
     state.add(std::span<const std::uint64_t>(solution_.hits));
+    save_more(state);
 }
 
 void StepwiseSolver::load(StateReader& state) {
@@ -191,6 +198,7 @@ void StepwiseSolver::load(StateReader& state) {
     state.get(std::span(solution_.standard_error));
     state.get(std::span(squares_));
     state.get(std::span(solution_.hits));
+    load_more(state);
 }
 
 } // namespace hemilux

@@ -7,6 +7,7 @@
 #include "radiosity/solver.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -39,7 +40,16 @@ class StepwiseSolver : public Solver {
     /// False when interrupted.
     virtual bool solve_once(std::uint64_t stream, StepResult& result) = 0;
 
-    /// Power that each ray is to carry, mean of channels; infinite without equal rays.
+    /// What the next steps depend on besides, see Solver.
+    virtual void save_more(StateWriter&) const {}
+    virtual void load_more(StateReader&) {}
+
+    /// Of the radiosity, before a step: by the steps so far, or by the pilot.
+    [[nodiscard]] std::span<const Vec3> estimate() const {
+        return solution_.steps > 0 || pilot_.empty() ? solution_.radiosity : pilot_;
+    }
+
+    /// Power that each ray is to carry on average, mean of channels; infinite without equal rays.
     [[nodiscard]] double ray_power() const { return ray_power_; }
     /// From 1; the pilot belongs to the first.
     [[nodiscard]] std::uint64_t step_under_way() const { return solution_.steps + 1; }
@@ -65,6 +75,7 @@ class StepwiseSolver : public Solver {
 
     bool equal_rays_;
     double ray_power_ = 0;      ///< 0 until the pilot has found it
+    std::vector<Vec3> pilot_;   ///< its radiosity; empty where there was none
     std::vector<Vec3> squares_; ///< sum of squared deviations of the steps (Welford 1962)
     CompensatedSum<Vec3> absorbed_, escaped_, sent_; ///< of all steps
 };

@@ -37,8 +37,16 @@ struct PrivateCell {
 class Strategy {
   public:
     virtual ~Strategy() = default;
+    /// Before a step other than the pilot: estimates of the radiosity, by patch, in local units,
+    /// and the power of a ray, mean of channels.
+    virtual void prepare(std::span<const Vec3> /*radiosity*/, double /*ray_power*/) {}
     /// What is dealt from now on belongs to this step, 0 being the first.
     virtual void begin_step(std::uint64_t) {}
+    /// Not of a step that was interrupted: what it has learned is to be forgotten.
+    virtual void end_step() {}
+    /// How many times more rays than its power alone would give it a patch gets, each with as much
+    /// less power; positive, and the same throughout a step. On average over all power about 1.
+    [[nodiscard]] virtual double rays_for_power(std::uint32_t /*patch*/) const { return 1; }
     /// The cells of a patch, always in the same order. Callable from several threads.
     virtual void deal(std::uint32_t patch, std::vector<CellShare>& shares) const = 0;
     /// What a cell that was dealt is, where it is not of the table.
@@ -47,11 +55,21 @@ class Strategy {
         return std::nullopt;
     }
 
-    /// Whether it wants to be told what its rays struck.
+    /// Whether it wants to be told in this step what its rays struck.
     [[nodiscard]] virtual bool learns() const { return false; }
+    /// From which cells of their receivers rays come, ray by ray: what `learn` is to be told of it.
+    /// Callable from several threads.
+    virtual void find_arrivals(std::span<const Ray> /*rays*/,
+                               std::span<const std::uint32_t> /*receivers*/,
+                               std::vector<std::uint16_t>& /*added to*/) const {}
     /// Where the rays of a cell arrived, see receivers.h; in a fixed order.
     virtual void learn(std::uint32_t /*patch*/, std::uint16_t /*cell*/,
-                       std::span<const std::uint32_t> /*receivers*/) {}
+                       std::span<const std::uint32_t> /*receivers*/,
+                       std::span<const std::uint16_t> /*arrivals*/) {}
+
+    /// As Solver's: what was learned.
+    virtual void save(StateWriter&) const {}
+    virtual void load(StateReader&) {}
 
     [[nodiscard]] virtual std::uint64_t density_rays() const { return 0; }
     /// Those that would have been shot if all triangles were divided.

@@ -64,8 +64,9 @@ TEST_CASE("a resumed run ends with the bytes of one that was not interrupted") {
     const Workplace place;
     place.write_room();
     const std::string method =
-        GENERATE("gathering", "hemisphere", "hemisphere --literal", "hemisphere-1997",
-                 "monte-carlo", "progressive-monte-carlo", "stratified");
+        GENERATE("gathering", "hemisphere", "hemisphere --literal", "hemisphere --guide visible",
+                 "hemisphere --guide learned", "hemisphere-1997", "monte-carlo",
+                 "progressive-monte-carlo", "stratified");
     CAPTURE(method);
     const std::string run = "solve room.obj --rays 20 --method " + method;
     REQUIRE(place.hemilux(run + " --steps 6 -o whole.csv --steps-log whole_steps.csv").code == 0);
@@ -138,7 +139,8 @@ TEST_CASE("checkpoints of other runs are refused") {
     REQUIRE(place.hemilux(run_of_8 + "a.csv --checkpoint saved").code == 0);
     const std::string same =
         "solve room.obj --rays 20 --max-edge .3 --steps 8 --resume saved --method";
-    for (const char* option : {"--seed 2", "--depth 1", "--threshold 3", "--literal", "--keep-all"})
+    for (const char* option :
+         {"--seed 2", "--depth 1", "--threshold 3", "--literal", "--keep-all", "--guide learned"})
         check_refused(place, same + " hemisphere " + option,
                       "is a checkpoint of another run: expected " +
                           std::string(option).substr(0, std::string(option).find(' ')));

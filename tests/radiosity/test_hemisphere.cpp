@@ -2,12 +2,14 @@
 // levels 0 to 2 is sampled by the cosine.
 
 #include "radiosity/hemisphere.h"
+#include "radiosity/rng.h"
 #include "support/directions.h"
 #include "support/statistics.h"
 
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
@@ -173,5 +175,23 @@ TEST_CASE("directions uniform in solid angle fail in every triangle of levels 0 
             }
         };
         CHECK(chi_square(30000, histogram.expected, draw).p_value < 1e-6);
+    }
+}
+
+TEST_CASE("The leaf at a direction holds it") {
+    Rng rng(77);
+    for (const int depth : {0, 1, 3, 5}) {
+        const Hemisphere hemisphere(depth);
+        bool all_held = true;
+        for (int k = 0; k < 5000; ++k) {
+            const double z = rng.uniform(), phi = 2 * pi * rng.uniform();
+            const double r = std::sqrt(1 - z * z);
+            const Vec3 direction(r * std::cos(phi), r * std::sin(phi), z);
+            const auto& cell = hemisphere.cells()[hemisphere.leaf_at(direction)];
+            all_held = all_held && cell.level == depth && cell.shape.contains(direction);
+        }
+        CHECK(all_held);
+        for (const Vec3& vertex : hemisphere.vertices())
+            CHECK(hemisphere.cells()[hemisphere.leaf_at(vertex)].shape.contains(vertex));
     }
 }

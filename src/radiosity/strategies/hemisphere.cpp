@@ -11,7 +11,9 @@
 // the solid angle, as printed: the light is then distributed wrongly, however many rays are shot.
 //
 // Good where small objects crowd in few directions; little use where a wall hides a crowd, to
-// which it sends rays in vain. Costs at most 41 rays and bytes per patch at depth 2.
+// which it sends rays in vain. Costs at most 41 rays and bytes per patch at depth 2. With --guide
+// visible or learned rays follow what is seen instead, which the wall does not mislead
+// (seen_guide.h).
 
 #include "radiosity/density.h"
 #include "radiosity/mesh.h"
