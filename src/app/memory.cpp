@@ -19,6 +19,8 @@ constexpr double bytes_of_program = 12e6;
 constexpr double growth = 2;
 /// Per triangle: boxes while the tree is built, and a leaf's share.
 constexpr double bytes_per_triangle = 150;
+/// Of a guide by what is seen: its byte, and the worth and number of the hits that it learns from.
+constexpr double bytes_per_leaf = 18;
 /// Of a stepwise method: solution, spread, one step.
 constexpr double bytes_per_solution = 225;
 /// Of a matrix of form factors: index, value, and the counts that they come from, with room to
@@ -56,12 +58,18 @@ double pieces(double length, double max_edge) {
     return std::max(1.0, std::ceil(length / max_edge));
 }
 
+std::size_t leaves(int depth) {
+    return Hemisphere::cells_up_to(depth) - (depth > 0 ? Hemisphere::cells_up_to(depth - 1) : 0);
+}
+
 /// The methods that keep all pairs keep no more of them than rays were shot.
 double bytes_of(const Method& method, const SolveOptions& options, double patches) {
     double bytes = bytes_per_solution * patches;
-    if (method.work.densities)
+    if (method.work.densities && options.guide == Guide::density)
         bytes +=
             growth * patches * static_cast<double>(Hemisphere(options.depth).vertices().size());
+    else if (method.work.densities)
+        bytes += bytes_per_leaf * patches * static_cast<double>(leaves(options.depth));
     if (method.work.pairs && method.work.linear_systems)
         bytes += replicates * bytes_per_factor * patches * std::min(patches, options.rays);
     else if (method.work.pairs)

@@ -59,7 +59,7 @@ TEST_CASE("White furnace: every patch within 4 standard errors of E / (1 - rho)"
             }
 }
 
-TEST_CASE("The printed rules fail the furnace clearly") {
+TEST_CASE("The printed rules fail the furnace clearly", "[slow]") {
     const Model model(test::furnace_l_shape(.8));
     SolveOptions options = with_seed(11, 64);
     options.literal = true;
@@ -101,7 +101,7 @@ TEST_CASE("A closed room keeps its energy, and colours do not mix") {
     }
 }
 
-TEST_CASE("The lit cube's face means") {
+TEST_CASE("The lit cube's face means", "[slow]") {
     // The exact solution of the 96 equations, from the closed form of rectangles that face each
     // other.
     const Model model(test::cube_with_lit_floor(4, .5));
@@ -118,7 +118,7 @@ TEST_CASE("The lit cube's face means") {
     }
 }
 
-TEST_CASE("A spherical cavity with an opening") {
+TEST_CASE("A spherical cavity with an opening", "[slow]") {
     // B = E / (1 - rho (1 + cos phi) / 2); the polyhedron of triangles is not quite a sphere.
     constexpr double rho = .5;
     const auto cavity = [](int level) {
