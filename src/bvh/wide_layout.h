@@ -47,8 +47,8 @@ inline constexpr unsigned stack_size = (width - 1) * max_depth + 1;
 /// Subtrees with which a single ray may begin.
 inline constexpr unsigned most_errands = 24;
 
-/// A ray as the kernels see it: |component of direction| <= 1 and the largest at least 1/2. It fills
-/// a line of the cache.
+/// A ray as the kernels see it: |component of direction| <= 1 and the largest at least 1/2. It
+/// fills a line of the cache.
 struct alignas(64) FloatRay {
     float origin[3], direction[3];
     float inverse[3];            ///< of the direction, never infinite

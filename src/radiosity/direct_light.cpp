@@ -31,13 +31,6 @@ double power_of(const Mesh& mesh, std::uint32_t patch) {
     return mesh.patches()[patch].area * mean_of_channels(mesh.material(patch).emission);
 }
 
-double radius_of(const Patch& patch) {
-    double squares = 0;
-    for (const Vec3& corner : patch.shape.corner)
-        squares = std::max(squares, glm::dot(corner - patch.centre, corner - patch.centre));
-    return std::sqrt(squares);
-}
-
 } // namespace
 
 std::vector<std::uint32_t> small_emitters(const Mesh& mesh) {

@@ -16,13 +16,6 @@ namespace {
 /// That a patch weighs.
 constexpr std::size_t most_clusters = 128;
 
-double radius_of(const Patch& patch) {
-    double squares = 0;
-    for (const Vec3& corner : patch.shape.corner)
-        squares = std::max(squares, glm::dot(corner - patch.centre, corner - patch.centre));
-    return std::sqrt(squares);
-}
-
 /// The place of u among running sums.
 std::size_t place_of(double u, std::span<const double> sums) {
     const auto drawn = std::ranges::upper_bound(sums, u);

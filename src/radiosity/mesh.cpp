@@ -62,6 +62,13 @@ void divide_fan(const Vec3& a, const Vec3& ab, const Vec3& ac, std::uint32_t n, 
 
 } // namespace
 
+double radius_of(const Patch& patch) {
+    double squares = 0;
+    for (const Vec3& corner : patch.shape.corner)
+        squares = std::max(squares, glm::dot(corner - patch.centre, corner - patch.centre));
+    return std::sqrt(squares);
+}
+
 LocalFrame LocalFrame::of(const Scene& scene) {
     Box bounds;
     for (const Facet& facet : scene.facets)

@@ -37,6 +37,9 @@ struct Patch {
     bool back; ///< the reverse of a two-sided facet
 };
 
+/// How far corners are from the centre, at most.
+[[nodiscard]] double radius_of(const Patch& patch);
+
 /// The frame of computation: world = centre + local / scale. The scale is a power of two, so that
 /// nothing is lost by it, and the scene lies within [-1,1]^3.
 struct LocalFrame {

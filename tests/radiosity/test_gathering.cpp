@@ -323,10 +323,6 @@ class Interrupting final : public Tracer {
     mutable std::atomic<int> left_;
 };
 
-bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    return std::ranges::equal(a, b, [](const Vec3& x, const Vec3& y) { return x == y; });
-}
-
 } // namespace
 
 TEST_CASE("A step of gathering that was interrupted is taken up where it was left") {
@@ -356,8 +352,9 @@ TEST_CASE("A step of gathering that was interrupted is taken up where it was lef
         for (Solver* solver : {stopped.get(), resumed.get()}) {
             while (solver->solution().steps < 3)
                 REQUIRE(solver->step());
-            CHECK(same_bits(solver->solution().radiosity, whole->solution().radiosity));
-            CHECK(same_bits(solver->solution().standard_error, whole->solution().standard_error));
+            CHECK(test::same_bits(solver->solution().radiosity, whole->solution().radiosity));
+            CHECK(test::same_bits(solver->solution().standard_error,
+                                  whole->solution().standard_error));
             CHECK(solver->solution().rays_energy == whole->solution().rays_energy);
         }
     }

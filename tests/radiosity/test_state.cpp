@@ -6,17 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <cstring>
-
 using namespace hemilux;
-
-namespace {
-
-bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
-
-} // namespace
 
 TEST_CASE("a solver that loads a state goes on as the one that saved it", "[state]") {
     const test::Model model(test::open_scene());
@@ -47,8 +37,8 @@ TEST_CASE("a solver that loads a state goes on as the one that saved it", "[stat
             for (int step = 0; step < 2; ++step)
                 REQUIRE(solver->step());
         const Solution &a = first->solution(), &b = second->solution();
-        CHECK(same_bits(a.radiosity, b.radiosity));
-        CHECK(same_bits(a.standard_error, b.standard_error));
+        CHECK(test::same_bits(a.radiosity, b.radiosity));
+        CHECK(test::same_bits(a.standard_error, b.standard_error));
         CHECK(a.hits == b.hits);
         CHECK(a.steps == b.steps);
         CHECK(a.rays_energy == b.rays_energy);

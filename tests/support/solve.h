@@ -5,7 +5,9 @@
 #include "radiosity/mesh.h"
 #include "radiosity/solver.h"
 
+#include <cstring>
 #include <utility>
+#include <vector>
 
 namespace hemilux::test {
 
@@ -36,6 +38,10 @@ struct Model {
     options.seed = 12345;
     return solve(model, *find_method("matrix"), options,
                  {.steps = {}, .seconds = {}, .error = error});
+}
+
+[[nodiscard]] inline bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
 }
 
 } // namespace hemilux::test
