@@ -20,10 +20,6 @@ std::string exact_text(double value) {
     return text;
 }
 
-std::string guide_name(Guide guide) {
-    return guide == Guide::density ? "density" : guide == Guide::visible ? "visible" : "learned";
-}
-
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 /// All but what decides when to stop, where to write and how many threads work. What changes the
@@ -35,7 +31,7 @@ Options options_of(const SolveSettings& settings) {
             {"--rays", exact_text(o.rays)},
             {"--depth", std::to_string(o.depth)},
             {"--threshold", exact_text(o.threshold)},
-            {"--guide", guide_name(o.guide)},
+            {"--guide", guide_names[static_cast<std::size_t>(o.guide)]},
             {"--seed", std::to_string(o.seed)},
             {"--literal", yes_or_no(o.literal)},
             {"--keep-all", yes_or_no(o.keep_all)}};

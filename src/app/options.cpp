@@ -107,12 +107,12 @@ void add_method_options(CLI::App& app, SolveOptions& options) {
     app.add_option_function<std::string>(
            "--guide",
            [&options](const std::string& name) {
-               const auto names = std::to_array<std::string>({"density", "visible", "learned"});
-               const auto found = std::ranges::find(names, name);
-               if (found == names.end())
-                   throw UsageError("--guide: " +
-                                    unknown_name("guide", name, {names.begin(), names.end()}));
-               options.guide = static_cast<Guide>(found - names.begin());
+               const auto found = std::ranges::find(guide_names, name);
+               if (found == guide_names.end()) {
+                   const std::vector<std::string> names(guide_names.begin(), guide_names.end());
+                   throw UsageError("--guide: " + unknown_name("guide", name, names));
+               }
+               options.guide = static_cast<Guide>(found - guide_names.begin());
            },
            "what guides hemisphere: density, visible or learned [density]")
         ->type_name("NAME")

@@ -8,6 +8,7 @@
 #include "radiosity/mesh.h"
 #include "radiosity/solver.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -22,6 +23,9 @@ struct SceneSettings {
     MeshOptions mesh;
     std::optional<std::uint64_t> memory; ///< bytes that a run may need
 };
+
+/// As --guide names them, in the order of Guide.
+inline constexpr std::array<const char*, 3> guide_names = {"density", "visible", "learned"};
 
 /// How much is said on stderr.
 enum class Talk { quiet, normal, verbose };
