@@ -119,9 +119,11 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, EmitterChoice::
     const PolygonSampler origins(receiver.shape);
     const double radius = radius_of(receiver);
     for (std::uint32_t s = 0; s < seeds_.size(); ++s) {
-        const std::uint64_t seed = hash_words({seeds_[s], patch});
+        SobolBlocks<5> points(hash_words({seeds_[s], patch}));
         for (std::uint32_t k = begin; k < end; ++k) {
-            const auto u = sobol5(k, seed);
+            if (k == begin || k % samples_per_block == 0)
+                points.move_to(k);
+            const std::array<double, 5> u = points.point(k);
             const auto [e, chance] = choice_.choose(cut, u[4]);
             if (emitters_[e] == patch)
                 continue;

@@ -9,6 +9,7 @@
 #include "radiosity/state.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 
 namespace hemilux {
@@ -18,6 +19,20 @@ constexpr std::size_t rows_per_chunk = 16;
 
 /// A row with more of them is traced in parts.
 constexpr std::uint32_t rays_in_burst = 1u << 14;
+
+/// Some of a block's rays. Of the four dimensions the first two are the best distributed.
+void draw(const Patch& from, const PolygonSampler& origins, const Frame& frame,
+          const SobolBlocks<4>& points, std::size_t first, std::size_t count,
+          std::vector<Ray>& rays) {
+    std::array<double, samples_per_block> x, y, z;
+    sampling_kernels().cosine(samples_per_block, points.coordinate(0), points.coordinate(1),
+                              x.data(), y.data(), z.data());
+    for (std::size_t k = first; k < first + count; ++k) {
+        const Vec2 u(points.coordinate(2)[k], points.coordinate(3)[k]);
+        rays.push_back({origins.sample(u), frame.to_world({x[k], y[k], z[k]})});
+        rays.back().from = from.facet;
+    }
+}
 
 } // namespace
 
@@ -54,16 +69,16 @@ void RayCounts::draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley)
     const Patch& from = mesh_.patches()[patch];
     const PolygonSampler origins(from.shape);
     const Frame frame = mesh_.hemisphere_frame(patch);
-    const std::uint64_t seed = hash_words({seed_, patch});
+    SobolBlocks<4> points(hash_words({seed_, patch}));
     while (rows_[patch].rays < end) {
         const std::uint32_t first = rows_[patch].rays;
         const std::uint32_t last = first + std::min(end - first, rays_in_burst);
-        for (std::uint32_t k = first; k < last; ++k) {
-            // Of the four dimensions the first two are the best distributed.
-            const auto u = sobol4(k, seed);
-            Ray ray{origins.sample({u[2], u[3]}), frame.to_world(cosine_direction({u[0], u[1]}))};
-            ray.from = from.facet;
-            volley.rays.push_back(ray);
+        for (std::uint32_t k = first; k < last;) {
+            const std::size_t in_block = k % samples_per_block;
+            const auto count = std::min<std::size_t>(samples_per_block - in_block, last - k);
+            points.move_to(k);
+            draw(from, origins, frame, points, in_block, count, volley.rays);
+            k += static_cast<std::uint32_t>(count);
         }
         volley.bursts.push_back({patch, last - first});
         rows_[patch].rays = last;

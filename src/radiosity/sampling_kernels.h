@@ -1,0 +1,44 @@
+#pragma once
+// The arithmetic of drawing samples, sixteen or more at once: plain loops that the compiler turns
+// into vector instructions, compiled once per instruction set (kernels/). All sets give the same
+// bits, as every operation is rounded by itself. Plain data only: this header may define no
+// function that the linker could merge.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace hemilux {
+
+enum class InstructionSet; // geometry/instruction_set.h
+
+inline constexpr std::size_t samples_per_block = 16;
+inline constexpr std::size_t most_dimensions = 5;
+
+/// Sixteen consecutive points of a scrambled sequence, an aligned block; all words with their bits
+/// reversed.
+struct SobolBlockStart {
+    std::uint32_t seeds[most_dimensions];
+    std::uint32_t first[most_dimensions]; ///< of the block's first point, not scrambled
+};
+
+/// The xor of any point of a block to the first one.
+struct alignas(64) SobolSteps {
+    std::uint32_t step[most_dimensions][samples_per_block];
+};
+
+struct SamplingKernels {
+    /// Points in (0,1)^n, n being `dimensions`: coordinate d of point k at out[16 d + k].
+    void (*sobol)(const SobolBlockStart&, const SobolSteps&, std::size_t dimensions, double* out);
+    /// Directions with density cos(theta) / pi, for u and v in [0,1]: the concentric map of square
+    /// and disc (Shirley and Chiu 1997), which keeps the distances between points better than polar
+    /// coordinates, lifted to the hemisphere.
+    void (*cosine)(std::size_t count, const double* u, const double* v, double* x, double* y,
+                   double* z);
+};
+
+/// Of an instruction set that is available.
+[[nodiscard]] const SamplingKernels& sampling_kernels(InstructionSet set);
+/// Of the chosen one.
+[[nodiscard]] const SamplingKernels& sampling_kernels();
+
+} // namespace hemilux

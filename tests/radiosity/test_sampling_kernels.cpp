@@ -1,0 +1,101 @@
+// Every instruction set draws the same samples to the last bit, and they are what they should be.
+
+#include "geometry/instruction_set.h"
+#include "geometry/vector.h"
+#include "radiosity/rng.h"
+#include "radiosity/sampling_kernels.h"
+#include "radiosity/sobol.h"
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+using namespace hemilux;
+
+namespace {
+
+/// Numbers in [0,1], the ends and the middle among them.
+std::vector<double> some_numbers(std::size_t count, std::uint64_t seed) {
+    Rng rng(seed);
+    std::vector<double> numbers(count);
+    for (double& x : numbers)
+        x = rng.uniform();
+    numbers[0] = numbers[1] = .5;
+    numbers[2] = 0;
+    numbers[3] = 1;
+    return numbers;
+}
+
+struct Directions {
+    std::vector<double> x, y, z;
+};
+Directions directions(const SamplingKernels& kernels, const std::vector<double>& u,
+                      const std::vector<double>& v) {
+    Directions d{u, u, u};
+    kernels.cosine(u.size(), u.data(), v.data(), d.x.data(), d.y.data(), d.z.data());
+    return d;
+}
+
+} // namespace
+
+TEST_CASE("every instruction set gives the same directions") {
+    const auto u = some_numbers(1003, 1), v = some_numbers(1003, 2);
+    const Directions expected = directions(sampling_kernels(InstructionSet::baseline), u, v);
+    for (const InstructionSet set : available_instruction_sets()) {
+        const Directions d = directions(sampling_kernels(set), u, v);
+        CHECK(d.x == expected.x);
+        CHECK(d.y == expected.y);
+        CHECK(d.z == expected.z);
+    }
+}
+
+TEST_CASE("directions are those of the concentric map, to the last bits") {
+    const auto u = some_numbers(100'000, 3), v = some_numbers(100'000, 4);
+    const Directions d = directions(sampling_kernels(), u, v);
+    double worst = 0, longest = 0;
+    for (std::size_t k = 0; k < u.size(); ++k) {
+        const double a = 2 * u[k] - 1, b = 2 * v[k] - 1, eighth = std::numbers::pi / 4;
+        const bool wide = std::abs(a) > std::abs(b);
+        const double r = wide ? a : b;
+        const double phi = r == 0 ? 0 : wide ? eighth * (b / a) : 2 * eighth - eighth * (a / b);
+        worst = std::max(
+            {worst, std::abs(d.x[k] - r * std::cos(phi)), std::abs(d.y[k] - r * std::sin(phi))});
+        longest = std::max(longest, std::abs(glm::length(Vec3(d.x[k], d.y[k], d.z[k])) - 1));
+    }
+    CHECK(worst < 5e-16); // half of it is the rounding of phi here
+    CHECK(longest < 4e-16);
+}
+
+TEST_CASE("every instruction set gives the same points") {
+    Rng rng(5);
+    SobolBlockStart start{};
+    SobolSteps steps{};
+    for (std::size_t d = 0; d < most_dimensions; ++d) {
+        start.seeds[d] = static_cast<std::uint32_t>(rng.bits());
+        start.first[d] = static_cast<std::uint32_t>(rng.bits());
+        for (std::uint32_t& step : steps.step[d])
+            step = static_cast<std::uint32_t>(rng.bits());
+    }
+    using Points = std::array<double, samples_per_block * most_dimensions>;
+    Points expected{};
+    sampling_kernels(InstructionSet::baseline)
+        .sobol(start, steps, most_dimensions, expected.data());
+    for (const InstructionSet set : available_instruction_sets()) {
+        Points points{};
+        sampling_kernels(set).sobol(start, steps, most_dimensions, points.data());
+        CHECK(points == expected);
+    }
+}
+
+TEST_CASE("a block holds the points of its sequence") {
+    SobolBlocks<5> blocks(77);
+    for (const std::uint32_t index : {0u, 15u, 16u, 1000u, 0xffffffffu}) {
+        blocks.move_to(index);
+        const auto expected = sobol4(index, 77);
+        for (std::size_t d = 0; d < 4; ++d)
+            CHECK(blocks.point(index)[d] == expected[d]);
+    }
+}
