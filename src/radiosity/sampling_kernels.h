@@ -26,6 +26,16 @@ struct alignas(64) SobolSteps {
     std::uint32_t step[most_dimensions][samples_per_block];
 };
 
+/// Patches that emit, by their places; local units.
+struct EmitterArrays {
+    const double *centre[3], *normal[3], *corner[4][3];
+    const double *area, *side; ///< side: the root of the area
+    const double* light;       ///< emission, mean of channels
+};
+struct EmitterReceiver {
+    double centre[3], normal[3], corner[4][3], side, radius;
+};
+
 struct SamplingKernels {
     /// Points in (0,1)^n, n being `dimensions`: coordinate d of point k at out[16 d + k].
     void (*sobol)(const SobolBlockStart&, const SobolSteps&, std::size_t dimensions, double* out);
@@ -34,6 +44,13 @@ struct SamplingKernels {
     /// coordinates, lifted to the hemisphere.
     void (*cosine)(std::size_t count, const double* u, const double* v, double* x, double* y,
                    double* z);
+    /// The root of the mean square of what a shadow ray to each emitter may bring, about; 0 where
+    /// it surely brings nothing.
+    void (*weigh_emitters)(const EmitterArrays&, std::size_t count, const EmitterReceiver&,
+                           double* weights);
+    /// places[k]: the last place with sums[place] <= at[k], or 0. `size` is a power of two.
+    void (*find_places)(const double* sums, std::size_t size, std::size_t count, const double* at,
+                        std::uint64_t* places);
 };
 
 /// Of an instruction set that is available.

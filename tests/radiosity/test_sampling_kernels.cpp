@@ -8,8 +8,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -97,5 +99,26 @@ TEST_CASE("a block holds the points of its sequence") {
         const auto expected = sobol4(index, 77);
         for (std::size_t d = 0; d < 4; ++d)
             CHECK(blocks.point(index)[d] == expected[d]);
+    }
+}
+
+TEST_CASE("every instruction set finds the same places") {
+    std::vector<double> sums{0};
+    Rng rng(6);
+    for (int k = 0; k < 50; ++k) // some of no width
+        sums.push_back(sums.back() + std::max(rng.uniform() - .3, 0.0));
+    const double end = std::nextafter(sums.back(), 0.0);
+    sums.resize(64, std::numeric_limits<double>::infinity());
+    std::vector<double> at = some_numbers(1003, 7);
+    for (double& each : at)
+        each = std::min(each * sums[50], end);
+    for (const InstructionSet set : available_instruction_sets()) {
+        std::vector<std::uint64_t> places(at.size());
+        sampling_kernels(set).find_places(sums.data(), sums.size(), at.size(), at.data(),
+                                          places.data());
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            CHECK(sums[places[k]] <= at[k]);
+            CHECK(at[k] < sums[places[k] + 1]);
+        }
     }
 }
