@@ -15,6 +15,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace hemilux {
 namespace {
@@ -45,7 +46,8 @@ class SeenGuide final : public Strategy {
               bool learn)
         : mesh_(input.mesh), needs_(input.needs), hemisphere_(hemisphere), workers_(workers),
           first_leaf_(Hemisphere::cells_up_to(hemisphere.depth() - 1)), keeps_learning_(learn),
-          known_(hemisphere, input.mesh.patches().size()) {
+          known_(hemisphere, input.mesh.patches().size()), leaves_(known_.leaves()) {
+        std::iota(leaves_.begin(), leaves_.end(), static_cast<std::uint16_t>(first_leaf_));
         const std::size_t patches = mesh_.patches().size();
         worth_.assign(patches * known_.leaves(), log_byte::from(1));
         density_.fill(1);
@@ -86,14 +88,13 @@ class SeenGuide final : public Strategy {
         return rays_for_power_[patch];
     }
 
-    void deal(std::uint32_t patch, std::vector<CellShare>& shares) const override {
+    Dealing deal(std::uint32_t patch, DealtCells& memory) const override {
         const double scale = 1 / rays_for_power_[patch];
-        shares.resize(known_.leaves());
-        for (std::size_t t = 0; t < shares.size(); ++t) {
-            const double power = known_.share(t);
-            shares[t] = {static_cast<std::uint16_t>(first_leaf_ + t), power,
-                         power * scale * density(patch, t)};
-        }
+        memory.rays_up_to.resize(known_.leaves());
+        double sum = 0;
+        for (std::size_t t = 0; t < known_.leaves(); ++t)
+            memory.rays_up_to[t] = sum += known_.share(t) * scale * density(patch, t);
+        return {leaves_, memory.rays_up_to};
     }
 
     [[nodiscard]] bool learns() const override { return learns_; }
@@ -174,6 +175,7 @@ class SeenGuide final : public Strategy {
     bool keeps_learning_, learns_ = false;
     bool prepared_ = false; ///< not before the pilot
     SeenWorth known_;
+    std::vector<std::uint16_t> leaves_; ///< cells of the last level
     double lessons_ = 0;      ///< steps whose rays are in known_, the look being a part of one
     std::uint64_t steps_ = 0; ///< from 1; 0 before the pilot
     std::uint64_t rays_ = 0;

@@ -1,35 +1,67 @@
 #pragma once
-// A strategy deals a patch's rays and power to the cells of its hemisphere. That is all in which
+// A strategy deals a patch's rays to the cells of its hemisphere. That is all in which
 // the stepwise shooting methods differ: the loops of Compute Radiosity (paper section 5b) are the
 // same.
 
 #include "geometry/polygon.h"
 #include "geometry/spherical_triangle.h"
+#include "radiosity/hemisphere.h"
 #include "radiosity/solver.h"
 
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace hemilux {
 
-/// What one cell gets, as shares of the patch's whole: power [-] and expected rays [-], each
-/// summing to 1 over the cells of a patch. With power = projected solid angle / pi every strategy
-/// is unbiased, however the rays are dealt, as long as each cell with power has a positive share of
-/// them.
-struct CellShare {
-    std::uint16_t cell; ///< of Hemisphere::cells(), or whole_hemisphere, or private
-    double power;       ///< A_tr / A_hemi in the paper; unused in a private cell
-    double rays;        ///< N_tr / N_hemi in the paper
+inline constexpr std::uint16_t whole_hemisphere = 0xffff;
+
+/// The cells of a patch in their order, each of Hemisphere::cells(), or whole_hemisphere, or
+/// private; and N_tr / N_hemi of the paper as running sums: cell k owns the patch's rays from
+/// rays_up_to[k - 1], or 0, to rays_up_to[k]. The last is 1 but for rounding, or with the rules as
+/// printed.
+///
+/// Every strategy is unbiased, however the rays are dealt, as long as each cell with power has a
+/// positive share of them: for a ray carries the power of its cell, divided among the cell's rays.
+struct Dealing {
+    std::span<const std::uint16_t> cells;
+    std::span<const double> rays_up_to;
+
+    [[nodiscard]] double rays(std::size_t k) const {
+        return k > 0 ? rays_up_to[k] - rays_up_to[k - 1] : rays_up_to[0];
+    }
 };
 
-inline constexpr std::uint16_t whole_hemisphere = 0xffff;
+/// Memory of a dealing.
+struct DealtCells {
+    std::vector<std::uint16_t> cells;
+    std::vector<double> rays_up_to;
+
+    void clear() { cells.clear(), rays_up_to.clear(); }
+    void add(std::uint16_t cell, double rays) {
+        cells.push_back(cell);
+        rays_up_to.push_back((rays_up_to.empty() ? 0 : rays_up_to.back()) + rays);
+    }
+    [[nodiscard]] Dealing view() const { return {cells, rays_up_to}; }
+};
+
+/// A_tr / A_hemi of the paper: the share of a diffuse patch's power that a cell of the table gets,
+/// A being the projected solid angle; with the rules as printed the solid angle.
+[[nodiscard]] inline double power_share(const Hemisphere& hemisphere, std::uint16_t cell,
+                                        bool literal) {
+    if (cell == whole_hemisphere)
+        return 1;
+    const Hemisphere::Cell& its = hemisphere.cells()[cell];
+    return literal ? its.solid_angle / (2 * std::numbers::pi)
+                   : its.projected_solid_angle / std::numbers::pi;
+}
 
 /// A cell that is not of the table which all patches share; made only when rays are shot into it.
 struct PrivateCell {
-    double power; ///< as CellShare's
+    double power; ///< its share of the patch's
     SphericalTriangle shape;
     Polygon origins; ///< the part of the patch where its rays start
 };
@@ -47,8 +79,9 @@ class Strategy {
     /// How many times more rays than its power alone would give it a patch gets, each with as much
     /// less power; positive, and the same throughout a step. On average over all power about 1.
     [[nodiscard]] virtual double rays_for_power(std::uint32_t /*patch*/) const { return 1; }
-    /// The cells of a patch, always in the same order. Callable from several threads.
-    virtual void deal(std::uint32_t patch, std::vector<CellShare>& shares) const = 0;
+    /// The cells of a patch, always in the same order: a view of what is kept or of what is put
+    /// into `memory`, until either changes. Callable from several threads.
+    [[nodiscard]] virtual Dealing deal(std::uint32_t patch, DealtCells& memory) const = 0;
     /// What a cell that was dealt is, where it is not of the table.
     [[nodiscard]] virtual std::optional<PrivateCell> private_cell(std::uint32_t /*patch*/,
                                                                   std::uint16_t /*cell*/) const {
