@@ -15,7 +15,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
 namespace hemilux {
 namespace {
@@ -46,8 +45,7 @@ class SeenGuide final : public Strategy {
               bool learn)
         : mesh_(input.mesh), needs_(input.needs), hemisphere_(hemisphere), workers_(workers),
           first_leaf_(Hemisphere::cells_up_to(hemisphere.depth() - 1)), keeps_learning_(learn),
-          known_(hemisphere, input.mesh.patches().size()), leaves_(known_.leaves()) {
-        std::iota(leaves_.begin(), leaves_.end(), static_cast<std::uint16_t>(first_leaf_));
+          known_(hemisphere, input.mesh.patches().size()) {
         const std::size_t patches = mesh_.patches().size();
         worth_.assign(patches * known_.leaves(), log_byte::from(1));
         density_.fill(1);
@@ -90,11 +88,11 @@ class SeenGuide final : public Strategy {
 
     Dealing deal(std::uint32_t patch, DealtCells& memory) const override {
         const double scale = 1 / rays_for_power_[patch];
-        memory.rays_up_to.resize(known_.leaves());
-        double sum = 0;
+        memory.clear();
         for (std::size_t t = 0; t < known_.leaves(); ++t)
-            memory.rays_up_to[t] = sum += known_.share(t) * scale * density(patch, t);
-        return {leaves_, memory.rays_up_to};
+            memory.add(static_cast<std::uint16_t>(first_leaf_ + t),
+                       known_.share(t) * scale * density(patch, t));
+        return memory.view();
     }
 
     [[nodiscard]] bool learns() const override { return learns_; }
@@ -175,7 +173,6 @@ class SeenGuide final : public Strategy {
     bool keeps_learning_, learns_ = false;
     bool prepared_ = false; ///< not before the pilot
     SeenWorth known_;
-    std::vector<std::uint16_t> leaves_; ///< cells of the last level
     double lessons_ = 0;      ///< steps whose rays are in known_, the look being a part of one
     std::uint64_t steps_ = 0; ///< from 1; 0 before the pilot
     std::uint64_t rays_ = 0;

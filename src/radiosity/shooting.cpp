@@ -6,6 +6,7 @@
 #include "radiosity/solve_error.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -27,40 +28,51 @@ constexpr double literal_rest = 1e-4;
 /// std::floor for numbers of rays; compilers call a function for that.
 double whole_below(double rays) { return static_cast<double>(static_cast<std::int64_t>(rays)); }
 
-/// A line on which a patch's cells own intervals one after the other.
+/// A line on which a patch's cells own intervals one after the other, and a ray stands at each
+/// whole number.
 class LineOfCells {
   public:
     LineOfCells(const Dealing& dealing, double before, double after)
-        : up_to_(dealing.rays_up_to), before_(before), after_(after) {}
+        : dealing_(dealing), before_(before), after_(after),
+          rays_((after - before) / dealing.rays_up_to.back()) {}
 
-    [[nodiscard]] double begin(std::size_t cell) const {
-        return cell > 0 ? end(cell - 1) : before_;
-    }
-    [[nodiscard]] double end(std::size_t cell) const {
-        return cell + 1 == up_to_.size()
-                   ? after_
-                   : before_ + (after_ - before_) * std::min(up_to_[cell], 1.0);
-    }
-    /// The first whose end is not before a place on the line; rounding may be off by a cell.
-    [[nodiscard]] std::size_t cell_at(double place) const {
-        const double share = (place - before_) / (after_ - before_);
-        const double* low = up_to_.data();
-        for (std::size_t n = up_to_.size(); n > 1;) {
-            const std::size_t half = n / 2;
-            low = low[half - 1] < share ? low + half : low;
-            n -= half;
+    /// Calls found(cell, expected, low, high) for each cell with rays: expected, which is N_tr, and
+    /// those from low + 1 to high. Most have none when the light is nearly spent.
+    template <class Found>
+    void for_each_cell(const Found& found) const {
+        constexpr std::size_t block = 16;
+        std::array<std::size_t, block> cell;
+        std::array<double, block> high;
+        double low = whole_below(before_);
+        for (std::size_t begin = 0, cells = dealing_.cells.size(); begin < cells; begin += block) {
+            const std::size_t end = std::min(begin + block, cells);
+            if (end_of(end - 1) < low + 1)
+                continue;
+            std::size_t count = 0;
+            double before = low;
+            for (std::size_t k = begin; k < end; ++k) { // a branch would be guessed wrong
+                const double after = whole_below(end_of(k));
+                cell[count] = k;
+                high[count] = after;
+                count += after > before;
+                before = after;
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                found(dealing_.cells[cell[i]], rays_ * dealing_.rays(cell[i]), low, high[i]);
+                low = high[i];
+            }
         }
-        auto cell = static_cast<std::size_t>(low - up_to_.data());
-        while (cell > 0 && end(cell - 1) >= place)
-            --cell;
-        while (end(cell) < place)
-            ++cell;
-        return cell;
     }
 
   private:
-    std::span<const double> up_to_;
+    [[nodiscard]] double end_of(std::size_t cell) const {
+        return cell + 1 == dealing_.cells.size() ? after_
+                                                 : before_ + rays_ * dealing_.rays_up_to[cell];
+    }
+
+    const Dealing& dealing_;
     double before_, after_;
+    double rays_; ///< for one unit of the running sums
 };
 
 } // namespace
@@ -157,11 +169,11 @@ void ShootingSolver::fire(const Piece& piece, std::uint64_t stream, const std::v
         return;
     thread_local DealtCells memory;
     for (std::uint32_t i = piece.first; i < piece.last; ++i) {
-        if (!(mean_of_channels(unshot[i]) > 0))
-            continue;
-        if (input_.options.literal)
+        const double first = std::max(whole_below(rays_before_[i]), piece.from);
+        const double last = std::min(whole_below(rays_before_[i + 1]), piece.to);
+        if (input_.options.literal && mean_of_channels(unshot[i]) > 0)
             order_as_printed(i, strategy_->deal(i, memory), volley.bursts);
-        else
+        else if (!input_.options.literal && last > first)
             order(i, piece, strategy_->deal(i, memory), volley.bursts);
     }
     trace(hash_words({stream, static_cast<std::uint64_t>(piece.from)}), volley);
@@ -239,21 +251,16 @@ double ShootingSolver::cut() {
     return size;
 }
 
-/// From ray to ray: most cells have none when the light is nearly spent.
 void ShootingSolver::order(std::uint32_t patch, const Piece& piece, const Dealing& dealing,
                            std::vector<Burst>& bursts) const {
-    const double before = rays_before_[patch], after = rays_before_[patch + 1];
-    const LineOfCells line(dealing, before, after);
-    const double last = std::min(whole_below(after), piece.to);
-    for (double shot = std::max(whole_below(before), piece.from); shot < last;) {
-        const std::size_t k = line.cell_at(shot + 1);
-        const double high = whole_below(line.end(k)), here = std::min(high, last) - shot;
-        const double expected = (after - before) * dealing.rays(k); // N_tr
+    const LineOfCells line(dealing, rays_before_[patch], rays_before_[patch + 1]);
+    line.for_each_cell([&](std::uint16_t cell, double expected, double low, double high) {
+        const double here = std::min(high, piece.to) - std::max(low, piece.from);
         // Below one ray per cell, the ray that is shot carries the power of those that are not.
-        const double sharing = expected >= 1 ? high - whole_below(line.begin(k)) : expected;
-        bursts.push_back({patch, dealing.cells[k], static_cast<std::uint32_t>(here), 1 / sharing});
-        shot += here;
-    }
+        const double sharing = expected >= 1 ? high - low : expected;
+        if (here > 0)
+            bursts.push_back({patch, cell, static_cast<std::uint32_t>(here), 1 / sharing});
+    });
 }
 
 void ShootingSolver::order_as_printed(std::uint32_t patch, const Dealing& dealing,

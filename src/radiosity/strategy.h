@@ -9,7 +9,10 @@
 #include "radiosity/hemisphere.h"
 #include "radiosity/solver.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,32 +21,41 @@
 namespace hemilux {
 
 /// The cells of a patch in their order, each of Hemisphere::cells(), or whole_hemisphere, or
-/// private; and N_tr / N_hemi of the paper as running sums: cell k owns the patch's rays from
-/// rays_up_to[k - 1], or 0, to rays_up_to[k]. The last is 1 but for rounding, or with the rules as
-/// printed.
+/// private; and N_tr / N_hemi of the paper as running sums: of the patch's rays cell k owns those
+/// from rays_up_to[k - 1], or 0, to rays_up_to[k], the last being all. With the rules as printed
+/// that need not be 1.
 ///
 /// Every strategy is unbiased, however the rays are dealt, as long as each cell with power has a
 /// positive share of them: for a ray carries the power of its cell, divided among the cell's rays.
+/// So floats do; many patches deal anew in each bounce, and what is kept for that is to be small.
 struct Dealing {
     std::span<const std::uint16_t> cells;
-    std::span<const double> rays_up_to;
+    std::span<const float> rays_up_to;
 
     [[nodiscard]] double rays(std::size_t k) const {
-        return k > 0 ? rays_up_to[k] - rays_up_to[k - 1] : rays_up_to[0];
+        return k > 0 ? double(rays_up_to[k]) - double(rays_up_to[k - 1]) : double(rays_up_to[0]);
     }
 };
 
 /// Memory of a dealing.
 struct DealtCells {
     std::vector<std::uint16_t> cells;
-    std::vector<double> rays_up_to;
+    std::vector<float> rays_up_to;
 
-    void clear() { cells.clear(), rays_up_to.clear(); }
+    void clear() { cells.clear(), rays_up_to.clear(), sum_ = 0; }
+    /// Rounding leaves no cell without rays.
     void add(std::uint16_t cell, double rays) {
+        const float before = rays_up_to.empty() ? 0 : rays_up_to.back();
+        const float after = static_cast<float>(sum_ += rays);
         cells.push_back(cell);
-        rays_up_to.push_back((rays_up_to.empty() ? 0 : rays_up_to.back()) + rays);
+        rays_up_to.push_back(rays > 0 && !(after > before) ? std::nextafter(before, most)
+                                                           : std::max(before, after));
     }
     [[nodiscard]] Dealing view() const { return {cells, rays_up_to}; }
+
+  private:
+    static constexpr float most = std::numeric_limits<float>::max();
+    double sum_ = 0;
 };
 
 /// A cell that is not of the table which all patches share; made only when rays are shot into it.

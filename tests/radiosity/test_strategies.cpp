@@ -100,6 +100,18 @@ TEST_CASE("Shares of power and rays sum to 1, and follow Lambert's law") {
     }
 }
 
+TEST_CASE("Running sums in floats leave no cell without rays, and give none where none are due") {
+    DealtCells memory;
+    memory.add(0, 1 - 1e-9);
+    for (std::uint16_t cell = 1; cell < 1000; ++cell)
+        memory.add(cell, cell % 2 == 0 ? 0 : 1e-12);
+    const Dealing dealing = memory.view();
+    CHECK(dealing.rays(0) == Approx(1).epsilon(1e-7));
+    for (std::size_t k = 1; k < 1000; ++k)
+        CHECK((dealing.rays(k) > 0) == (k % 2 != 0));
+    CHECK(dealing.rays_up_to.back() < 1 + 1e-4F);
+}
+
 TEST_CASE("The printed rule breaks Lambert's law by what was measured elsewhere") {
     // A triangle of level 2 gets .51 to 3.80 times its due.
     double lowest = 10, highest = 0, sum = 0;

@@ -14,7 +14,7 @@ class Cosine final : public Strategy {
   public:
     Dealing deal(std::uint32_t, DealtCells&) const override {
         static constexpr std::uint16_t cell = whole_hemisphere;
-        static constexpr double all_rays = 1;
+        static constexpr float all_rays = 1;
         return {{&cell, 1}, {&all_rays, 1}};
     }
 };
