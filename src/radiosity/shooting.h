@@ -64,6 +64,7 @@ class ShootingSolver final : public StepwiseSolver {
     Workers workers_;
     Hemisphere hemisphere_;
     CellDirections directions_;
+    PatchStarts starts_;
     std::unique_ptr<Strategy> strategy_;
     /// Expected rays of the patches before patch i, counted from the bounce's random offset.
     std::vector<double> rays_before_;
