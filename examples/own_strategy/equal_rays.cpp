@@ -12,8 +12,6 @@
 
 #include "radiosity/shooting.h"
 
-#include <numbers>
-
 namespace hemilux {
 namespace {
 
@@ -24,13 +22,12 @@ class EqualRays final : public Strategy {
         const std::size_t first = Hemisphere::cells_up_to(hemisphere.depth() - 1);
         const double rays = 1.0 / static_cast<double>(cells.size() - first);
         for (std::size_t c = first; c < cells.size(); ++c)
-            shares_.push_back({static_cast<std::uint16_t>(c),
-                               cells[c].projected_solid_angle / std::numbers::pi, rays});
+            dealt_.add(static_cast<std::uint16_t>(c), rays);
     }
-    void deal(std::uint32_t, std::vector<CellShare>& shares) const override { shares = shares_; }
+    Dealing deal(std::uint32_t, DealtCells&) const override { return dealt_.view(); }
 
   private:
-    std::vector<CellShare> shares_;
+    DealtCells dealt_;
 };
 
 std::unique_ptr<Strategy> make_equal_rays(const SolverInput&, const Hemisphere& hemisphere,

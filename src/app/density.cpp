@@ -77,15 +77,15 @@ std::vector<Vec3> energy_rays(const Preprocessed& made, std::uint32_t patch) {
     const SolverInput input{made.mesh, made.tracer, options, made.monitor};
     const auto strategy =
         find_method("hemisphere")->strategy(input, made.hemisphere, Workers(options.threads));
-    std::vector<CellShare> shares;
-    strategy->deal(patch, shares);
+    DealtCells memory;
+    const Dealing dealing = strategy->deal(patch, memory);
     Rng rng(hash_words({options.seed, patch}));
     std::vector<Vec3> rays;
     double due = rng.uniform(); // whole numbers of rays by systematic rounding
-    for (const CellShare& share : shares) {
-        due += share.rays * made.settings.rays;
+    for (std::size_t k = 0; k < dealing.cells.size(); ++k) {
+        due += dealing.rays(k) * made.settings.rays;
         for (; due >= 1; due -= 1)
-            rays.push_back(made.hemisphere.cells()[share.cell].shape.sample_rejection(
+            rays.push_back(made.hemisphere.cells()[dealing.cells[k]].shape.sample_rejection(
                 [&] { return rng.uniform(); }));
     }
     return rays;

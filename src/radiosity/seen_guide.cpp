@@ -86,14 +86,13 @@ class SeenGuide final : public Strategy {
         return rays_for_power_[patch];
     }
 
-    void deal(std::uint32_t patch, std::vector<CellShare>& shares) const override {
+    Dealing deal(std::uint32_t patch, DealtCells& memory) const override {
         const double scale = 1 / rays_for_power_[patch];
-        shares.resize(known_.leaves());
-        for (std::size_t t = 0; t < shares.size(); ++t) {
-            const double power = known_.share(t);
-            shares[t] = {static_cast<std::uint16_t>(first_leaf_ + t), power,
-                         power * scale * density(patch, t)};
-        }
+        memory.clear();
+        for (std::size_t t = 0; t < known_.leaves(); ++t)
+            memory.add(static_cast<std::uint16_t>(first_leaf_ + t),
+                       known_.share(t) * scale * density(patch, t));
+        return memory.view();
     }
 
     [[nodiscard]] bool learns() const override { return learns_; }

@@ -6,6 +6,7 @@
 #include "radiosity/solve_error.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -27,11 +28,58 @@ constexpr double literal_rest = 1e-4;
 /// std::floor for numbers of rays; compilers call a function for that.
 double whole_below(double rays) { return static_cast<double>(static_cast<std::int64_t>(rays)); }
 
+/// A line on which a patch's cells own intervals one after the other, and a ray stands at each
+/// whole number.
+class LineOfCells {
+  public:
+    LineOfCells(const Dealing& dealing, double before, double after)
+        : dealing_(dealing), before_(before), after_(after),
+          rays_((after - before) / dealing.rays_up_to.back()) {}
+
+    /// Calls found(cell, expected, low, high) for each cell with rays: expected, which is N_tr, and
+    /// those from low + 1 to high. Most have none when the light is nearly spent.
+    template <class Found>
+    void for_each_cell(const Found& found) const {
+        constexpr std::size_t block = 16;
+        std::array<std::size_t, block> cell;
+        std::array<double, block> high;
+        double low = whole_below(before_);
+        for (std::size_t begin = 0, cells = dealing_.cells.size(); begin < cells; begin += block) {
+            const std::size_t end = std::min(begin + block, cells);
+            if (end_of(end - 1) < low + 1)
+                continue;
+            std::size_t count = 0;
+            double before = low;
+            for (std::size_t k = begin; k < end; ++k) { // a branch would be guessed wrong
+                const double after = whole_below(end_of(k));
+                cell[count] = k;
+                high[count] = after;
+                count += after > before;
+                before = after;
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                found(dealing_.cells[cell[i]], rays_ * dealing_.rays(cell[i]), low, high[i]);
+                low = high[i];
+            }
+        }
+    }
+
+  private:
+    [[nodiscard]] double end_of(std::size_t cell) const {
+        return cell + 1 == dealing_.cells.size() ? after_
+                                                 : before_ + rays_ * dealing_.rays_up_to[cell];
+    }
+
+    const Dealing& dealing_;
+    double before_, after_;
+    double rays_; ///< for one unit of the running sums
+};
+
 } // namespace
 
 ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strategy)
     : StepwiseSolver(input, !input.options.literal), workers_(input.options.threads),
-      hemisphere_(input.options.depth) {
+      hemisphere_(input.options.depth), directions_(hemisphere_, input.options.literal) {
     const auto start = std::chrono::steady_clock::now();
     input_.monitor.phase = "density";
     strategy_ = make_strategy(input_, hemisphere_, workers_);
@@ -119,13 +167,16 @@ void ShootingSolver::fire(const Piece& piece, std::uint64_t stream, const std::v
     volley.arrivals.clear();
     if (input_.monitor.interrupted)
         return;
-    std::vector<CellShare> shares;
-    volley.waiting.reserve(rays_at_a_time);
-    for (std::uint32_t i = piece.first; i < piece.last; ++i)
-        if (mean_of_channels(unshot[i]) > 0)
-            shoot(i, piece, stream, shares, volley);
-    trace(volley);
-    volley.waiting = {};
+    thread_local DealtCells memory;
+    for (std::uint32_t i = piece.first; i < piece.last; ++i) {
+        const double first = std::max(whole_below(rays_before_[i]), piece.from);
+        const double last = std::min(whole_below(rays_before_[i + 1]), piece.to);
+        if (input_.options.literal && mean_of_channels(unshot[i]) > 0)
+            order_as_printed(i, strategy_->deal(i, memory), volley.bursts);
+        else if (!input_.options.literal && last > first)
+            order(i, piece, strategy_->deal(i, memory), volley.bursts);
+    }
+    trace(hash_words({stream, static_cast<std::uint64_t>(piece.from)}), volley);
     input_.monitor.rays += volley.receivers.size();
 }
 
@@ -200,80 +251,39 @@ double ShootingSolver::cut() {
     return size;
 }
 
-void ShootingSolver::shoot(std::uint32_t patch, const Piece& piece, std::uint64_t stream,
-                           std::vector<CellShare>& shares, Volley& volley) const {
-    const double before = rays_before_[patch], after = rays_before_[patch + 1];
-    const bool literal = input_.options.literal;
-    double low = whole_below(before);
-    if (!literal && !(std::min(whole_below(after), piece.to) > std::max(low, piece.from)))
-        return;
-    strategy_->deal(patch, shares);
-    Rng rng(hash_words({stream, patch, static_cast<std::uint64_t>(piece.from)}));
-    const Patch& from = input_.mesh.patches()[patch];
-    const Frame frame = input_.mesh.hemisphere_frame(patch);
-    const PolygonSampler whole(from.shape);
-    double dealt = 0; // share of the patch's rays that the cells so far own
-    for (const CellShare& share : shares) {
-        dealt += share.rays;
-        const bool last = &share == &shares.back();
-        const double end = last ? after : before + (after - before) * std::min(dealt, 1.0);
-        if (!literal && end < low + 1) // most cells, when the light is nearly spent
-            continue;
-        const double expected = (after - before) * share.rays; // N_tr
-        const double high = whole_below(end);
-        const double n = literal ? std::round(expected) : high - low;
-        const double here = literal ? n : std::min(high, piece.to) - std::max(low, piece.from);
-        low = high;
-        if (!(here > 0))
-            continue;
+void ShootingSolver::order(std::uint32_t patch, const Piece& piece, const Dealing& dealing,
+                           std::vector<Burst>& bursts) const {
+    const LineOfCells line(dealing, rays_before_[patch], rays_before_[patch + 1]);
+    line.for_each_cell([&](std::uint16_t cell, double expected, double low, double high) {
+        const double here = std::min(high, piece.to) - std::max(low, piece.from);
         // Below one ray per cell, the ray that is shot carries the power of those that are not.
-        const double sharing = literal || expected >= 1 ? n : expected;
-        const auto own = strategy_->private_cell(patch, share.cell);
-        const double ray_power = (own ? own->power : share.power) / sharing;
-        const auto part = own ? std::optional<PolygonSampler>(own->origins) : std::nullopt;
-        const Aim target = aim(patch, share.cell, own, part ? *part : whole);
-        volley.bursts.push_back({patch, share.cell, static_cast<std::uint32_t>(here), ray_power});
-        for (double k = 0; k < here; ++k) {
-            volley.waiting.push_back(draw(from, frame, target, rng));
-            if (volley.waiting.size() < rays_at_a_time)
-                continue;
-            if (input_.monitor.interrupted) // one lamp may shoot many millions
-                return;
-            trace(volley);
-        }
+        const double sharing = expected >= 1 ? high - low : expected;
+        if (here > 0)
+            bursts.push_back({patch, cell, static_cast<std::uint32_t>(here), 1 / sharing});
+    });
+}
+
+void ShootingSolver::order_as_printed(std::uint32_t patch, const Dealing& dealing,
+                                      std::vector<Burst>& bursts) const {
+    for (std::size_t k = 0; k < dealing.cells.size(); ++k) {
+        const double rays = std::round(input_.options.rays * dealing.rays(k)); // N_tr
+        if (rays > 0)
+            bursts.push_back({patch, dealing.cells[k], static_cast<std::uint32_t>(rays), 1 / rays});
     }
 }
 
-/// As printed, rays into triangles leave from the centre; those of plain Monte Carlo do not.
-ShootingSolver::Aim ShootingSolver::aim(std::uint32_t patch, std::uint16_t cell,
-                                        const std::optional<PrivateCell>& own,
-                                        const PolygonSampler& origins) const {
-    const Patch& from = input_.mesh.patches()[patch];
-    if (!own && cell == whole_hemisphere)
-        return {&origins, {}, nullptr};
-    const SphericalTriangle& triangle = own ? own->shape : hemisphere_.cells()[cell].shape;
-    if (!input_.options.literal)
-        return {&origins, {}, &triangle};
-    return {nullptr, own ? own->origins.centre() : from.centre, &triangle};
-}
-
-Ray ShootingSolver::draw(const Patch& from, const Frame& frame, const Aim& aim, Rng& rng) {
-    Ray ray{};
-    ray.from = from.facet;
-    ray.origin = aim.origins ? sample_uniform(*aim.origins, rng) : aim.centre;
-    ray.direction =
-        frame.to_world(aim.triangle ? aim.triangle->sample_rejection([&] { return rng.uniform(); })
-                                    : sample_cosine(rng));
-    return ray;
-}
-
-void ShootingSolver::trace(Volley& volley) const {
-    find_receivers(volley.waiting, input_.mesh, input_.tracer, volley.receivers);
-    if (strategy_->learns())
-        strategy_->find_arrivals(volley.waiting,
-                                 std::span(volley.receivers).last(volley.waiting.size()),
-                                 volley.arrivals);
-    volley.waiting.clear();
+void ShootingSolver::trace(std::uint64_t seed, Volley& volley) const {
+    thread_local std::vector<Ray> memory;
+    const RaySource source{input_.mesh, directions_, *strategy_, input_.options.literal};
+    BurstRays drawn(source, volley.bursts, seed, memory);
+    for (auto rays = drawn.next(); !rays.empty(); rays = drawn.next()) {
+        if (input_.monitor.interrupted) // one lamp may shoot many millions
+            return;
+        find_receivers(rays, input_.mesh, input_.tracer, volley.receivers);
+        if (strategy_->learns())
+            strategy_->find_arrivals(rays, std::span(volley.receivers).last(rays.size()),
+                                     volley.arrivals);
+    }
 }
 
 } // namespace hemilux

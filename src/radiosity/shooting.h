@@ -8,41 +8,23 @@
 // made whole by systematic sampling over all patches and cells at once, which is unbiased and ends
 // the series of bounces by itself.
 
-#include "geometry/frame.h"
-#include "geometry/polygon_sampler.h"
+#include "radiosity/burst_rays.h"
 #include "radiosity/hemisphere.h"
-#include "radiosity/rng.h"
 #include "radiosity/stepwise.h"
 #include "radiosity/strategy.h"
 #include "radiosity/workers.h"
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace hemilux {
-
-struct Patch;
 
 class ShootingSolver final : public StepwiseSolver {
   public:
     ShootingSolver(const SolverInput& input, MakeStrategy make_strategy);
 
   private:
-    /// Rays of one cell: N_tr of them, each carrying ray_power of the patch's power.
-    struct Burst {
-        std::uint32_t patch;
-        std::uint16_t cell;
-        std::uint32_t rays;
-        double ray_power; ///< Phi_ray / Phi_patch
-    };
-    /// Where the rays of a burst start and where they go.
-    struct Aim {
-        const PolygonSampler* origins; ///< nullptr: all from the centre
-        Vec3 centre;
-        const SphericalTriangle* triangle; ///< nullptr: the whole hemisphere
-    };
     /// What one thread shoots at a time: of the rays on the line (plan) those in (from, to], which
     /// are of patches from `first` to before `last`.
     struct Piece {
@@ -54,7 +36,6 @@ class ShootingSolver final : public StepwiseSolver {
         std::vector<Burst> bursts;
         std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
         std::vector<std::uint16_t> arrivals;  ///< from which of its cells, if the strategy learns
-        std::vector<Ray> waiting;             ///< rays that are not traced yet
     };
 
     using Received = std::vector<CompensatedSum<Vec3>>; ///< power by patch
@@ -70,19 +51,19 @@ class ShootingSolver final : public StepwiseSolver {
     [[nodiscard]] double cut();
     void fire(const Piece& piece, std::uint64_t stream, const std::vector<Vec3>& unshot,
               Volley& volley) const;
-    void shoot(std::uint32_t patch, const Piece& piece, std::uint64_t stream,
-               std::vector<CellShare>& shares, Volley& volley) const;
-    [[nodiscard]] Aim aim(std::uint32_t patch, std::uint16_t cell,
-                          const std::optional<PrivateCell>& own,
-                          const PolygonSampler& origins) const;
-    [[nodiscard]] static Ray draw(const Patch& from, const Frame& frame, const Aim& aim, Rng& rng);
-    void trace(Volley& volley) const;
+    // What is to be drawn of a patch is added to `bursts`.
+    void order(std::uint32_t patch, const Piece& piece, const Dealing& dealing,
+               std::vector<Burst>& bursts) const;
+    void order_as_printed(std::uint32_t patch, const Dealing& dealing,
+                          std::vector<Burst>& bursts) const;
+    void trace(std::uint64_t seed, Volley& volley) const;
 
     void collect(const Volley& volley, const std::vector<Vec3>& unshot, Received& received,
                  StepResult& result);
 
     Workers workers_;
     Hemisphere hemisphere_;
+    CellDirections directions_;
     std::unique_ptr<Strategy> strategy_;
     /// Expected rays of the patches before patch i, counted from the bounce's random offset.
     std::vector<double> rays_before_;

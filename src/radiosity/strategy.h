@@ -1,13 +1,18 @@
 #pragma once
-// A strategy deals a patch's rays and power to the cells of its hemisphere. That is all in which
+// A strategy deals a patch's rays to the cells of its hemisphere. That is all in which
 // the stepwise shooting methods differ: the loops of Compute Radiosity (paper section 5b) are the
 // same.
 
 #include "geometry/polygon.h"
 #include "geometry/spherical_triangle.h"
+#include "radiosity/cell_directions.h"
+#include "radiosity/hemisphere.h"
 #include "radiosity/solver.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,21 +20,47 @@
 
 namespace hemilux {
 
-/// What one cell gets, as shares of the patch's whole: power [-] and expected rays [-], each
-/// summing to 1 over the cells of a patch. With power = projected solid angle / pi every strategy
-/// is unbiased, however the rays are dealt, as long as each cell with power has a positive share of
-/// them.
-struct CellShare {
-    std::uint16_t cell; ///< of Hemisphere::cells(), or whole_hemisphere, or private
-    double power;       ///< A_tr / A_hemi in the paper; unused in a private cell
-    double rays;        ///< N_tr / N_hemi in the paper
+/// The cells of a patch in their order, each of Hemisphere::cells(), or whole_hemisphere, or
+/// private; and N_tr / N_hemi of the paper as running sums: of the patch's rays cell k owns those
+/// from rays_up_to[k - 1], or 0, to rays_up_to[k], the last being all. With the rules as printed
+/// that need not be 1.
+///
+/// Every strategy is unbiased, however the rays are dealt, as long as each cell with power has a
+/// positive share of them: for a ray carries the power of its cell, divided among the cell's rays.
+/// So floats do; many patches deal anew in each bounce, and what is kept for that is to be small.
+struct Dealing {
+    std::span<const std::uint16_t> cells;
+    std::span<const float> rays_up_to;
+
+    [[nodiscard]] double rays(std::size_t k) const {
+        return k > 0 ? double(rays_up_to[k]) - double(rays_up_to[k - 1]) : double(rays_up_to[0]);
+    }
 };
 
-inline constexpr std::uint16_t whole_hemisphere = 0xffff;
+/// Memory of a dealing.
+struct DealtCells {
+    std::vector<std::uint16_t> cells;
+    std::vector<float> rays_up_to;
+
+    void clear() { cells.clear(), rays_up_to.clear(), sum_ = 0; }
+    /// Rounding leaves no cell without rays.
+    void add(std::uint16_t cell, double rays) {
+        const float before = rays_up_to.empty() ? 0 : rays_up_to.back();
+        const float after = static_cast<float>(sum_ += rays);
+        cells.push_back(cell);
+        rays_up_to.push_back(rays > 0 && !(after > before) ? std::nextafter(before, most)
+                                                           : std::max(before, after));
+    }
+    [[nodiscard]] Dealing view() const { return {cells, rays_up_to}; }
+
+  private:
+    static constexpr float most = std::numeric_limits<float>::max();
+    double sum_ = 0;
+};
 
 /// A cell that is not of the table which all patches share; made only when rays are shot into it.
 struct PrivateCell {
-    double power; ///< as CellShare's
+    double power; ///< its share of the patch's
     SphericalTriangle shape;
     Polygon origins; ///< the part of the patch where its rays start
 };
@@ -47,8 +78,9 @@ class Strategy {
     /// How many times more rays than its power alone would give it a patch gets, each with as much
     /// less power; positive, and the same throughout a step. On average over all power about 1.
     [[nodiscard]] virtual double rays_for_power(std::uint32_t /*patch*/) const { return 1; }
-    /// The cells of a patch, always in the same order. Callable from several threads.
-    virtual void deal(std::uint32_t patch, std::vector<CellShare>& shares) const = 0;
+    /// The cells of a patch, always in the same order: a view of what is kept or of what is put
+    /// into `memory`, until either changes. Callable from several threads.
+    [[nodiscard]] virtual Dealing deal(std::uint32_t patch, DealtCells& memory) const = 0;
     /// What a cell that was dealt is, where it is not of the table.
     [[nodiscard]] virtual std::optional<PrivateCell> private_cell(std::uint32_t /*patch*/,
                                                                   std::uint16_t /*cell*/) const {

@@ -45,11 +45,11 @@ struct Dealer {
         const SolverInput input{model.mesh, model.bvh, options, monitor};
         strategy = find_method("hemisphere-1997")->strategy(input, hemisphere, Workers(1));
     }
-    [[nodiscard]] std::vector<CellShare> deal(std::uint64_t step) const {
+    /// What is dealt is the same for all patches, and kept until the next step.
+    [[nodiscard]] Dealing deal(std::uint64_t step) const {
         strategy->begin_step(step);
-        std::vector<CellShare> shares;
-        strategy->deal(0, shares);
-        return shares;
+        DealtCells memory;
+        return strategy->deal(0, memory);
     }
 };
 
@@ -108,13 +108,13 @@ TEST_CASE("The four triangles fill their parent") {
 TEST_CASE("Each step has four times as many triangles, until plain refinement follows") {
     const Model model(test::room_with_block());
     const Dealer dealer(model);
-    CHECK(dealer.deal(0).size() == 4 * 16);
-    CHECK(dealer.deal(1).size() == 4 * 64);
-    CHECK(dealer.deal(2).size() == 4 * 256);
+    CHECK(dealer.deal(0).cells.size() == 4 * 16);
+    CHECK(dealer.deal(1).cells.size() == 4 * 64);
+    CHECK(dealer.deal(2).cells.size() == 4 * 256);
     for (const std::uint64_t step : {3u, 4u, 100u}) {
-        const auto shares = dealer.deal(step);
-        REQUIRE(shares.size() == 1);
-        CHECK(shares[0].cell == whole_hemisphere);
+        const Dealing dealing = dealer.deal(step);
+        REQUIRE(dealing.cells.size() == 1);
+        CHECK(dealing.cells[0] == whole_hemisphere);
     }
     // Counted: 41 directions for each sub-patch, a float vector and a byte each.
     CHECK(dealer.strategy->density_rays() == 4 * 41 * model.mesh.patches().size());
@@ -188,11 +188,11 @@ TEST_CASE("Triangles are small where surfaces are many") {
 TEST_CASE("As printed, power goes by solid angle and every triangle gets a ray") {
     const Model model(test::room_with_block());
     const Dealer dealer(model, true);
-    const auto shares = dealer.deal(2);
+    const Dealing dealing = dealer.deal(2);
     double power = 0;
-    for (const CellShare& share : shares) {
-        CHECK(share.rays * dealer.options.rays == Approx(1));
-        const auto own = dealer.strategy->private_cell(3, share.cell);
+    for (std::size_t k = 0; k < dealing.cells.size(); ++k) {
+        CHECK(dealing.rays(k) * dealer.options.rays == Approx(1));
+        const auto own = dealer.strategy->private_cell(3, dealing.cells[k]);
         power += own->power;
         CHECK(own->power == Approx(own->shape.solid_angle() / (2 * std::numbers::pi) *
                                    own->origins.area() / model.mesh.patches()[3].area)

@@ -8,8 +8,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -98,4 +100,63 @@ TEST_CASE("a block holds the points of its sequence") {
         for (std::size_t d = 0; d < 4; ++d)
             CHECK(blocks.point(index)[d] == expected[d]);
     }
+}
+
+TEST_CASE("every instruction set finds the same places") {
+    std::vector<double> sums{0};
+    Rng rng(6);
+    for (int k = 0; k < 50; ++k) // some of no width
+        sums.push_back(sums.back() + std::max(rng.uniform() - .3, 0.0));
+    const double end = std::nextafter(sums.back(), 0.0);
+    sums.resize(64, std::numeric_limits<double>::infinity());
+    std::vector<double> at = some_numbers(1003, 7);
+    for (double& each : at)
+        each = std::min(each * sums[50], end);
+    for (const InstructionSet set : available_instruction_sets()) {
+        std::vector<std::uint64_t> places(at.size());
+        sampling_kernels(set).find_places(sums.data(), sums.size(), at.size(), at.data(),
+                                          places.data());
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            CHECK(sums[places[k]] <= at[k]);
+            CHECK(at[k] < sums[places[k] + 1]);
+        }
+    }
+}
+
+TEST_CASE("every instruction set gives the same random numbers and directions into cells") {
+    constexpr std::size_t n = 1003;
+    Rng rng(8);
+    std::vector<std::uint32_t> low(n), high(n), number(n);
+    std::vector<std::int32_t> cell(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        low[k] = static_cast<std::uint32_t>(rng.bits());
+        high[k] = static_cast<std::uint32_t>(rng.bits());
+        number[k] = static_cast<std::uint32_t>(k);
+        cell[k] = static_cast<std::int32_t>(k % 10);
+    }
+    CellShapes shapes{};
+    std::vector<std::vector<double>> parts;
+    for (unsigned i = 0; i < CellShapes::parts; ++i) {
+        std::vector<double>& part = parts.emplace_back();
+        for (int c = 0; c < 10; ++c)
+            part.push_back(i == CellShapes::half ? c % 2 : rng.uniform() - .3);
+        shapes.part[i] = part.data();
+    }
+    using Numbers = std::vector<double>;
+    const auto draw = [&](InstructionSet set) {
+        std::array<Numbers, 7> r;
+        r.fill(Numbers(n));
+        std::vector<std::uint32_t> inside(n);
+        const SamplingKernels& kernels = sampling_kernels(set);
+        kernels.random({low.data(), high.data(), number.data()}, n, 3, r[0].data(), r[1].data(),
+                       r[2].data(), r[3].data());
+        kernels.in_cells(shapes, n, cell.data(), r[0].data(), r[1].data(), r[4].data(), r[5].data(),
+                         r[6].data(), inside.data());
+        return std::pair(r, inside);
+    };
+    const auto expected = draw(InstructionSet::baseline);
+    CHECK(std::ranges::count(expected.second, 1u) > 10);
+    CHECK(std::ranges::count(expected.second, 0u) > 10);
+    for (const InstructionSet set : available_instruction_sets())
+        CHECK(draw(set) == expected);
 }

@@ -33,21 +33,22 @@ struct Dealt {
 };
 
 std::vector<Dealt> deal(const Model& model, const Dealer& dealer, std::uint32_t patch) {
-    std::vector<CellShare> shares;
-    dealer.strategy->deal(patch, shares);
+    DealtCells memory;
+    const Dealing dealing = dealer.strategy->deal(patch, memory);
+    REQUIRE(dealing.cells.size() == dealing.rays_up_to.size());
     std::vector<Dealt> result;
-    for (const CellShare& share : shares) {
-        const auto own = dealer.strategy->private_cell(patch, share.cell);
-        if (own)
-            result.push_back({own->power, share.rays,
+    for (std::size_t k = 0; k < dealing.cells.size(); ++k) {
+        const std::uint16_t cell = dealing.cells[k];
+        if (const auto own = dealer.strategy->private_cell(patch, cell))
+            result.push_back({own->power, dealing.rays(k),
                               own->shape.projected_solid_angle() / std::numbers::pi *
                                   own->origins.area() / model.mesh.patches()[patch].area});
-        else if (share.cell == whole_hemisphere)
-            result.push_back({share.power, share.rays, 1});
+        else if (cell == whole_hemisphere)
+            result.push_back({1, dealing.rays(k), 1});
         else
             result.push_back(
-                {share.power, share.rays,
-                 dealer.hemisphere.cells()[share.cell].projected_solid_angle / std::numbers::pi});
+                {power_share(dealer.hemisphere, cell, dealer.options.literal), dealing.rays(k),
+                 dealer.hemisphere.cells()[cell].projected_solid_angle / std::numbers::pi});
     }
     return result;
 }
@@ -99,6 +100,18 @@ TEST_CASE("Shares of power and rays sum to 1, and follow Lambert's law") {
     }
 }
 
+TEST_CASE("Running sums in floats leave no cell without rays, and give none where none are due") {
+    DealtCells memory;
+    memory.add(0, 1 - 1e-9);
+    for (std::uint16_t cell = 1; cell < 1000; ++cell)
+        memory.add(cell, cell % 2 == 0 ? 0 : 1e-12);
+    const Dealing dealing = memory.view();
+    CHECK(dealing.rays(0) == Approx(1).epsilon(1e-7));
+    for (std::size_t k = 1; k < 1000; ++k)
+        CHECK((dealing.rays(k) > 0) == (k % 2 != 0));
+    CHECK(dealing.rays_up_to.back() < 1 + 1e-4F);
+}
+
 TEST_CASE("The printed rule breaks Lambert's law by what was measured elsewhere") {
     // A triangle of level 2 gets .51 to 3.80 times its due.
     double lowest = 10, highest = 0, sum = 0;
@@ -124,13 +137,12 @@ TEST_CASE("Guidance sends rays where surfaces were counted") {
     const Dealer guided(model, *find_method("hemisphere"), {});
     const Dealer plain(model, *find_method("stratified"), {});
     double difference = 0;
-    std::vector<CellShare> a, b;
     for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i) {
-        guided.strategy->deal(i, a);
-        plain.strategy->deal(i, b);
-        REQUIRE(a.size() == 64);
-        for (const CellShare& share : a)
-            difference = std::max(difference, share.rays / share.power);
+        const std::vector<Dealt> cells = deal(model, guided, i);
+        REQUIRE(cells.size() == 64);
+        REQUIRE(deal(model, plain, i).size() == 64);
+        for (const Dealt& cell : cells)
+            difference = std::max(difference, cell.rays / cell.power);
     }
     CHECK(difference > 1.5);
     CHECK(guided.strategy->density_rays() == 41 * model.mesh.patches().size());

@@ -3,11 +3,15 @@
 
 #include "radiosity/kernels/cosine.h"
 
+#include "radiosity/kernels/emitters.h"
+
+#include "radiosity/kernels/random.h"
+
 #include "radiosity/kernels/sobol.h"
 
 namespace hemilux::HEMILUX_KERNELS {
 
 extern const SamplingKernels sampling;
-const SamplingKernels sampling{sobol, cosine};
+const SamplingKernels sampling{sobol, cosine, weigh_emitters, find_places, random, in_cells};
 
 } // namespace hemilux::HEMILUX_KERNELS

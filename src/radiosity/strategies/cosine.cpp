@@ -12,8 +12,10 @@ namespace {
 
 class Cosine final : public Strategy {
   public:
-    void deal(std::uint32_t, std::vector<CellShare>& shares) const override {
-        shares.assign(1, {whole_hemisphere, 1.0, 1.0});
+    Dealing deal(std::uint32_t, DealtCells&) const override {
+        static constexpr std::uint16_t cell = whole_hemisphere;
+        static constexpr float all_rays = 1;
+        return {{&cell, 1}, {&all_rays, 1}};
     }
 };
 

@@ -21,7 +21,6 @@
 #include "radiosity/shooting.h"
 
 #include <algorithm>
-#include <numbers>
 #include <optional>
 
 namespace hemilux {
@@ -32,29 +31,28 @@ class HemisphereStrategy final : public Strategy {
     HemisphereStrategy(const SolverInput& input, const Hemisphere& hemisphere,
                        const Workers& workers)
         : hemisphere_(hemisphere), literal_(input.options.literal) {
-        for (const Hemisphere::Cell& cell : hemisphere.cells())
-            area_shares_.push_back(area_share(cell));
+        for (std::size_t cell = 0; cell < hemisphere.cells().size(); ++cell)
+            area_shares_.push_back(
+                power_share(hemisphere, static_cast<std::uint16_t>(cell), literal_));
         if (input.needs.densities)
             density_.emplace(input.mesh, input.tracer, hemisphere, input.options.threshold, workers,
                              input.monitor, input.needs,
                              input.options.keep_all ? DensityStore::everything
                                                     : DensityStore::divided_only);
         else
-            deal_leaves(leaves_of_one_surface(input.options.threshold), shares_of_one_surface_);
+            deal_leaves(leaves_of_one_surface(input.options.threshold), dealt_of_one_surface_);
         const std::size_t cells = hemisphere.cells().size() * input.mesh.patches().size();
         if (density_ && cells <= most_kept_cells && !input.monitor.interrupted)
             keep_dealt(input, workers);
     }
 
-    void deal(std::uint32_t patch, std::vector<CellShare>& shares) const override {
-        if (!density_) {
-            shares = shares_of_one_surface_;
-            return;
-        }
-        if (!dealt_.empty())
-            shares = dealt_[patch];
-        else
-            deal_densities(patch, shares);
+    Dealing deal(std::uint32_t patch, DealtCells& memory) const override {
+        if (!density_)
+            return dealt_of_one_surface_.view();
+        if (!kept_.empty())
+            return kept(patch);
+        deal_densities(patch, memory);
+        return memory.view();
     }
 
     [[nodiscard]] std::uint64_t density_rays() const override {
@@ -68,23 +66,39 @@ class HemisphereStrategy final : public Strategy {
     }
 
   private:
-    /// In a small scene what is dealt is kept, 1.5 kB a patch: patches shoot few rays at a time,
+    /// In a small scene what is dealt is kept, 384 bytes a patch: patches shoot few rays at a time,
     /// and walking their trees each time takes a tenth of the run. Large scenes need but the bytes.
     static constexpr std::size_t most_kept_cells = 2'000'000;
 
     void keep_dealt(const SolverInput& input, const Workers& workers) {
-        dealt_.resize(input.mesh.patches().size());
-        workers.for_chunks(dealt_.size(), 64, [&](std::size_t begin, std::size_t end) {
-            for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
-                if (input.needs.power(i))
-                    deal_densities(i, dealt_[i]);
+        most_leaves_ = std::size_t{4} << (2 * hemisphere_.depth());
+        kept_.resize(input.mesh.patches().size());
+        kept_cells_.resize(kept_.size() * most_leaves_);
+        kept_rays_.resize(kept_.size() * most_leaves_);
+        workers.for_chunks(kept_.size(), 64, [&](std::size_t begin, std::size_t end) {
+            DealtCells dealt;
+            for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+                if (!input.needs.power(i))
+                    continue;
+                deal_densities(i, dealt);
+                kept_[i] = static_cast<std::uint16_t>(dealt.cells.size());
+                const auto place = static_cast<std::ptrdiff_t>(i * most_leaves_);
+                std::ranges::copy(dealt.cells, kept_cells_.begin() + place);
+                std::ranges::copy(dealt.rays_up_to, kept_rays_.begin() + place);
+            }
         });
     }
 
-    void deal_densities(std::uint32_t patch, std::vector<CellShare>& shares) const {
+    [[nodiscard]] Dealing kept(std::uint32_t patch) const {
+        const std::size_t place = patch * most_leaves_;
+        return {std::span(kept_cells_).subspan(place, kept_[patch]),
+                std::span(kept_rays_).subspan(place, kept_[patch])};
+    }
+
+    void deal_densities(std::uint32_t patch, DealtCells& dealt) const {
         thread_local std::vector<DensityLeaf> leaves;
         density_->leaves(patch, leaves);
-        deal_leaves(leaves, shares);
+        deal_leaves(leaves, dealt);
     }
 
     /// What a patch of a convex enclosure would count: one surface in each direction.
@@ -97,14 +111,21 @@ class HemisphereStrategy final : public Strategy {
         return leaves;
     }
 
-    void deal_leaves(const std::vector<DensityLeaf>& leaves, std::vector<CellShare>& shares) const {
-        shares.clear();
+    void deal_leaves(const std::vector<DensityLeaf>& leaves, DealtCells& dealt) const {
         double average = 0; // D_average
-        for (const DensityLeaf& leaf : leaves) {
-            shares.push_back({leaf.cell, area_shares_[leaf.cell], 0});
-            average += shares.back().power * leaf.density;
-        }
-        deal_rays(leaves, average, shares);
+        for (const DensityLeaf& leaf : leaves)
+            average += area_shares_[leaf.cell] * leaf.density;
+        const double least = std::max(least_density, least_share * average);
+        const auto due = [&](const DensityLeaf& leaf) {
+            const double density = leaf.density; // D_tr
+            return area_shares_[leaf.cell] * (literal_ ? density : std::max(density, least));
+        };
+        double sum = 0;
+        for (const DensityLeaf& leaf : leaves)
+            sum += due(leaf);
+        dealt.clear();
+        for (const DensityLeaf& leaf : leaves) // literal, and nothing was seen: no ray, as printed
+            dealt.add(leaf.cell, sum > 0 ? due(leaf) / sum : 0);
     }
 
     /// A triangle whose three vertices saw nothing may still hold something: it counts as one
@@ -112,33 +133,15 @@ class HemisphereStrategy final : public Strategy {
     /// mean. Where nothing is seen anywhere, rays then follow the power (D5).
     static constexpr double least_density = 1, least_share = 0.25;
 
-    /// A_tr / A_hemi
-    [[nodiscard]] double area_share(const Hemisphere::Cell& cell) const {
-        return literal_ ? cell.solid_angle / (2 * std::numbers::pi)
-                        : cell.projected_solid_angle / std::numbers::pi;
-    }
-
-    void deal_rays(const std::vector<DensityLeaf>& leaves, double average,
-                   std::vector<CellShare>& shares) const {
-        const double least = std::max(least_density, least_share * average);
-        double sum = 0;
-        for (std::size_t i = 0; i < shares.size(); ++i) {
-            const double density = leaves[i].density; // D_tr
-            shares[i].rays = shares[i].power * (literal_ ? density : std::max(density, least));
-            sum += shares[i].rays;
-        }
-        if (!(sum > 0)) // literal, and nothing was seen: no ray is shot, as printed
-            return;
-        for (CellShare& share : shares)
-            share.rays *= 1 / sum;
-    }
-
     const Hemisphere& hemisphere_;
     bool literal_;
     std::vector<double> area_shares_; ///< by cell
     std::optional<DensityMap> density_;
-    std::vector<std::vector<CellShare>> dealt_;    ///< by patch, in small scenes
-    std::vector<CellShare> shares_of_one_surface_; ///< of all patches, where there is no density_
+    DealtCells dealt_of_one_surface_; ///< of all patches, where there is no density_
+    // In small scenes: by patch, how many leaves it has, and a row of them.
+    std::size_t most_leaves_ = 0;
+    std::vector<std::uint16_t> kept_, kept_cells_;
+    std::vector<float> kept_rays_;
 };
 
 std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisphere& hemisphere,

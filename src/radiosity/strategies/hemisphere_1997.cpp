@@ -83,7 +83,8 @@ class Hemisphere1997 final : public Strategy {
 
     void begin_step(std::uint64_t step) override {
         if (step >= guided_steps) {
-            shares_.assign(1, {whole_hemisphere, 1.0, 1.0});
+            dealt_.clear();
+            dealt_.add(whole_hemisphere, 1);
             return;
         }
         level_ = static_cast<int>(step) + 1;
@@ -91,12 +92,12 @@ class Hemisphere1997 final : public Strategy {
         double share = 1 / static_cast<double>(cells);
         if (options_.literal)
             share = std::max(std::round(options_.rays * share), 1.0) / options_.rays;
-        shares_.clear();
+        dealt_.clear();
         for (std::size_t cell = 0; cell < cells; ++cell)
-            shares_.push_back({static_cast<std::uint16_t>(cell), 0, share});
+            dealt_.add(static_cast<std::uint16_t>(cell), share);
     }
 
-    void deal(std::uint32_t, std::vector<CellShare>& shares) const override { shares = shares_; }
+    Dealing deal(std::uint32_t, DealtCells&) const override { return dealt_.view(); }
 
     [[nodiscard]] std::optional<PrivateCell> private_cell(std::uint32_t patch,
                                                           std::uint16_t cell) const override {
@@ -192,8 +193,8 @@ class Hemisphere1997 final : public Strategy {
     // By patch, sub-patch and vertex of the topology, in the patch's own frame.
     std::vector<std::array<float, 3>> direction_;
     std::vector<std::uint8_t> count_;
-    int level_ = 1;                 ///< of the present step's triangles
-    std::vector<CellShare> shares_; ///< the same for all patches
+    int level_ = 1;    ///< of the present step's triangles
+    DealtCells dealt_; ///< the same for all patches
 };
 
 std::unique_ptr<Strategy> make_hemisphere_1997(const SolverInput& input, const Hemisphere&,

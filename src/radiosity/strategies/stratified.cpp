@@ -5,8 +5,6 @@
 
 #include "radiosity/shooting.h"
 
-#include <numbers>
-
 namespace hemilux {
 namespace {
 
@@ -16,14 +14,14 @@ class Stratified final : public Strategy {
         const auto& cells = hemisphere.cells();
         for (std::size_t c = Hemisphere::cells_up_to(hemisphere.depth() - 1); c < cells.size();
              ++c) {
-            const double share = cells[c].projected_solid_angle / std::numbers::pi;
-            shares_.push_back({static_cast<std::uint16_t>(c), share, share});
+            const auto cell = static_cast<std::uint16_t>(c);
+            dealt_.add(cell, power_share(hemisphere, cell, false));
         }
     }
-    void deal(std::uint32_t, std::vector<CellShare>& shares) const override { shares = shares_; }
+    Dealing deal(std::uint32_t, DealtCells&) const override { return dealt_.view(); }
 
   private:
-    std::vector<CellShare> shares_;
+    DealtCells dealt_;
 };
 
 std::unique_ptr<Strategy> make_stratified(const SolverInput&, const Hemisphere& hemisphere,

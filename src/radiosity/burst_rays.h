@@ -1,0 +1,81 @@
+#pragma once
+// Rays that are listed are drawn: where on their patch they start, and where they go.
+
+#include "bvh/tracer.h"
+#include "geometry/frame.h"
+#include "geometry/polygon_sampler.h"
+#include "radiosity/rng.h"
+#include "radiosity/strategy.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+struct Patch;
+
+/// Rays from a patch into one of its cells.
+struct Burst {
+    std::uint32_t patch;
+    std::uint16_t cell;
+    std::uint32_t rays;
+    /// Phi_ray / Phi_patch; until the rays are drawn Phi_ray / Phi_tr.
+    double ray_power;
+};
+
+/// From where and into what.
+struct RaySource {
+    const Mesh& mesh;
+    const CellDirections& directions;
+    const Strategy& strategy;
+    bool literal;
+};
+
+/// The rays of a list of bursts in their order, some at a time. The bursts of a patch follow each
+/// other, and what is drawn for them depends on the seed, the patch and them, not on others.
+class BurstRays {
+  public:
+    /// `memory` holds the rays between two calls and may be used again afterwards.
+    BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t seed,
+              std::vector<Ray>& memory);
+
+    /// The next ones, rays_at_a_time until the last; none when there are no more.
+    [[nodiscard]] std::span<const Ray> next();
+
+  private:
+    /// Rays of one burst among those that are drawn now.
+    struct Run {
+        std::uint32_t patch, rays;
+        std::uint16_t cell;
+        std::uint32_t own; ///< place in own_ if the cell is private, else none
+    };
+    /// What all runs of a patch have in common.
+    struct From {
+        std::uint32_t patch;
+        PolygonSampler shape;
+        Frame frame;
+    };
+    void list();
+    void list(Burst& burst, std::uint32_t rays);
+    void fill(const Run& run, std::size_t first);
+    void fill_private(const PrivateCell& cell, const Patch& patch, std::size_t first,
+                      std::span<Ray> rays);
+
+    const RaySource& source_;
+    std::span<Burst> bursts_;
+    std::uint64_t seed_;
+    std::vector<Ray>& rays_;
+    std::uint32_t drawn_ = 0;     ///< of the first of bursts_
+    std::uint32_t listed_ = none; ///< the patch of that
+    std::uint32_t number_ = 0;    ///< of that patch's next ray
+    std::uint64_t key_ = 0;       ///< of that patch's random numbers
+    std::vector<Run> runs_;
+    std::vector<PrivateCell> own_;
+    DirectionBatch batch_;
+    std::optional<From> from_;
+};
+
+} // namespace hemilux
