@@ -21,7 +21,7 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
                                   const GradientOptions& options) {
     const std::size_t n = h.size();
     std::vector<Vec3> weight(n), r(n), p(n), q(n);
-    std::vector<Vec4> reflected(n);
+    std::vector<Lanes> reflected(n);
     std::vector<Vec3> part((n + factors.rows_per_chunk - 1) / factors.rows_per_chunk);
     /// Sum of term(i) over all patches, in an order that does not depend on the threads.
     const auto sum = [&](const auto& term) {

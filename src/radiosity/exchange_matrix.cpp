@@ -41,19 +41,18 @@ class Accumulator {
     std::vector<std::uint32_t> touched_;
 };
 
-/// Sum of value times x[column] over the entries, in four sums that do not wait for each other.
-template <class T, class Entry>
-T product(std::span<const Entry> row, const T* x) {
-    const auto term = [&](const Entry& entry) {
+/// Sum of value times x[column], in four sums that do not wait for each other.
+double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
+    const auto term = [&](const MatrixEntry& entry) {
         return static_cast<double>(entry.value) * x[entry.column];
     };
-    std::array<T, 4> sum{};
-    const Entry *next = row.data(), *const end = next + row.size();
-    for (; end - next >= 4; next += 4)
+    std::array<double, 4> sum{};
+    std::size_t next = 0;
+    for (; next + 4 <= row.size(); next += 4)
         for (std::size_t k = 0; k < 4; ++k)
-            sum[k] += term(next[k]);
-    for (; next != end; ++next)
-        sum[0] += term(*next);
+            sum[k] += term(row[next + k]);
+    for (; next < row.size(); ++next)
+        sum[0] += term(row[next]);
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
@@ -167,7 +166,7 @@ void ExchangeMatrix::find_scale(const Workers& workers) {
     for (int k = 0; k < scalings; ++k) {
         for_rows(workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const double sum = product(row(i), scale_.data());
+                const double sum = row_sum(row(i), scale_);
                 after[i] = 1; // where the patch itself has not looked, what others saw is all
                 if (due(i) >= 0)
                     after[i] = sum > 0 ? due(i) / sum : 0;
@@ -181,23 +180,31 @@ void ExchangeMatrix::find_scale(const Workers& workers) {
 
 void ExchangeMatrix::close(const Workers& workers) {
     self_.assign(area_.size(), 0.0);
+    per_area_.assign(area_.size(), 0.0);
     for_rows(workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const double sum = product(row(i), scale_.data());
+            const double sum = row_sum(row(i), scale_);
             if (scale_[i] > 0 && due(i) >= 0)
                 self_[i] = (due(i) / scale_[i] - sum) / scale_[i];
+            if (area_[i] > 0)
+                per_area_[i] = scale_[i] / area_[i];
         }
     });
 }
 
-Vec3 ExchangeMatrix::row_times(std::size_t i, std::span<const Vec4> scaled) const {
-    const Vec4 sum = product(row(i), scaled.data()) + self_[i] * scaled[i];
-    return area_[i] > 0 ? scale_[i] / area_[i] * Vec3(sum) : Vec3(0.0);
+Vec3 ExchangeMatrix::row_times(std::size_t i, std::span<const Lanes> scaled) const {
+    static const MatrixKernels& kernels = matrix_kernels();
+    Lanes sum;
+    kernels.row_times(row(i).data(), row(i).size(), scaled.data(), &sum);
+    const auto channel = [&](int c) {
+        return per_area_[i] * (sum.lane[c] + self_[i] * scaled[i].lane[c]);
+    };
+    return {channel(0), channel(1), channel(2)};
 }
 
 void ExchangeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y,
                               const Workers& workers) const {
-    std::vector<Vec4> z(x.size());
+    std::vector<Lanes> z(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
         z[i] = scaled(i, x[i]);
     for_rows(workers, [&](std::size_t begin, std::size_t end) {

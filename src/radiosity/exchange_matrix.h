@@ -11,6 +11,7 @@
 //
 // Stored is S before it is scaled, so that the S of several sets is their mean.
 
+#include "radiosity/matrix_kernels.h"
 #include "radiosity/ray_counts.h"
 #include "radiosity/sampled_form_factors.h"
 
@@ -20,9 +21,6 @@
 #include <vector>
 
 namespace hemilux {
-
-/// Three channels, so that each stands in a lane of its own.
-using Vec4 = glm::dvec4;
 
 class ExchangeMatrix {
   public:
@@ -36,9 +34,11 @@ class ExchangeMatrix {
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
 
     /// The same in parts: the element j of a vector as rows take it,
-    [[nodiscard]] Vec4 scaled(std::size_t j, const Vec3& x) const { return {scale_[j] * x, 0.0}; }
+    [[nodiscard]] Lanes scaled(std::size_t j, const Vec3& x) const {
+        return {{scale_[j] * x.x, scale_[j] * x.y, scale_[j] * x.z, 0}};
+    }
     /// and its product with the row i.
-    [[nodiscard]] Vec3 row_times(std::size_t i, std::span<const Vec4> scaled) const;
+    [[nodiscard]] Vec3 row_times(std::size_t i, std::span<const Lanes> scaled) const;
     /// Calls body(begin, end) for chunks of the rows, by as many threads as that is worth.
     template <class Body>
     void for_rows(const Workers& workers, const Body& body) const {
@@ -53,11 +53,9 @@ class ExchangeMatrix {
     [[nodiscard]] std::uint64_t bytes() const { return row_begin_.back() * sizeof(Entry); }
 
   private:
-    /// A column may come twice in a row: as one patch saw the other, and was seen by it.
-    struct Entry {
-        std::uint32_t column;
-        float value; ///< a part of S_ij; the same number in both rows
-    };
+    /// A part of S_ij, the same number in both rows. A column may come twice in a row: as one patch
+    /// saw the other, and was seen by it.
+    using Entry = MatrixEntry;
     [[nodiscard]] std::span<const Entry> row(std::size_t i) const {
         return {&entry_[row_begin_[i]], row_size_[i]};
     }
@@ -75,8 +73,9 @@ class ExchangeMatrix {
     std::vector<std::size_t> row_begin_; ///< one more than rows; rows have room for more
     std::vector<std::uint32_t> row_size_;
     std::unique_ptr<Entry[]> entry_;
-    std::vector<double> scale_; ///< g_i
-    std::vector<double> self_;  ///< S_ii, which closes the row, not scaled
+    std::vector<double> scale_;    ///< g_i
+    std::vector<double> per_area_; ///< g_i / A_i
+    std::vector<double> self_;     ///< S_ii, which closes the row, not scaled
     std::vector<double> area_;
     std::vector<double> rays_;
     std::vector<LostShare> lost_;

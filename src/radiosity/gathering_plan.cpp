@@ -122,7 +122,7 @@ void GatheringPlan::mix(std::span<const double> known, std::span<const double> p
 void GatheringPlan::weigh(const ExchangeMatrix& factors, std::span<const Vec3> light,
                           const Workers& workers) {
     const std::size_t n = light.size();
-    std::vector<Vec4> once(n), squared(n);
+    std::vector<Lanes> once(n), squared(n);
     for (std::size_t i = 0; i < n; ++i) {
         once[i] = factors.scaled(i, light[i]);
         squared[i] = factors.scaled(i, light[i] * light[i]);

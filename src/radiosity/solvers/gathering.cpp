@@ -226,7 +226,7 @@ class GatheringSolver final : public Solver {
                                                     const Workers& workers) const {
         const std::size_t n = area_.size();
         std::vector<Vec3> found(n);
-        std::vector<Vec4> all(n), some(n);
+        std::vector<Lanes> all(n), some(n);
         for (std::size_t i = 0; i < n; ++i) {
             all[i] = factors.scaled(i, emission_[i]);
             some[i] = factors.scaled(i, seen_emission_[i]);
