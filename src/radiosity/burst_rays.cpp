@@ -62,31 +62,30 @@ void BurstRays::list(Burst& burst, std::uint32_t rays) {
 
 /// As printed, rays into triangles leave from the centre; those of plain Monte Carlo do not.
 void BurstRays::fill(const Run& run, std::size_t first) {
-    const Patch& patch = source_.mesh.patches()[run.patch];
-    if (!from_ || from_->patch != run.patch)
-        from_ = {run.patch, PolygonSampler(patch.shape), source_.mesh.hemisphere_frame(run.patch)};
+    const PatchStart& start = source_.starts.of(run.patch, start_);
     const std::span<Ray> rays = std::span(rays_).subspan(first, run.rays);
     if (run.own != none)
-        return fill_private(own_[run.own], patch, first, rays);
+        return fill_private(own_[run.own], start, first, rays);
     const bool from_centre = source_.literal && run.cell != whole_hemisphere;
     for (std::size_t k = first; Ray & ray : rays) {
-        ray.from = patch.facet;
-        ray.origin = from_centre ? patch.centre : from_->shape.sample({batch_.u[k], batch_.v[k]});
-        ray.direction = from_->frame.to_world({batch_.x[k], batch_.y[k], batch_.z[k]});
+        ray.from = start.facet;
+        ray.origin = from_centre ? source_.mesh.patches()[run.patch].centre
+                                 : start.points.sample({batch_.u[k], batch_.v[k]});
+        ray.direction = start.frame.to_world({batch_.x[k], batch_.y[k], batch_.z[k]});
         ++k;
     }
 }
 
-void BurstRays::fill_private(const PrivateCell& cell, const Patch& patch, std::size_t first,
+void BurstRays::fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
                              std::span<Ray> rays) {
     const PolygonSampler part(cell.origins);
     for (std::size_t k = first; Ray & ray : rays) {
         Rng rng(hash_words({batch_.key_low[k], batch_.key_high[k], batch_.number[k]}));
-        ray.from = patch.facet;
+        ray.from = start.facet;
         ray.origin =
             source_.literal ? cell.origins.centre() : part.sample({batch_.u[k], batch_.v[k]});
         ray.direction =
-            from_->frame.to_world(cell.shape.sample_rejection([&] { return rng.uniform(); }));
+            start.frame.to_world(cell.shape.sample_rejection([&] { return rng.uniform(); }));
         ++k;
     }
 }

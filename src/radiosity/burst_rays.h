@@ -2,9 +2,7 @@
 // Rays that are listed are drawn: where on their patch they start, and where they go.
 
 #include "bvh/tracer.h"
-#include "geometry/frame.h"
-#include "geometry/polygon_sampler.h"
-#include "radiosity/rng.h"
+#include "radiosity/patch_starts.h"
 #include "radiosity/strategy.h"
 
 #include <cstdint>
@@ -15,7 +13,6 @@
 namespace hemilux {
 
 class Mesh;
-struct Patch;
 
 /// Rays from a patch into one of its cells.
 struct Burst {
@@ -29,6 +26,7 @@ struct Burst {
 /// From where and into what.
 struct RaySource {
     const Mesh& mesh;
+    const PatchStarts& starts;
     const CellDirections& directions;
     const Strategy& strategy;
     bool literal;
@@ -52,16 +50,10 @@ class BurstRays {
         std::uint16_t cell;
         std::uint32_t own; ///< place in own_ if the cell is private, else none
     };
-    /// What all runs of a patch have in common.
-    struct From {
-        std::uint32_t patch;
-        PolygonSampler shape;
-        Frame frame;
-    };
     void list();
     void list(Burst& burst, std::uint32_t rays);
     void fill(const Run& run, std::size_t first);
-    void fill_private(const PrivateCell& cell, const Patch& patch, std::size_t first,
+    void fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
                       std::span<Ray> rays);
 
     const RaySource& source_;
@@ -75,7 +67,7 @@ class BurstRays {
     std::vector<Run> runs_;
     std::vector<PrivateCell> own_;
     DirectionBatch batch_;
-    std::optional<From> from_;
+    std::optional<PatchStart> start_; ///< memory of one
 };
 
 } // namespace hemilux

@@ -129,7 +129,7 @@ void RayCounts::trace_block(std::uint32_t begin, std::uint32_t end,
 void RayCounts::draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley) {
     const Patch& from = mesh_.patches()[patch];
     const PolygonSampler origins(from.shape);
-    const Frame frame = mesh_.hemisphere_frame(patch);
+    const Frame frame = Frame::from_normal(from.normal);
     SobolBlocks<4> points(hash_words({seed_, patch}));
     while (rows_[patch].rays < end) {
         const std::uint32_t first = rows_[patch].rays;

@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -24,6 +26,8 @@ constexpr double rays_for_one_thread = 2000;
 /// Literal steps shoot as many rays for the last of the power as for the first; they end when this
 /// share of the emitted power is left.
 constexpr double literal_rest = 1e-4;
+
+constexpr std::size_t bits_of_word = 64;
 
 /// std::floor for numbers of rays; compilers call a function for that.
 double whole_below(double rays) { return static_cast<double>(static_cast<std::int64_t>(rays)); }
@@ -79,7 +83,8 @@ class LineOfCells {
 
 ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strategy)
     : StepwiseSolver(input, !input.options.literal), workers_(input.options.threads),
-      hemisphere_(input.options.depth), directions_(hemisphere_, input.options.literal) {
+      hemisphere_(input.options.depth), directions_(hemisphere_, input.options.literal),
+      starts_(input.mesh) {
     const auto start = std::chrono::steady_clock::now();
     input_.monitor.phase = "density";
     strategy_ = make_strategy(input_, hemisphere_, workers_);
@@ -102,41 +107,45 @@ bool ShootingSolver::solve_once(std::uint64_t stream, StepResult& result) {
 
 /// False when interrupted.
 bool ShootingSolver::shoot_all_bounces(std::uint64_t stream, StepResult& result) {
-    const auto patches = input_.mesh.patches();
-    std::vector<Vec3> unshot(patches.size());
-    Received received(patches.size());
-    for (std::uint32_t i = 0; i < patches.size(); ++i)
-        unshot[i] = result.radiosity[i] * patches[i].area;
+    begin(result);
     for (std::uint64_t bounces = 0;; ++bounces) {
-        double left = 0;
-        for (const Vec3& power : unshot)
-            left += mean_of_channels(power);
-        check_finite(input_.mesh, unshot, "the power to be shot", step_under_way());
         check_bounces(bounces);
-        if (!(left > (input_.options.literal ? literal_rest * emitted() : 0.0)))
+        if (!(left_ > (input_.options.literal ? literal_rest * emitted() : 0.0)))
             return true;
-        result.shot += left;
-        std::ranges::fill(received, CompensatedSum<Vec3>{});
+        result.shot += left_;
         const std::uint64_t rays =
-            bounce(hash_words({input_.options.seed, stream, bounces}), unshot, received, result);
+            bounce(hash_words({input_.options.seed, stream, bounces}), result);
         if (input_.monitor.interrupted)
             return false;
         if (rays == 0) // what was left is below one ray, and chance has ended it
             return true;
-        for (std::uint32_t i = 0; i < patches.size(); ++i) {
-            const Vec3& reflectance = input_.mesh.material(i).reflectance;
-            const Vec3 power = received[i].value();
-            result.absorbed += (1.0 - reflectance) * power;
-            unshot[i] = reflectance * power;
-            if (patches[i].area > 0)
-                result.radiosity[i] += unshot[i] / patches[i].area;
-        }
+        reflect(result);
     }
 }
 
-std::uint64_t ShootingSolver::bounce(std::uint64_t stream, const std::vector<Vec3>& unshot,
-                                     Received& received, StepResult& result) {
-    plan(stream, unshot);
+void ShootingSolver::begin(const StepResult& result) {
+    const auto patches = input_.mesh.patches();
+    unshot_.resize(patches.size());
+    received_.assign(patches.size(), {});
+    struck_.assign(patches.size() / bits_of_word + 1, 0);
+    senders_.clear();
+    left_ = 0;
+    for (std::uint32_t i = 0; i < patches.size(); ++i)
+        add_sender(i, result.radiosity[i] * patches[i].area);
+}
+
+void ShootingSolver::add_sender(std::uint32_t patch, const Vec3& power) {
+    check_finite(input_.mesh, patch, power, "the power to be shot", step_under_way());
+    const double mean = mean_of_channels(power);
+    if (!(mean > 0))
+        return;
+    left_ += mean;
+    unshot_[patch] = power;
+    senders_.push_back(patch);
+}
+
+std::uint64_t ShootingSolver::bounce(std::uint64_t stream, StepResult& result) {
+    plan(stream);
     const double rays_a_piece = cut();
     const std::uint64_t before = result.rays;
     const bool few = rays_before_.back() - rays_before_[0] < rays_for_one_thread;
@@ -146,46 +155,44 @@ std::uint64_t ShootingSolver::bounce(std::uint64_t stream, const std::vector<Vec
     for (std::size_t begin = 0; begin < pieces_.size(); begin += most) {
         const std::size_t count = std::min(most, pieces_.size() - begin);
         workers.for_each_in_order(
-            count, [&](std::size_t k) { fire(pieces_[begin + k], stream, unshot, volleys_[k]); },
+            count, [&](std::size_t k) { fire(pieces_[begin + k], stream, volleys_[k]); },
             [&](std::size_t k) {
                 if (!input_.monitor.interrupted) // else volleys may not be whole
-                    collect(volleys_[k], unshot, received, result);
+                    collect(volleys_[k], result);
             });
         if (input_.monitor.interrupted)
             break;
         input_.monitor.step_share =
             std::min(1.0, static_cast<double>(result.rays) /
-                              (input_.options.rays * static_cast<double>(unshot.size())));
+                              (input_.options.rays * static_cast<double>(unshot_.size())));
     }
     return result.rays - before;
 }
 
-void ShootingSolver::fire(const Piece& piece, std::uint64_t stream, const std::vector<Vec3>& unshot,
-                          Volley& volley) const {
+void ShootingSolver::fire(const Piece& piece, std::uint64_t stream, Volley& volley) const {
     volley.bursts.clear();
     volley.receivers.clear();
     volley.arrivals.clear();
     if (input_.monitor.interrupted)
         return;
     thread_local DealtCells memory;
-    for (std::uint32_t i = piece.first; i < piece.last; ++i) {
-        const double first = std::max(whole_below(rays_before_[i]), piece.from);
-        const double last = std::min(whole_below(rays_before_[i + 1]), piece.to);
-        if (input_.options.literal && mean_of_channels(unshot[i]) > 0)
-            order_as_printed(i, strategy_->deal(i, memory), volley.bursts);
-        else if (!input_.options.literal && last > first)
-            order(i, piece, strategy_->deal(i, memory), volley.bursts);
+    for (std::size_t k = piece.first; k < piece.last; ++k) {
+        const double first = std::max(whole_below(rays_before_[k]), piece.from);
+        const double last = std::min(whole_below(rays_before_[k + 1]), piece.to);
+        if (input_.options.literal)
+            order_as_printed(senders_[k], strategy_->deal(senders_[k], memory), volley.bursts);
+        else if (last > first)
+            order(k, piece, strategy_->deal(senders_[k], memory), volley.bursts);
     }
     trace(hash_words({stream, static_cast<std::uint64_t>(piece.from)}), volley);
     input_.monitor.rays += volley.receivers.size();
 }
 
 /// In the order of patches and rays, whatever thread traced them.
-void ShootingSolver::collect(const Volley& volley, const std::vector<Vec3>& unshot,
-                             Received& received, StepResult& result) {
+void ShootingSolver::collect(const Volley& volley, StepResult& result) {
     std::size_t ray = 0;
     for (const Burst& burst : volley.bursts) {
-        const Vec3 power = burst.ray_power * unshot[burst.patch]; // Phi_ray
+        const Vec3 power = burst.ray_power * unshot_[burst.patch]; // Phi_ray
         if (strategy_->learns())
             strategy_->learn(burst.patch, burst.cell,
                              std::span(volley.receivers).subspan(ray, burst.rays),
@@ -198,8 +205,10 @@ void ShootingSolver::collect(const Volley& volley, const std::vector<Vec3>& unsh
             } else if (receiver == absorbed) {
                 ++rays_absorbed;
             } else {
-                received[receiver] += power;
-                ++result.hits[receiver];
+                Arrived& arrived = received_[receiver];
+                if (arrived.rays++ == 0)
+                    struck_[receiver / bits_of_word] |= std::uint64_t{1} << receiver % bits_of_word;
+                arrived.power += power;
             }
         }
         result.sent += double(burst.rays) * power;
@@ -209,20 +218,39 @@ void ShootingSolver::collect(const Volley& volley, const std::vector<Vec3>& unsh
     result.rays += ray;
 }
 
-/// Rays in proportion to the power to be shot, times the strategy's factor. Patch i owns the
-/// interval from rays_before_[i] to rays_before_[i+1] of a line on which a ray stands at each whole
+/// What arrived is absorbed or to be shot, in the order of patches.
+void ShootingSolver::reflect(StepResult& result) {
+    senders_.clear();
+    left_ = 0;
+    for (std::size_t word = 0; word < struck_.size(); ++word)
+        for (std::uint64_t bits = std::exchange(struck_[word], 0); bits != 0; bits &= bits - 1) {
+            const auto i = static_cast<std::uint32_t>(word * bits_of_word) +
+                           static_cast<std::uint32_t>(std::countr_zero(bits));
+            const Arrived arrived = std::exchange(received_[i], {});
+            const Vec3& reflectance = input_.mesh.material(i).reflectance;
+            const Vec3 power = arrived.power.value(), reflected = reflectance * power;
+            result.hits[i] += arrived.rays;
+            result.absorbed += (1.0 - reflectance) * power;
+            const double area = input_.mesh.patches()[i].area;
+            if (area > 0)
+                result.radiosity[i] += reflected / area;
+            add_sender(i, reflected);
+        }
+}
+
+/// Rays in proportion to the power to be shot, times the strategy's factor. Sender k owns the
+/// interval from rays_before_[k] to rays_before_[k+1] of a line on which a ray stands at each whole
 /// number: as the line's origin is random, each patch and each cell gets its expected number on
 /// average, rounded up or down.
-void ShootingSolver::plan(std::uint64_t stream, const std::vector<Vec3>& unshot) {
-    rays_before_.resize(unshot.size() + 1);
+void ShootingSolver::plan(std::uint64_t stream) {
+    rays_before_.resize(senders_.size() + 1);
     rays_before_[0] = Rng(stream).uniform();
-    for (std::size_t i = 0; i < unshot.size(); ++i) {
-        const double power = mean_of_channels(unshot[i]);
-        const double rays =
-            input_.options.literal
-                ? (power > 0 ? input_.options.rays : 0)
-                : power / ray_power() * strategy_->rays_for_power(static_cast<std::uint32_t>(i));
-        rays_before_[i + 1] = rays_before_[i] + rays;
+    for (std::size_t k = 0; k < senders_.size(); ++k) {
+        const std::uint32_t i = senders_[k];
+        const double rays = input_.options.literal ? input_.options.rays
+                                                   : mean_of_channels(unshot_[i]) / ray_power() *
+                                                         strategy_->rays_for_power(i);
+        rays_before_[k + 1] = rays_before_[k] + rays;
     }
 }
 
@@ -230,30 +258,31 @@ void ShootingSolver::plan(std::uint64_t stream, const std::vector<Vec3>& unshot)
 /// of a bounce. They do not depend on the number of threads. Returns the rays of one.
 double ShootingSolver::cut() {
     pieces_.clear();
-    const auto patches = static_cast<std::uint32_t>(rays_before_.size() - 1);
+    const auto senders = static_cast<std::uint32_t>(senders_.size());
     if (input_.options.literal) { // rays do not stand on the line
-        for (std::uint32_t i = 0; i < patches; i += patches_per_piece)
-            pieces_.push_back({i, std::min(i + patches_per_piece, patches), 0,
+        for (std::uint32_t k = 0; k < senders; k += patches_per_piece)
+            pieces_.push_back({k, std::min(k + patches_per_piece, senders), 0,
                                std::numeric_limits<double>::infinity()});
         return patches_per_piece * input_.options.rays;
     }
     const double first = whole_below(rays_before_[0]), end = whole_below(rays_before_.back());
     const double size =
         std::clamp(std::ceil((end - first) / pieces_a_bounce), least_piece, largest_piece);
-    const auto patch_of = [&](double ray) {
+    const auto sender_of = [&](double ray) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(rays_before_, ray) -
                                           rays_before_.begin() - 1);
     };
     for (double from = first; from < end; from += size) {
         const double to = std::min(from + size, end);
-        pieces_.push_back({patch_of(from + 1), patch_of(to) + 1, from, to});
+        pieces_.push_back({sender_of(from + 1), sender_of(to) + 1, from, to});
     }
     return size;
 }
 
-void ShootingSolver::order(std::uint32_t patch, const Piece& piece, const Dealing& dealing,
+void ShootingSolver::order(std::size_t sender, const Piece& piece, const Dealing& dealing,
                            std::vector<Burst>& bursts) const {
-    const LineOfCells line(dealing, rays_before_[patch], rays_before_[patch + 1]);
+    const std::uint32_t patch = senders_[sender];
+    const LineOfCells line(dealing, rays_before_[sender], rays_before_[sender + 1]);
     line.for_each_cell([&](std::uint16_t cell, double expected, double low, double high) {
         const double here = std::min(high, piece.to) - std::max(low, piece.from);
         // Below one ray per cell, the ray that is shot carries the power of those that are not.
@@ -274,7 +303,7 @@ void ShootingSolver::order_as_printed(std::uint32_t patch, const Dealing& dealin
 
 void ShootingSolver::trace(std::uint64_t seed, Volley& volley) const {
     thread_local std::vector<Ray> memory;
-    const RaySource source{input_.mesh, directions_, *strategy_, input_.options.literal};
+    const RaySource source{input_.mesh, starts_, directions_, *strategy_, input_.options.literal};
     BurstRays drawn(source, volley.bursts, seed, memory);
     for (auto rays = drawn.next(); !rays.empty(); rays = drawn.next()) {
         if (input_.monitor.interrupted) // one lamp may shoot many millions
