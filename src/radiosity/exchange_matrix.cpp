@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace hemilux {
@@ -21,24 +22,27 @@ constexpr std::size_t entries_for_one_thread = 60'000;
 /// Some floats of similar size sum up to a double without rounding: the sums are symmetric too.
 class Accumulator {
   public:
-    explicit Accumulator(std::size_t columns) : sum_(columns) {}
+    explicit Accumulator(std::size_t columns) : sum_(columns), touched_(columns + 1) {}
 
-    void add(std::uint32_t column, float value) {
-        if (!(sum_[column] > 0))
-            touched_.push_back(column);
-        sum_[column] += static_cast<double>(value);
+    void add(const MatrixEntry& entry) {
+        double& sum = sum_[entry.column];
+        touched_[count_] = entry.column; // for good if it is a new one: no branch could be foreseen
+        count_ += !(sum > 0);
+        sum += static_cast<double>(entry.value);
     }
-    /// visit(column, sum); and is empty again.
-    template <class Visit>
-    void flush(const Visit& visit) {
-        for (const std::uint32_t column : touched_)
-            visit(column, std::exchange(sum_[column], 0.0));
-        touched_.clear();
+    /// Adds all sums, times a factor, to the entries; and is empty again.
+    void flush(double factor, std::vector<MatrixEntry>& entries) {
+        for (std::size_t k = 0; k < count_; ++k) {
+            const double sum = std::exchange(sum_[touched_[k]], 0.0);
+            entries.push_back({touched_[k], static_cast<float>(factor * sum)});
+        }
+        count_ = 0;
     }
 
   private:
     std::vector<double> sum_;
     std::vector<std::uint32_t> touched_;
+    std::size_t count_ = 0;
 };
 
 /// Sum of value times x[column], in four sums that do not wait for each other.
@@ -95,14 +99,6 @@ void ExchangeMatrix::find_lost(std::span<const ExchangeMatrix> sets) {
         }
 }
 
-/// For rows of the size that is known, or less.
-void ExchangeMatrix::make_room() {
-    row_begin_.assign(1, 0);
-    for (const std::uint32_t size : row_size_)
-        row_begin_.push_back(row_begin_.back() + size);
-    entry_ = std::make_unique_for_overwrite<Entry[]>(row_begin_.back());
-}
-
 /// First in each row stands what the patch saw, then by what it was seen.
 void ExchangeMatrix::store(const RayCounts& set) {
     const auto n = static_cast<std::uint32_t>(area_.size());
@@ -113,44 +109,61 @@ void ExchangeMatrix::store(const RayCounts& set) {
         for (const RayCounts::Count& count : set.row(i))
             ++row_size_[count.patch];
     }
-    make_room();
-    std::vector<std::size_t> next(row_begin_.begin(), row_begin_.end() - 1);
-    for (std::uint32_t i = 0; i < n; ++i)
-        next[i] += set.row(i).size();
+    entries_ = std::accumulate(row_size_.begin(), row_size_.end(), std::size_t{0});
+    stored_.push_back(std::make_unique_for_overwrite<Entry[]>(entries_));
+    std::vector<Entry*> next(n);
+    Entry* begin = stored_[0].get();
     for (std::uint32_t i = 0; i < n; ++i) {
-        Entry* seen = &entry_[row_begin_[i]];
+        row_begin_.push_back(begin);
+        next[i] = begin + set.row(i).size();
+        begin += row_size_[i];
+    }
+    begin = stored_[0].get();
+    for (std::uint32_t i = 0; i < n; begin += row_size_[i++]) {
+        Entry* seen = begin;
         for (const auto& [j, hits] : set.row(i)) {
             const auto value = static_cast<float>(hits / (rays_per_area[i] + rays_per_area[j]));
             *seen++ = {j, value};
-            entry_[next[j]++] = {i, value};
+            *next[j]++ = {i, value};
         }
     }
 }
 
 void ExchangeMatrix::merge(std::span<const ExchangeMatrix> sets, const Workers& workers) {
-    for (const ExchangeMatrix& set : sets)
-        for (std::size_t i = 0; i < row_size_.size(); ++i)
-            row_size_[i] += set.row_size_[i];
-    make_room();
-    const auto count = static_cast<double>(sets.size());
+    const std::size_t n = area_.size();
+    row_begin_.resize(n);
+    stored_.resize((n + rows_per_chunk - 1) / rows_per_chunk);
+    struct Scratch {
+        Accumulator sum;
+        std::vector<Entry> rows;
+    };
     workers.for_chunks_with(
-        area_.size(), rows_per_chunk, [&] { return Accumulator(area_.size()); },
-        [&](Accumulator& sum, std::size_t begin, std::size_t end) {
+        n, rows_per_chunk,
+        [&] {
+            return Scratch{Accumulator(n), {}};
+        },
+        [&](Scratch& scratch, std::size_t begin, std::size_t end) {
+            scratch.rows.clear();
             for (std::size_t i = begin; i < end; ++i) {
                 for (const ExchangeMatrix& set : sets)
-                    for (const auto& [j, value] : set.row(i))
-                        sum.add(j, value);
-                Entry* next = &entry_[row_begin_[i]];
-                sum.flush([&](std::uint32_t j, double value) {
-                    *next++ = {j, static_cast<float>(value / count)};
-                });
-                row_size_[i] = static_cast<std::uint32_t>(next - &entry_[row_begin_[i]]);
+                    for (const Entry& entry : set.row(i))
+                        scratch.sum.add(entry);
+                const std::size_t before = scratch.rows.size();
+                scratch.sum.flush(1 / static_cast<double>(sets.size()), scratch.rows);
+                row_size_[i] = static_cast<std::uint32_t>(scratch.rows.size() - before);
             }
+            auto& stored = stored_[begin / rows_per_chunk];
+            stored = std::make_unique_for_overwrite<Entry[]>(scratch.rows.size());
+            std::ranges::copy(scratch.rows, stored.get());
+            const Entry* next = stored.get();
+            for (std::size_t i = begin; i < end; next += row_size_[i++])
+                row_begin_[i] = next;
         });
+    entries_ = std::accumulate(row_size_.begin(), row_size_.end(), std::size_t{0});
 }
 
 Workers ExchangeMatrix::readers(const Workers& workers) const {
-    return row_begin_.back() < entries_for_one_thread ? Workers(1) : workers;
+    return entries_ < entries_for_one_thread ? Workers(1) : workers;
 }
 
 double ExchangeMatrix::due(std::size_t i) const {

@@ -50,16 +50,15 @@ class ExchangeMatrix {
     [[nodiscard]] std::span<const LostShare> lost() const { return lost_; }
     /// Those that the patch shot itself.
     [[nodiscard]] std::span<const double> rays() const { return rays_; }
-    [[nodiscard]] std::uint64_t bytes() const { return row_begin_.back() * sizeof(Entry); }
+    [[nodiscard]] std::uint64_t bytes() const { return entries_ * sizeof(Entry); }
 
   private:
     /// A part of S_ij, the same number in both rows. A column may come twice in a row: as one patch
     /// saw the other, and was seen by it.
     using Entry = MatrixEntry;
     [[nodiscard]] std::span<const Entry> row(std::size_t i) const {
-        return {&entry_[row_begin_[i]], row_size_[i]};
+        return {row_begin_[i], row_size_[i]};
     }
-    void make_room();
     void find_lost(const RayCounts& set);
     void find_lost(std::span<const ExchangeMatrix> sets);
     void store(const RayCounts& set);
@@ -70,9 +69,10 @@ class ExchangeMatrix {
     [[nodiscard]] double due(std::size_t i) const;
     [[nodiscard]] Workers readers(const Workers& workers) const;
 
-    std::vector<std::size_t> row_begin_; ///< one more than rows; rows have room for more
+    std::vector<std::unique_ptr<Entry[]>> stored_; ///< some rows each, or all
+    std::vector<const Entry*> row_begin_;
     std::vector<std::uint32_t> row_size_;
-    std::unique_ptr<Entry[]> entry_;
+    std::size_t entries_ = 0;
     std::vector<double> scale_;    ///< g_i
     std::vector<double> per_area_; ///< g_i / A_i
     std::vector<double> self_;     ///< S_ii, which closes the row, not scaled
