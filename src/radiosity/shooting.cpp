@@ -16,12 +16,14 @@
 namespace hemilux {
 namespace {
 
-/// Rays that one thread takes at a time, and rays whose receivers are kept until they are summed.
-constexpr double pieces_a_bounce = 64, least_piece = 512, largest_piece = 8192;
+/// Rays that one thread takes at a time: a part of those that are left of the bounce, so that at
+/// its end no thread waits long for another. And rays whose receivers are kept until they are
+/// summed.
+constexpr double pieces_of_rest = 32, least_piece = 256, largest_piece = 8192;
 constexpr std::uint32_t patches_per_piece = 32;
 constexpr double rays_per_batch = 2e6;
-/// Fewer rays than this are traced sooner than other threads would be started.
-constexpr double rays_for_one_thread = 2000;
+/// Fewer rays than this are traced sooner than others would have come to help.
+constexpr double rays_for_one_thread = 500;
 
 /// Literal steps shoot as many rays for the last of the power as for the first; they end when this
 /// share of the emitted power is left.
@@ -253,8 +255,8 @@ void ShootingSolver::plan(std::uint64_t stream) {
     }
 }
 
-/// Pieces of equal numbers of rays, so that no thread waits long for another: a lamp may shoot half
-/// of a bounce. They do not depend on the number of threads. Returns the rays of one.
+/// By numbers of rays, as a lamp may shoot half of a bounce. Pieces do not depend on the number of
+/// threads. Returns the rays that one has at most.
 double ShootingSolver::cut() {
     pieces_.clear();
     const auto senders = static_cast<std::uint32_t>(senders_.size());
@@ -265,17 +267,17 @@ double ShootingSolver::cut() {
         return patches_per_piece * input_.options.rays;
     }
     const double first = whole_below(rays_before_[0]), end = whole_below(rays_before_.back());
-    const double size =
-        std::clamp(std::ceil((end - first) / pieces_a_bounce), least_piece, largest_piece);
     const auto sender_of = [&](double ray) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(rays_before_, ray) -
                                           rays_before_.begin() - 1);
     };
-    for (double from = first; from < end; from += size) {
+    for (double from = first; from < end; from = pieces_.back().to) {
+        const double size =
+            std::clamp(std::ceil((end - from) / pieces_of_rest), least_piece, largest_piece);
         const double to = std::min(from + size, end);
         pieces_.push_back({sender_of(from + 1), sender_of(to) + 1, from, to});
     }
-    return size;
+    return largest_piece;
 }
 
 void ShootingSolver::order(std::size_t sender, const Piece& piece, const Dealing& dealing,
