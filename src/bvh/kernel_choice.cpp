@@ -1,6 +1,7 @@
 #include "bvh/kernel_choice.h"
 
-#include <cstdlib>
+#include "geometry/instruction_set.h"
+
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,25 +20,23 @@ extern const Kernels kernels;
 
 namespace {
 
-std::vector<const Kernels*> find_available() {
-    std::vector<const Kernels*> found;
+const Kernels* kernels_of(InstructionSet set) {
 #if defined(HEMILUX_X86_KERNELS)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        found.push_back(&avx512::kernels);
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        found.push_back(&avx2::kernels);
+    if (set == InstructionSet::avx512)
+        return &avx512::kernels;
+    if (set == InstructionSet::avx2)
+        return &avx2::kernels;
+#else
+    (void)set; // there is but one
 #endif
-    found.push_back(&baseline::kernels);
-    return found;
+    return &baseline::kernels;
 }
 
-const Kernels* named(std::string_view name) {
-    for (const Kernels* kernels : available_kernels())
-        if (name == kernels->name)
-            return kernels;
-    return nullptr;
+std::vector<const Kernels*> find_available() {
+    std::vector<const Kernels*> found;
+    for (const InstructionSet set : available_instruction_sets())
+        found.push_back(kernels_of(set));
+    return found;
 }
 
 } // namespace
@@ -48,13 +47,11 @@ std::span<const Kernels* const> available_kernels() {
 }
 
 const Kernels& find_kernels(std::string_view name) {
-    if (name.empty()) {
-        const char* wanted = std::getenv("HEMILUX_KERNELS");
-        const Kernels* kernels = wanted ? named(wanted) : nullptr;
-        return kernels ? *kernels : *available_kernels().front();
-    }
-    if (const Kernels* kernels = named(name))
-        return *kernels;
+    if (name.empty())
+        return *kernels_of(chosen_instruction_set());
+    for (const Kernels* kernels : available_kernels())
+        if (name == kernels->name)
+            return *kernels;
     throw std::invalid_argument("no ray kernels named " + std::string(name) + " on this machine");
 }
 

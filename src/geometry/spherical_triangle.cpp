@@ -42,9 +42,9 @@ void SphericalTriangle::set_hull() {
     const auto reach_of_all = [&](Vec2 towards) {
         return std::max({reach(0, towards), reach(1, towards), reach(2, towards)});
     };
-    hull_corner_ = {-reach_of_all({-1, 0}), -reach_of_all({0, -1})};
-    const Vec2 extent = Vec2(reach_of_all({1, 0}), reach_of_all({0, 1})) - hull_corner_;
-    hull_edge_ = {Vec2(extent.x, 0), Vec2(0, extent.y)};
+    hull_.corner = {-reach_of_all({-1, 0}), -reach_of_all({0, -1})};
+    const Vec2 extent = Vec2(reach_of_all({1, 0}), reach_of_all({0, 1})) - hull_.corner;
+    hull_.edge = {Vec2(extent.x, 0), Vec2(0, extent.y)};
 
     std::array<Vec2, 3> outward{}, corner{}; // of each chord; corner i lies before side i
     std::array<double, 3> height{};
@@ -61,9 +61,9 @@ void SphericalTriangle::set_hull() {
     const Vec2 first = corner[1] - corner[0], second = corner[2] - corner[0];
     const double area = 0.5 * (first.x * second.y - first.y * second.x);
     if (area > 0 && area < extent.x * extent.y) {
-        hull_corner_ = corner[0];
-        hull_edge_ = {first, second};
-        hull_is_half_ = true;
+        hull_.corner = corner[0];
+        hull_.edge = {first, second};
+        hull_.is_half = true;
     }
 }
 

@@ -34,6 +34,16 @@ class SphericalTriangle {
     /// The u that `sample` maps to this direction; empty outside.
     [[nodiscard]] std::optional<Vec2> inverse(const Vec3& direction) const;
 
+    /// Unit normals of the planes of the sides, inwards.
+    [[nodiscard]] const std::array<Vec3, 3>& planes() const { return normal_; }
+    /// Around the projection to the unit disc: a parallelogram, or its first half.
+    struct Hull {
+        Vec2 corner{0.0};
+        std::array<Vec2, 2> edge{Vec2(0.0), Vec2(0.0)};
+        bool is_half = false;
+    };
+    [[nodiscard]] const Hull& hull() const { return hull_; }
+
     /// The same distribution by rejection: the projection to the unit disc makes cosine-weighted
     /// directions uniform, so points uniform in a simple shape around the projection are kept when
     /// they lie inside. `uniform()` yields doubles uniform in [0,1). Several times faster than
@@ -48,10 +58,7 @@ class SphericalTriangle {
 
     std::array<Vec3, 3> vertex_{};
     std::array<Vec3, 3> normal_{}; ///< of the planes of the edges, unit, inwards
-    // Around the projection: a parallelogram, or its first half.
-    Vec2 hull_corner_{0.0};
-    std::array<Vec2, 2> hull_edge_{Vec2(0.0), Vec2(0.0)};
-    bool hull_is_half_ = false;
+    Hull hull_;
     PolarWarp warp_;
 };
 
@@ -63,9 +70,9 @@ Vec3 SphericalTriangle::sample_rejection(Uniform&& uniform) const {
     for (int i = 0; i < most_tries; ++i) {
         const double u = uniform(), v = uniform();
         // The second half is folded onto the first. No branches: they would be guessed wrong.
-        const auto fold = static_cast<double>(hull_is_half_ & (u + v > 1));
+        const auto fold = static_cast<double>(hull_.is_half & (u + v > 1));
         const Vec2 p =
-            hull_corner_ + std::abs(fold - u) * hull_edge_[0] + std::abs(fold - v) * hull_edge_[1];
+            hull_.corner + std::abs(fold - u) * hull_.edge[0] + std::abs(fold - v) * hull_.edge[1];
         const double z_squared = 1.0 - glm::dot(p, p);
         const Vec3 d(p, std::sqrt(std::max(z_squared, 0.0)));
         const double inside = std::min(std::min(glm::dot(normal_[0], d), glm::dot(normal_[1], d)),

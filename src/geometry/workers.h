@@ -57,6 +57,22 @@ class Workers {
             std::rethrow_exception(failure);
     }
 
+    /// As for_chunks, with body(own, begin, end): each thread that takes part keeps what make()
+    /// gives it, for all of its chunks.
+    template <class Make, class Body>
+    void for_chunks_with(std::size_t count, std::size_t chunk, const Make& make,
+                         const Body& body) const {
+        const std::size_t chunks = (count + chunk - 1) / chunk;
+        std::atomic<std::size_t> next{0};
+        for_chunks(std::min<std::size_t>(threads_, chunks), 1, [&](std::size_t, std::size_t) {
+            std::size_t c = next++;
+            if (c >= chunks)
+                return;
+            for (auto own = make(); c < chunks; c = next++)
+                body(own, c * chunk, std::min(count, (c + 1) * chunk));
+        });
+    }
+
     /// Calls body(k) for each k in [0, count) on any thread, and take(k) once it has returned:
     /// in the order of k, never two at a time, while others go on with their bodies.
     template <class Body, class Take>

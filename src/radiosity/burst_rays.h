@@ -2,9 +2,7 @@
 // Rays that are listed are drawn: where on their patch they start, and where they go.
 
 #include "bvh/tracer.h"
-#include "geometry/frame.h"
-#include "geometry/polygon_sampler.h"
-#include "radiosity/rng.h"
+#include "radiosity/patch_starts.h"
 #include "radiosity/strategy.h"
 
 #include <cstdint>
@@ -28,7 +26,8 @@ struct Burst {
 /// From where and into what.
 struct RaySource {
     const Mesh& mesh;
-    const Hemisphere& hemisphere;
+    const PatchStarts& starts;
+    const CellDirections& directions;
     const Strategy& strategy;
     bool literal;
 };
@@ -45,30 +44,30 @@ class BurstRays {
     [[nodiscard]] std::span<const Ray> next();
 
   private:
-    /// What all bursts of a patch have in common.
-    struct From {
-        std::uint32_t patch;
-        PolygonSampler shape;
-        Frame frame;
-        Rng rng;
+    /// Rays of one burst among those that are drawn now.
+    struct Run {
+        std::uint32_t patch, rays;
+        std::uint16_t cell;
+        std::uint32_t own; ///< place in own_ if the cell is private, else none
     };
-    /// Where the rays of a burst start and where they go.
-    struct Aim {
-        std::optional<PolygonSampler> part; ///< where rays of a private cell start
-        std::optional<Vec3> centre;         ///< all from there
-        std::optional<SphericalTriangle> own;
-        const SphericalTriangle* triangle = nullptr; ///< nullptr: the whole hemisphere
-    };
-    void begin(Burst& burst);
-    void draw(std::span<Ray> rays);
+    void list();
+    void list(Burst& burst, std::uint32_t rays);
+    void fill(const Run& run, std::size_t first);
+    void fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
+                      std::span<Ray> rays);
 
     const RaySource& source_;
     std::span<Burst> bursts_;
     std::uint64_t seed_;
     std::vector<Ray>& rays_;
-    std::uint32_t drawn_ = 0; ///< of the first of bursts_
-    std::optional<From> from_;
-    Aim aim_;
+    std::uint32_t drawn_ = 0;     ///< of the first of bursts_
+    std::uint32_t listed_ = none; ///< the patch of that
+    std::uint32_t number_ = 0;    ///< of that patch's next ray
+    std::uint64_t key_ = 0;       ///< of that patch's random numbers
+    std::vector<Run> runs_;
+    std::vector<PrivateCell> own_;
+    DirectionBatch batch_;
+    std::optional<PatchStart> start_; ///< memory of one
 };
 
 } // namespace hemilux

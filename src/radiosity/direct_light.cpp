@@ -75,13 +75,15 @@ struct DirectLight::Volley {
     std::uint64_t traced = 0;
 };
 
+DirectLight::Shape::Shape(const Patch& of) : patch(&of), points(of.shape), radius(radius_of(of)) {}
+
 DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                          std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds)
     : mesh_(mesh), tracer_(tracer), needs_(needs), emitters_(emitters), choice_(mesh, emitters),
       seeds_(std::move(seeds)), sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)),
       samples_(mesh.patches().size()), hits_(mesh.patches().size()) {
     for (const std::uint32_t e : emitters_)
-        shapes_.push_back({PolygonSampler(mesh.patches()[e].shape), radius_of(mesh.patches()[e])});
+        lamps_.push_back({Shape(mesh.patches()[e]), mesh.material(e).emission});
 }
 
 Vec3 DirectLight::irradiance(std::uint32_t patch) const {
@@ -115,31 +117,35 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, EmitterChoice::
     choice_.weigh(patch, cut);
     if (cut.dark())
         return;
-    const Patch& receiver = mesh_.patches()[patch];
-    const PolygonSampler origins(receiver.shape);
-    const double radius = radius_of(receiver);
+    const Shape receiver(mesh_.patches()[patch]);
+    EmitterChoice::Choices choices;
     for (std::uint32_t s = 0; s < seeds_.size(); ++s) {
-        const std::uint64_t seed = hash_words({seeds_[s], patch});
-        for (std::uint32_t k = begin; k < end; ++k) {
-            const auto u = sobol5(k, seed);
-            const auto [e, chance] = choice_.choose(cut, u[4]);
-            if (emitters_[e] == patch)
-                continue;
-            const Patch& emitter = mesh_.patches()[emitters_[e]];
-            const bool distant = glm::distance(receiver.centre, emitter.centre) >
-                                 radius + (1 + distant_radii) * shapes_[e].radius;
-            const Sightline sight = look_at(receiver, origins, emitter, shapes_[e].points,
-                                            {u[0], u[1], u[2], u[3]}, distant);
-            if (!(sight.factor > 0))
-                continue;
-            volley.samples.push_back(
-                {patch, s, sight.factor / chance * mesh_.material(emitters_[e]).emission});
-            volley.rays.push_back(sight.ray);
-            volley.targets.push_back(emitter.facet);
-            if (volley.rays.size() == rays_at_a_time)
+        SobolBlocks<5> points(hash_words({seeds_[s], patch}));
+        for (std::uint32_t k = begin; k < end;) {
+            points.move_to(k);
+            choice_.choose(cut, points.coordinate(4), choices);
+            for (bool in_block = true; in_block && k < end; in_block = ++k % samples_per_block != 0)
+                look(patch, s, receiver, points.point(k), choices[k % samples_per_block], volley);
+            if (volley.rays.size() >= rays_at_a_time)
                 send(volley);
         }
     }
+}
+
+void DirectLight::look(std::uint32_t patch, std::uint32_t estimate, const Shape& receiver,
+                       const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
+                       Volley& volley) const {
+    const Emitter& emitter = lamps_[choice.emitter];
+    const double near = receiver.radius + (1 + distant_radii) * emitter.radius;
+    const Vec3 d = receiver.patch->centre - emitter.patch->centre;
+    Ray ray{};
+    const double factor = look_at(*receiver.patch, receiver.points, *emitter.patch, emitter.points,
+                                  {u[0], u[1], u[2], u[3]}, glm::dot(d, d) > near * near, ray);
+    if (!(factor > 0))
+        return;
+    volley.samples.push_back({patch, estimate, factor / choice.chance * emitter.emission});
+    volley.rays.push_back(ray);
+    volley.targets.push_back(emitter.patch->facet);
 }
 
 void DirectLight::send(Volley& volley) {

@@ -21,6 +21,7 @@
 namespace hemilux {
 
 class Mesh;
+struct Patch;
 class StateReader;
 class StateWriter;
 struct Monitor;
@@ -63,8 +64,20 @@ class DirectLight {
     void load(StateReader& state);
 
   private:
+    struct Shape {
+        explicit Shape(const Patch& of);
+        const Patch* patch;
+        PolygonSampler points;
+        double radius; ///< from the centre
+    };
+    struct Emitter : Shape {
+        Vec3 emission;
+    };
     struct Volley;
     void sample(std::uint32_t patch, std::uint32_t end, EmitterChoice::Cut& cut, Volley& volley);
+    void look(std::uint32_t patch, std::uint32_t estimate, const Shape& receiver,
+              const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
+              Volley& volley) const;
     void send(Volley& volley);
 
     const Mesh& mesh_;
@@ -75,11 +88,7 @@ class DirectLight {
     std::vector<std::uint64_t> seeds_;
     std::vector<Vec3> sum_; ///< by patch and estimate
     std::vector<std::uint32_t> samples_, hits_;
-    struct Shape {
-        PolygonSampler points;
-        double radius; ///< from the centre
-    };
-    std::vector<Shape> shapes_; ///< of the emitters
+    std::vector<Emitter> lamps_;
 };
 
 } // namespace hemilux

@@ -1,11 +1,12 @@
 #include "radiosity/emitter_choice.h"
 
 #include "radiosity/mesh.h"
-#include "radiosity/pair_factor.h"
 #include "radiosity/shot.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -13,14 +14,8 @@
 namespace hemilux {
 namespace {
 
-/// That a patch weighs.
-constexpr std::size_t most_clusters = 128;
-
-/// The place of u among running sums.
-std::size_t place_of(double u, std::span<const double> sums) {
-    const auto drawn = std::ranges::upper_bound(sums, u);
-    return std::min(static_cast<std::size_t>(drawn - sums.begin()), sums.size() - 1);
-}
+/// Emitters that a patch weighs one by one; else so many clusters.
+constexpr std::size_t most_emitters = 512, most_clusters = 128;
 
 } // namespace
 
@@ -33,6 +28,59 @@ EmitterChoice::EmitterChoice(const Mesh& mesh, std::span<const std::uint32_t> em
         divide(add(0, static_cast<std::uint32_t>(order_.size())));
     for (const std::uint32_t place : order_)
         power_sums_.push_back(power_sums_.back() + power_of(place));
+    list_emitters();
+}
+
+void EmitterChoice::list_emitters() {
+    for (const std::uint32_t place : order_) {
+        const Patch& patch = mesh_.patches()[emitters_[place]];
+        auto array = arrays_.begin();
+        const auto add = [&](double x) { (array++)->push_back(x); };
+        const auto add_point = [&](const Vec3& p) {
+            for (int axis = 0; axis < 3; ++axis)
+                add(p[axis]);
+        };
+        add_point(patch.centre);
+        add_point(patch.normal);
+        for (const Vec3& corner : patch.shape.corner)
+            add_point(corner);
+        add(patch.area);
+        add(std::sqrt(patch.area));
+        add(mean_of_channels(mesh_.material(emitters_[place]).emission));
+    }
+}
+
+/// Without those before place k.
+EmitterArrays EmitterChoice::arrays_from(std::size_t k) const {
+    EmitterArrays arrays{};
+    auto array = arrays_.begin();
+    const auto next = [&] { return (array++)->data() + k; };
+    const auto next_point = [&](const double*(&point)[3]) {
+        for (const double*& axis : point)
+            axis = next();
+    };
+    next_point(arrays.centre);
+    next_point(arrays.normal);
+    for (auto& corner : arrays.corner)
+        next_point(corner);
+    arrays.area = next();
+    arrays.side = next();
+    arrays.light = next();
+    return arrays;
+}
+
+EmitterReceiver EmitterChoice::receiver_at(std::uint32_t patch) const {
+    const Patch& from = mesh_.patches()[patch];
+    EmitterReceiver receiver{};
+    for (int axis = 0; axis < 3; ++axis) {
+        receiver.centre[axis] = from.centre[axis];
+        receiver.normal[axis] = from.normal[axis];
+        for (std::size_t i = 0; i < from.shape.corner.size(); ++i)
+            receiver.corner[i][axis] = from.shape.corner[i][axis];
+    }
+    receiver.side = std::sqrt(from.area);
+    receiver.radius = radius_[patch];
+    return receiver;
 }
 
 const Vec3& EmitterChoice::centre(std::uint32_t place) const {
@@ -85,34 +133,24 @@ void EmitterChoice::divide(std::uint32_t cluster) {
     divide(right);
 }
 
-/// How much the mean square of the kernel exceeds the square of its value between the centres, as
-/// points of the receiver come nearer to the emitter.
-double EmitterChoice::excess(std::uint32_t receiver, double distance, double area) const {
-    const double nearest = std::max(distance - radius_[receiver], 0.0);
-    return (std::numbers::pi * distance * distance + area) /
-           (std::numbers::pi * nearest * nearest + area);
-}
-
-double EmitterChoice::weight_of_one(std::uint32_t receiver, std::uint32_t emitter) const {
-    const Patch &to = mesh_.patches()[receiver], &from = mesh_.patches()[emitter];
-    if (emitter == receiver || !may_see(to, from))
-        return 0;
-    return mean_of_channels(mesh_.material(emitter).emission) * rough_factor(to, from) *
-           std::sqrt(excess(receiver, glm::distance(to.centre, from.centre), from.area));
-}
-
 /// Rather too large than too small, and 0 only where no light can come from.
 double EmitterChoice::weight(std::uint32_t receiver, const Cluster& cluster) const {
-    if (cluster.left == 0)
-        return weight_of_one(receiver, emitters_[order_[cluster.begin]]);
     const Patch& to = mesh_.patches()[receiver];
+    if (cluster.left == 0) {
+        double weight = 0;
+        sampling_kernels().weigh_emitters(arrays_from(cluster.begin), 1, receiver_at(receiver),
+                                          &weight);
+        return weight;
+    }
     const Vec3 d = cluster.centre - to.centre;
     const double reach = cluster.radius + radius_[receiver], r = glm::length(d);
     const double height = glm::dot(to.normal, d) + reach;
     const double cosine = r > reach ? std::min(height / r, 1.0) : 1.0;
     const double area = std::numbers::pi * cluster.radius * cluster.radius;
-    return cosine > 0 ? cluster.power * cosine / (std::numbers::pi * r * r + area) *
-                            std::sqrt(excess(receiver, r, area))
+    const double nearest = std::max(r - radius_[receiver], 0.0);
+    const double square = std::numbers::pi * r * r + area;
+    return cosine > 0 ? cluster.power * cosine / square *
+                            std::sqrt(square / (std::numbers::pi * nearest * nearest + area))
                       : 0;
 }
 
@@ -123,17 +161,27 @@ double EmitterChoice::nearness(std::uint32_t receiver, const Cluster& cluster) c
     return cluster.left == 0 ? 0 : cluster.radius / std::max(gap, 1e-3 * cluster.radius);
 }
 
-/// The cluster that is nearest for its size is divided as long as there is room.
 void EmitterChoice::weigh(std::uint32_t receiver, Cut& cut) const {
     cut.clusters.clear();
-    cut.sums.clear();
-    if (clusters_.empty())
-        return;
+    if (order_.size() > most_emitters)
+        weigh_clusters(receiver, cut);
+    else {
+        cut.sums.resize(order_.size() + 1);
+        sampling_kernels().weigh_emitters(arrays_from(0), order_.size(), receiver_at(receiver),
+                                          cut.sums.data() + 1);
+    }
+    cut.sum = cut.sums[0] = 0;
+    for (std::size_t k = 1; k < cut.sums.size(); ++k)
+        cut.sums[k] = cut.sum += cut.sums[k];
+    cut.sums.resize(std::bit_ceil(cut.sums.size()), std::numeric_limits<double>::infinity());
+}
+
+/// The cluster that is nearest for its size is divided as long as there is room.
+void EmitterChoice::weigh_clusters(std::uint32_t receiver, Cut& cut) const {
     using Near = std::pair<double, std::uint32_t>;
     thread_local std::vector<Near> heap;
     heap.assign(1, {nearness(receiver, clusters_.front()), 0});
-    const std::size_t room = std::min(most_clusters, order_.size());
-    while (heap.size() < room) {
+    while (heap.size() < most_clusters) {
         std::ranges::pop_heap(heap);
         const Cluster& cluster = clusters_[heap.back().second];
         if (cluster.left == 0)
@@ -143,24 +191,39 @@ void EmitterChoice::weigh(std::uint32_t receiver, Cut& cut) const {
         heap.push_back({nearness(receiver, clusters_[cluster.right]), cluster.right});
         std::ranges::push_heap(heap);
     }
-    double sum = 0;
+    cut.sums.assign(1, 0.0);
     for (const Near& near : heap) {
         cut.clusters.push_back(near.second);
-        cut.sums.push_back(sum += weight(receiver, clusters_[near.second]));
+        cut.sums.push_back(weight(receiver, clusters_[near.second]));
     }
 }
 
-EmitterChoice::Choice EmitterChoice::choose(const Cut& cut, double u) const {
-    const double all = cut.sums.back();
-    const double at = std::min(u * all, std::nextafter(all, 0.0));
-    const std::size_t c = place_of(at, cut.sums);
-    const double before = c > 0 ? cut.sums[c - 1] : 0, width = cut.sums[c] - before;
-    const Cluster& cluster = clusters_[cut.clusters[c]];
+void EmitterChoice::choose(const Cut& cut, const double* u, Choices& choices) const {
+    std::array<double, samples_per_block> at;
+    std::array<std::uint64_t, samples_per_block> places;
+    const double end = std::nextafter(cut.sum, 0.0);
+    for (std::size_t k = 0; k < at.size(); ++k)
+        at[k] = std::min(u[k] * cut.sum, end);
+    sampling_kernels().find_places(cut.sums.data(), cut.sums.size(), at.size(), at.data(),
+                                   places.data());
+    for (std::size_t k = 0; k < at.size(); ++k) {
+        const double before = cut.sums[places[k]], width = cut.sums[places[k] + 1] - before;
+        Choice& choice = choices[k];
+        if (cut.clusters.empty())
+            choice = {order_[places[k]], 1};
+        else
+            choice = choose_within(clusters_[cut.clusters[places[k]]], (at[k] - before) / width);
+        choice.chance *= width / cut.sum;
+    }
+}
+
+/// By the power of its emitters.
+EmitterChoice::Choice EmitterChoice::choose_within(const Cluster& cluster, double share) const {
     const std::span powers(&power_sums_[cluster.begin + 1], cluster.end - cluster.begin);
     const double first = power_sums_[cluster.begin], power = powers.back() - first;
-    const std::size_t k = place_of(first + (at - before) / width * power, powers);
-    const double own = powers[k] - power_sums_[cluster.begin + k];
-    return {order_[cluster.begin + k], width / all * own / power};
+    const auto drawn = std::ranges::upper_bound(powers, first + share * power);
+    const auto k = std::min(static_cast<std::size_t>(drawn - powers.begin()), powers.size() - 1);
+    return {order_[cluster.begin + k], (powers[k] - power_sums_[cluster.begin + k]) / power};
 }
 
 } // namespace hemilux

@@ -2,7 +2,7 @@
 // Which emitter a shadow ray of a patch goes to: drawn by the light that each would send there if
 // nothing stood between.
 //
-// With up to 128 emitters each is weighed by itself. Where there are more, they form a tree of
+// With up to 512 emitters each is weighed by itself. Where there are more, they form a tree of
 // clusters, and each patch weighs 128 of these: near ones are divided, far ones are not (as in
 // Walter et al. 2005, "Lightcuts"); within a cluster emitters are drawn by their power. So the work
 // for a patch does not grow with the emitters. Any emitter that may send light there has a chance,
@@ -13,7 +13,9 @@
 // drawn by the mean alone, those few rays would make most of the error.
 
 #include "geometry/vector.h"
+#include "radiosity/sampling_kernels.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,12 +29,14 @@ class EmitterChoice {
     /// `emitters`: patches that emit; they outlive this.
     EmitterChoice(const Mesh& mesh, std::span<const std::uint32_t> emitters);
 
-    /// What a patch weighs: clusters, and running sums of their weights.
+    /// What a patch weighs: emitters or clusters, and running sums of their weights.
     struct Cut {
-        std::vector<std::uint32_t> clusters;
+        std::vector<std::uint32_t> clusters; ///< empty: it is all emitters, in their order
+        /// One more than there are weights, from 0; then infinity, up to a power of two.
         std::vector<double> sums;
+        double sum = 0;
         /// No light can come from anywhere.
-        [[nodiscard]] bool dark() const { return sums.empty() || !(sums.back() > 0); }
+        [[nodiscard]] bool dark() const { return !(sum > 0); }
     };
     /// For choose().
     void weigh(std::uint32_t receiver, Cut& cut) const;
@@ -41,8 +45,9 @@ class EmitterChoice {
         std::uint32_t emitter; ///< its place among the emitters
         double chance;         ///< with which it is drawn
     };
-    /// `u` in [0, 1), from a cut that is not dark.
-    [[nodiscard]] Choice choose(const Cut& cut, double u) const;
+    using Choices = std::array<Choice, samples_per_block>;
+    /// One for each of sixteen numbers in [0, 1), from a cut that is not dark.
+    void choose(const Cut& cut, const double* u, Choices& choices) const;
 
   private:
     struct Cluster {
@@ -54,10 +59,13 @@ class EmitterChoice {
     };
     std::uint32_t add(std::uint32_t begin, std::uint32_t end);
     void divide(std::uint32_t cluster);
+    void list_emitters();
+    [[nodiscard]] EmitterArrays arrays_from(std::size_t k) const;
+    [[nodiscard]] EmitterReceiver receiver_at(std::uint32_t patch) const;
+    void weigh_clusters(std::uint32_t receiver, Cut& cut) const;
+    [[nodiscard]] Choice choose_within(const Cluster& cluster, double share) const;
     [[nodiscard]] double power_of(std::uint32_t place) const;
-    [[nodiscard]] double excess(std::uint32_t receiver, double distance, double area) const;
     [[nodiscard]] double weight(std::uint32_t receiver, const Cluster& cluster) const;
-    [[nodiscard]] double weight_of_one(std::uint32_t receiver, std::uint32_t emitter) const;
     [[nodiscard]] double nearness(std::uint32_t receiver, const Cluster& cluster) const;
     [[nodiscard]] const Vec3& centre(std::uint32_t place) const;
 
@@ -67,6 +75,8 @@ class EmitterChoice {
     std::vector<double> power_sums_;   ///< by order_, one more: of all before
     std::vector<Cluster> clusters_;    ///< the first is all of them
     std::vector<double> radius_;       ///< of each patch, from its centre
+    /// By order_: centre, normal, four corners, area, side, light.
+    std::array<std::vector<double>, 21> arrays_;
 };
 
 } // namespace hemilux

@@ -9,61 +9,137 @@
 #include "radiosity/state.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <utility>
 
 namespace hemilux {
 namespace {
 
-constexpr std::size_t rows_per_chunk = 16;
-
 /// A row with more of them is traced in parts.
 constexpr std::uint32_t rays_in_burst = 1u << 14;
+
+/// Some of a block's rays. Of the four dimensions the first two are the best distributed.
+void draw(const Patch& from, const PolygonSampler& origins, const Frame& frame,
+          const SobolBlocks<4>& points, std::size_t first, std::size_t count,
+          std::vector<Ray>& rays) {
+    std::array<double, samples_per_block> x, y, z;
+    sampling_kernels().cosine(samples_per_block, points.coordinate(0), points.coordinate(1),
+                              x.data(), y.data(), z.data());
+    for (std::size_t k = first; k < first + count; ++k) {
+        const Vec2 u(points.coordinate(2)[k], points.coordinate(3)[k]);
+        rays.push_back({origins.sample(u), frame.to_world({x[k], y[k], z[k]})});
+        rays.back().from = from.facet;
+    }
+}
 
 } // namespace
 
 RayCounts::RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed)
-    : mesh_(mesh), tracer_(tracer), seed_(seed), rows_(mesh.patches().size()) {}
+    : mesh_(mesh), tracer_(tracer), seed_(seed), rows_(mesh.patches().size()),
+      blocks_((rows_.size() + rows_per_block - 1) / rows_per_block) {}
 
-/// Rays of some rows that are not traced yet.
+/// A block of rows, written anew with what was struck since.
+class RayCounts::Tally {
+  public:
+    explicit Tally(std::size_t patches) : place_(patches) {}
+
+    /// One row more, which has these already.
+    void begin_row(std::span<const Count> counted) {
+        end_row();
+        for (const Count& count : counted) {
+            counts_.push_back(count);
+            place_[count.patch] = size();
+        }
+        ends_.push_back(size());
+    }
+    /// To the last row.
+    void add(std::uint32_t patch) {
+        std::uint32_t& place = place_[patch];
+        if (place == 0) {
+            counts_.push_back({patch, 0});
+            place = size();
+        }
+        ++counts_[place - 1].hits;
+    }
+    void end_row() {
+        if (ends_.empty())
+            return;
+        for (std::size_t k = ends_.size() > 1 ? ends_[ends_.size() - 2] : 0; k < size(); ++k)
+            place_[counts_[k].patch] = 0;
+        ends_.back() = size();
+    }
+    void clear() {
+        counts_.clear();
+        ends_.clear();
+    }
+    [[nodiscard]] std::span<const Count> counts() const { return counts_; }
+    /// By row.
+    [[nodiscard]] std::span<const std::uint32_t> ends() const { return ends_; }
+
+  private:
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(counts_.size()); }
+
+    std::vector<Count> counts_;
+    std::vector<std::uint32_t> ends_;
+    std::vector<std::uint32_t> place_; ///< by patch, in the last row: one more than its index, or 0
+};
+
+/// Rays of some rows of a block that are not traced yet, and what those before have struck.
 struct RayCounts::Volley {
+    explicit Volley(std::size_t patches) : tally(patches) {}
+
     struct Burst {
         std::uint32_t patch, rays;
     };
     std::vector<Burst> bursts;
     std::vector<Ray> rays;
-    std::vector<std::uint32_t> receivers, struck;
+    std::vector<std::uint32_t> receivers;
+    std::uint32_t first_row = 0; ///< of the block
+    Tally tally;
     std::uint64_t traced = 0;
 };
 
 std::uint64_t RayCounts::trace_up_to(std::span<const std::uint32_t> rays, const Workers& workers,
                                      Monitor& monitor) {
     std::atomic<std::uint64_t> traced{0};
-    workers.for_chunks(rows_.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-        Volley volley;
-        for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
-            if (rays[i] > rows_[i].rays)
-                draw_row(static_cast<std::uint32_t>(i), rays[i], volley);
-        trace(volley);
-        traced += volley.traced;
-        monitor.rays += volley.traced;
-    });
+    workers.for_chunks_with(
+        rows_.size(), rows_per_block, [&] { return Volley(rows_.size()); },
+        [&](Volley& volley, std::size_t begin, std::size_t end) {
+            trace_block(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), rays,
+                        volley, monitor);
+            traced += volley.traced;
+            monitor.rays += std::exchange(volley.traced, 0);
+        });
     return traced;
+}
+
+void RayCounts::trace_block(std::uint32_t begin, std::uint32_t end,
+                            std::span<const std::uint32_t> rays, Volley& volley,
+                            const Monitor& monitor) {
+    volley.first_row = begin;
+    for (std::uint32_t i = begin; i < end && !monitor.interrupted; ++i)
+        if (rays[i] > rows_[i].rays)
+            draw_row(i, rays[i], volley);
+    trace(volley);
+    if (volley.traced > 0)
+        store(begin, end, volley.tally);
 }
 
 void RayCounts::draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley) {
     const Patch& from = mesh_.patches()[patch];
     const PolygonSampler origins(from.shape);
-    const Frame frame = mesh_.hemisphere_frame(patch);
-    const std::uint64_t seed = hash_words({seed_, patch});
+    const Frame frame = Frame::from_normal(from.normal);
+    SobolBlocks<4> points(hash_words({seed_, patch}));
     while (rows_[patch].rays < end) {
         const std::uint32_t first = rows_[patch].rays;
         const std::uint32_t last = first + std::min(end - first, rays_in_burst);
-        for (std::uint32_t k = first; k < last; ++k) {
-            // Of the four dimensions the first two are the best distributed.
-            const auto u = sobol4(k, seed);
-            Ray ray{origins.sample({u[2], u[3]}), frame.to_world(cosine_direction({u[0], u[1]}))};
-            ray.from = from.facet;
-            volley.rays.push_back(ray);
+        for (std::uint32_t k = first; k < last;) {
+            const std::size_t in_block = k % samples_per_block;
+            const auto count = std::min<std::size_t>(samples_per_block - in_block, last - k);
+            points.move_to(k);
+            draw(from, origins, frame, points, in_block, count, volley.rays);
+            k += static_cast<std::uint32_t>(count);
         }
         volley.bursts.push_back({patch, last - first});
         rows_[patch].rays = last;
@@ -76,50 +152,41 @@ void RayCounts::trace(Volley& volley) {
     volley.receivers.clear();
     find_receivers(volley.rays, mesh_, tracer_, volley.receivers);
     auto next = volley.receivers.cbegin();
+    Tally& tally = volley.tally;
     for (const auto& [patch, rays] : volley.bursts) {
-        volley.struck.clear();
+        while (volley.first_row + tally.ends().size() <= patch)
+            tally.begin_row(
+                row(volley.first_row + static_cast<std::uint32_t>(tally.ends().size())));
         for (const auto end = next + rays; next != end; ++next) {
             if (*next == hemilux::escaped)
                 ++rows_[patch].escaped;
             else if (*next == hemilux::absorbed)
                 ++rows_[patch].absorbed;
             else
-                volley.struck.push_back(*next);
+                tally.add(*next);
         }
-        rows_[patch].add(volley.struck);
     }
     volley.traced += volley.rays.size();
     volley.rays.clear();
     volley.bursts.clear();
 }
 
-void RayCounts::Row::add(std::vector<std::uint32_t>& struck) {
-    std::ranges::sort(struck);
-    std::vector<Count> merged;
-    merged.reserve(counts.size() + struck.size());
-    auto old = counts.begin();
-    for (auto next = struck.begin(); next != struck.end();) {
-        const std::uint32_t patch = *next;
-        const auto end = std::find_if(next, struck.end(), [&](auto p) { return p != patch; });
-        auto hits = static_cast<std::uint32_t>(end - next);
-        next = end;
-        for (; old != counts.end() && old->patch < patch; ++old)
-            merged.push_back(*old);
-        if (old != counts.end() && old->patch == patch)
-            hits += (old++)->hits;
-        merged.push_back({patch, hits});
-    }
-    merged.insert(merged.end(), old, counts.end());
-    merged.shrink_to_fit();
-    counts = std::move(merged);
+void RayCounts::store(std::uint32_t begin, std::uint32_t end, Tally& tally) {
+    for (std::uint32_t i = begin + static_cast<std::uint32_t>(tally.ends().size()); i < end; ++i)
+        tally.begin_row(row(i));
+    tally.end_row();
+    for (std::uint32_t i = begin; i < end; ++i)
+        rows_[i].end = tally.ends()[i - begin];
+    blocks_[begin / rows_per_block].assign(tally.counts().begin(), tally.counts().end());
+    tally.clear();
 }
 
 void RayCounts::save(StateWriter& state) const {
-    for (const Row& row : rows_) {
-        for (const std::uint32_t rays : {row.rays, row.escaped, row.absorbed})
+    for (std::uint32_t i = 0; i < rows_.size(); ++i) {
+        for (const std::uint32_t rays : {rows_[i].rays, rows_[i].escaped, rows_[i].absorbed})
             state.add(rays);
-        state.add(std::uint64_t{row.counts.size()});
-        for (const Count& count : row.counts) {
+        state.add(std::uint64_t{row(i).size()});
+        for (const Count& count : row(i)) {
             state.add(count.patch);
             state.add(count.hits);
         }
@@ -127,35 +194,36 @@ void RayCounts::save(StateWriter& state) const {
 }
 
 void RayCounts::load(StateReader& state) {
-    for (Row& row : rows_) {
-        for (std::uint32_t* rays : {&row.rays, &row.escaped, &row.absorbed})
+    std::vector<std::uint32_t> last_row(rows_.size(), none);
+    for (std::uint32_t i = 0; i < rows_.size(); ++i) {
+        for (std::uint32_t* rays : {&rows_[i].rays, &rows_[i].escaped, &rows_[i].absorbed})
             state.get(*rays);
-        row.counts.resize(state.count(sizeof(Count)));
-        for (Count& count : row.counts) {
+        std::uint64_t sum = std::uint64_t{rows_[i].escaped} + rows_[i].absorbed;
+        std::vector<Count>& block = blocks_[i / rows_per_block];
+        for (std::size_t left = state.count(sizeof(Count)); left > 0; --left) {
+            Count count{};
             state.get(count.patch);
             state.get(count.hits);
+            const bool once =
+                count.patch < rows_.size() && std::exchange(last_row[count.patch], i) != i;
+            if (!once || count.hits == 0)
+                throw StateError("a patch is no patch, or counted twice");
+            sum += count.hits;
+            block.push_back(count);
         }
-        if (!row.adds_up(rows_.size()))
+        // Every ray was struck by something, once.
+        if (sum != rows_[i].rays)
             throw StateError("rays of a patch do not add up");
+        rows_[i].end = static_cast<std::uint32_t>(block.size());
+        if (i + 1 == rows_.size() || (i + 1) % rows_per_block == 0)
+            block.shrink_to_fit();
     }
-}
-
-/// Every ray was struck by something, once, and receivers stand in their order.
-bool RayCounts::Row::adds_up(std::size_t patches) const {
-    std::uint64_t sum = std::uint64_t{escaped} + absorbed, next = 0;
-    for (const Count& count : counts) {
-        if (count.patch < next || count.patch >= patches || count.hits == 0)
-            return false;
-        next = std::uint64_t{count.patch} + 1;
-        sum += count.hits;
-    }
-    return sum == rays;
 }
 
 std::uint64_t RayCounts::bytes() const {
-    std::uint64_t bytes = rows_.size() * sizeof(Row);
-    for (const Row& row : rows_)
-        bytes += row.counts.capacity() * sizeof(Count);
+    std::uint64_t bytes = rows_.size() * sizeof(Row) + blocks_.size() * sizeof(blocks_[0]);
+    for (const std::vector<Count>& block : blocks_)
+        bytes += block.size() * sizeof(Count);
     return bytes;
 }
 

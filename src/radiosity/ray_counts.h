@@ -33,9 +33,10 @@ class RayCounts {
 
     /// Of this patch.
     [[nodiscard]] std::uint32_t rays(std::uint32_t patch) const { return rows_[patch].rays; }
-    /// By patch struck.
+    /// Each patch once, in the order in which they were first struck.
     [[nodiscard]] std::span<const Count> row(std::uint32_t patch) const {
-        return rows_[patch].counts;
+        const std::uint32_t begin = patch % rows_per_block > 0 ? rows_[patch - 1].end : 0;
+        return std::span(blocks_[patch / rows_per_block]).subspan(begin, rows_[patch].end - begin);
     }
     /// Rays that met no patch: that left the scene, that fell on the back of a face.
     [[nodiscard]] std::uint32_t escaped(std::uint32_t patch) const { return rows_[patch].escaped; }
@@ -49,20 +50,24 @@ class RayCounts {
     void load(StateReader& state);
 
   private:
+    static constexpr std::uint32_t rows_per_block = 16;
     struct Row {
-        std::vector<Count> counts;
         std::uint32_t rays = 0, escaped = 0, absorbed = 0;
-        void add(std::vector<std::uint32_t>& struck);
-        [[nodiscard]] bool adds_up(std::size_t patches) const;
+        std::uint32_t end = 0; ///< of its counts in its block
     };
+    class Tally;
     struct Volley;
+    void trace_block(std::uint32_t begin, std::uint32_t end, std::span<const std::uint32_t> rays,
+                     Volley& volley, const Monitor& monitor);
     void draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley);
     void trace(Volley& volley);
+    void store(std::uint32_t begin, std::uint32_t end, Tally& tally);
 
     const Mesh& mesh_;
     const Tracer& tracer_;
     std::uint64_t seed_;
     std::vector<Row> rows_;
+    std::vector<std::vector<Count>> blocks_; ///< the counts of some rows each
 };
 
 } // namespace hemilux

@@ -3,16 +3,21 @@
 #include "radiosity/rng.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numbers>
 
 namespace hemilux {
 namespace {
 
 constexpr double least_share = 1.0 / 8, most_share = 8;
 
-/// The power of two nearest to a number, in logarithms.
+/// The power of two nearest to a number, in logarithms: the whole part of log2(sqrt(2) rays), which
+/// is an exponent's bits. Dealing asks for it 50 times a patch.
 std::uint32_t power_of_two(double rays) {
-    return rays <= 1 ? 1 : std::uint32_t{1} << std::min(std::lround(std::log2(rays)), 31L);
+    constexpr std::uint64_t mantissa_bits = 52, bias = 1023;
+    const auto bits = std::bit_cast<std::uint64_t>(std::numbers::sqrt2 * std::max(rays, 1.0));
+    return std::uint32_t{1} << std::min<std::uint64_t>((bits >> mantissa_bits) - bias, 31);
 }
 
 /// From -1/2 to 1/2, another for each patch.
@@ -40,18 +45,17 @@ std::vector<std::uint32_t> deal_rays(std::span<const double> given, double mean,
     if (!(largest > 0))
         return rays;
     const std::vector<double> weights = rounded(given, largest);
+    const auto count = static_cast<double>(
+        std::ranges::count_if(weights, [](double weight) { return weight > 0; }));
     const auto deal = [&](double per_weight) {
-        double sum = 0, count = 0;
+        std::uint64_t sum = 0;
         for (std::size_t i = 0; i < weights.size(); ++i) {
-            if (!(weights[i] > 0))
-                continue;
             const double share =
                 std::clamp(per_weight * weights[i], least_share * mean, most_share * mean);
-            rays[i] = std::max(power_of_two(share), already[i]);
+            rays[i] = weights[i] > 0 ? std::max(power_of_two(share), already[i]) : 0;
             sum += rays[i];
-            ++count;
         }
-        return sum <= mean * count;
+        return static_cast<double>(sum) <= mean * count;
     };
     // The number of rays per weight that deals out what there is, by bisection of its logarithm.
     double low = std::log(least_share * mean), high = low + 80;

@@ -85,7 +85,8 @@ class LineOfCells {
 
 ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strategy)
     : StepwiseSolver(input, !input.options.literal), workers_(input.options.threads),
-      hemisphere_(input.options.depth) {
+      hemisphere_(input.options.depth), directions_(hemisphere_, input.options.literal),
+      starts_(input.mesh) {
     const auto start = std::chrono::steady_clock::now();
     input_.monitor.phase = "density";
     strategy_ = make_strategy(input_, hemisphere_, workers_);
@@ -304,7 +305,7 @@ void ShootingSolver::order_as_printed(std::uint32_t patch, const Dealing& dealin
 
 void ShootingSolver::trace(std::uint64_t seed, Volley& volley) const {
     thread_local std::vector<Ray> memory;
-    const RaySource source{input_.mesh, hemisphere_, *strategy_, input_.options.literal};
+    const RaySource source{input_.mesh, starts_, directions_, *strategy_, input_.options.literal};
     BurstRays drawn(source, volley.bursts, seed, memory);
     for (auto rays = drawn.next(); !rays.empty(); rays = drawn.next()) {
         if (input_.monitor.interrupted) // one lamp may shoot many millions

@@ -67,6 +67,8 @@ class ShootingSolver final : public StepwiseSolver {
 
     Workers workers_;
     Hemisphere hemisphere_;
+    CellDirections directions_;
+    PatchStarts starts_;
     std::unique_ptr<Strategy> strategy_;
 
     // Of the present bounce. Late ones are of few rays: they cost what is shot, not a look at all

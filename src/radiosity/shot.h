@@ -8,6 +8,7 @@
 #include "radiosity/mesh.h"
 #include "radiosity/receivers.h"
 #include "radiosity/rng.h"
+#include "radiosity/sampling_kernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,17 +50,11 @@ namespace hemilux {
     }
 }
 
-/// A direction with density cos(theta) / pi by the concentric map of square and disc (Shirley and
-/// Chiu 1997), which keeps the distances between points better than polar coordinates.
+/// A direction with density cos(theta) / pi by the concentric map (sampling_kernels.h).
 [[nodiscard]] inline Vec3 cosine_direction(Vec2 u) {
-    const double a = 2 * u.x - 1, b = 2 * u.y - 1;
-    if (a == 0 && b == 0)
-        return {0, 0, 1};
-    const bool wide = std::abs(a) > std::abs(b);
-    const double r = wide ? a : b;
-    const double phi = wide ? std::numbers::pi / 4 * (b / a)
-                            : std::numbers::pi / 2 - std::numbers::pi / 4 * (a / b);
-    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0, 1 - r * r))};
+    Vec3 direction;
+    sampling_kernels().cosine(1, &u.x, &u.y, &direction.x, &direction.y, &direction.z);
+    return direction;
 }
 
 /// A point uniform over a polygon.

@@ -5,8 +5,7 @@
 namespace hemilux {
 namespace {
 
-constexpr std::size_t dimensions = 5;
-using Words = std::array<std::uint32_t, dimensions>; // one per dimension
+using Words = std::array<std::uint32_t, most_dimensions>; // one per dimension
 
 constexpr std::uint32_t reverse_bits(std::uint32_t x) {
     x = (x >> 16) | (x << 16);
@@ -22,7 +21,7 @@ struct Polynomial {
     unsigned degree, inner;
     std::array<std::uint32_t, 3> m;
 };
-constexpr std::array<Polynomial, dimensions - 1> polynomials{
+constexpr std::array<Polynomial, most_dimensions - 1> polynomials{
     {{1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}, {3, 2, {1, 1, 1}}}};
 
 /// Direction number j of a dimension, the binary point before the highest bit.
@@ -51,7 +50,7 @@ constexpr std::array<std::uint32_t, 32> direction_numbers(std::size_t dimension)
 using Table = std::array<std::array<Words, 16>, 8>;
 constexpr Table make_table() {
     Table table{};
-    for (std::size_t d = 0; d < dimensions; ++d) {
+    for (std::size_t d = 0; d < most_dimensions; ++d) {
         const auto v = direction_numbers(d);
         for (std::size_t group = 0; group < 8; ++group)
             for (std::size_t value = 0; value < 16; ++value)
@@ -63,47 +62,46 @@ constexpr Table make_table() {
 }
 constexpr Table table = make_table();
 
-/// A hash in which each bit depends on itself and lower bits only: on reversed words it is a nested
-/// uniform scrambling. The constants are those of Vegdahl (2021, "Building a better LK hash").
-constexpr std::uint32_t permute(std::uint32_t x, std::uint32_t seed) {
-    x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
-    x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-    return x;
+/// Those of the lowest four bits.
+constexpr SobolSteps make_steps() {
+    SobolSteps steps{};
+    for (std::size_t d = 0; d < most_dimensions; ++d)
+        for (std::size_t k = 0; k < samples_per_block; ++k)
+            steps.step[d][k] = table[0][k][d];
+    return steps;
 }
-
-template <std::size_t n>
-std::array<double, n> sobol(std::uint32_t index, std::uint64_t seed) {
-    const std::uint64_t a = mix_bits(seed + 0x9e3779b97f4a7c15u);
-    const std::uint64_t b = mix_bits(a + 0x632be59bd9b4e019u);
-    const std::uint64_t c = mix_bits(b + 0x632be59bd9b4e019u);
-    const Words seeds{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a >> 32),
-                      static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(b >> 32),
-                      static_cast<std::uint32_t>(c >> 32)};
-    index = reverse_bits(permute(reverse_bits(index), static_cast<std::uint32_t>(c)));
-
-    std::array<std::uint32_t, n> word{};
-    for (std::size_t group = 0; group < 8; ++group) {
-        const Words& part = table[group][(index >> (4 * group)) & 15u];
-        for (std::size_t d = 0; d < n; ++d)
-            word[d] ^= part[d];
-    }
-    std::array<double, n> point{};
-    for (std::size_t d = 0; d < n; ++d)
-        point[d] = (static_cast<double>(reverse_bits(permute(word[d], seeds[d]))) + 0.5) * 0x1p-32;
-    return point;
-}
+constexpr SobolSteps steps = make_steps();
 
 } // namespace
 
-std::array<double, 4> sobol4(std::uint32_t index, std::uint64_t seed) {
-    return sobol<4>(index, seed);
+template <std::size_t n>
+SobolBlocks<n>::SobolBlocks(std::uint64_t seed) {
+    std::uint64_t word = seed + 0x9e3779b97f4a7c15u - 0x632be59bd9b4e019u;
+    for (std::size_t d = 0; d < n; d += 2) {
+        word = mix_bits(word + 0x632be59bd9b4e019u);
+        start_.seeds[d] = static_cast<std::uint32_t>(word);
+        if (d + 1 < n)
+            start_.seeds[d + 1] = static_cast<std::uint32_t>(word >> 32);
+    }
 }
 
-std::array<double, 5> sobol5(std::uint32_t index, std::uint64_t seed) {
-    return sobol<5>(index, seed);
+template <std::size_t n>
+void SobolBlocks<n>::move_to(std::uint32_t index) {
+    for (std::size_t d = 0; d < n; ++d) {
+        start_.first[d] = 0;
+        for (std::size_t group = 1; group < 8; ++group)
+            start_.first[d] ^= table[group][(index >> (4 * group)) & 15u][d];
+    }
+    sampling_kernels().sobol(start_, steps, n, points_.data());
+}
+
+template class SobolBlocks<4>;
+template class SobolBlocks<5>;
+
+std::array<double, 4> sobol4(std::uint32_t index, std::uint64_t seed) {
+    SobolBlocks<4> blocks(seed);
+    blocks.move_to(index);
+    return blocks.point(index);
 }
 
 } // namespace hemilux

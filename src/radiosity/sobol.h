@@ -6,8 +6,9 @@
 // holds one of them, so smooth integrals converge almost as n^-3/2 instead of n^-1/2, and one can
 // always go on. Direction numbers of Joe and Kuo (2008). The nested uniform scrambling of Owen
 // (1995) is done by a hash (Laine and Karras 2011; Burley 2020): each seed gives an
-// independent randomisation, and the order of the points is scrambled likewise, so that two
-// sequences can be paired point by point.
+// independent randomisation. Sixteen points at once cost little more than two.
+
+#include "radiosity/sampling_kernels.h"
 
 #include <array>
 #include <cstdint>
@@ -17,7 +18,32 @@ namespace hemilux {
 /// Point `index` of the sequence of a seed; each coordinate is uniform in (0,1) over the seeds.
 [[nodiscard]] std::array<double, 4> sobol4(std::uint32_t index, std::uint64_t seed);
 
-/// The same points with a fifth coordinate.
-[[nodiscard]] std::array<double, 5> sobol5(std::uint32_t index, std::uint64_t seed);
+/// The sequence of a seed, sixteen points at a time, in n <= 5 dimensions.
+template <std::size_t n>
+class SobolBlocks {
+  public:
+    explicit SobolBlocks(std::uint64_t seed);
+
+    /// Moves on to the block that holds a point.
+    void move_to(std::uint32_t index);
+    /// Coordinate d of the points of the block; point `index` stands at index % 16.
+    [[nodiscard]] const double* coordinate(std::size_t d) const {
+        return &points_[samples_per_block * d];
+    }
+    /// A point of the block.
+    [[nodiscard]] std::array<double, n> point(std::uint32_t index) const {
+        std::array<double, n> point;
+        for (std::size_t d = 0; d < n; ++d)
+            point[d] = coordinate(d)[index % samples_per_block];
+        return point;
+    }
+
+  private:
+    SobolBlockStart start_{};
+    alignas(64) std::array<double, samples_per_block * n> points_;
+};
+
+extern template class SobolBlocks<4>;
+extern template class SobolBlocks<5>;
 
 } // namespace hemilux

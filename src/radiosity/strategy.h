@@ -5,6 +5,7 @@
 
 #include "geometry/polygon.h"
 #include "geometry/spherical_triangle.h"
+#include "radiosity/cell_directions.h"
 #include "radiosity/hemisphere.h"
 #include "radiosity/solver.h"
 
@@ -13,14 +14,11 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace hemilux {
-
-inline constexpr std::uint16_t whole_hemisphere = 0xffff;
 
 /// The cells of a patch in their order, each of Hemisphere::cells(), or whole_hemisphere, or
 /// private; and N_tr / N_hemi of the paper as running sums: of the patch's rays cell k owns those
@@ -59,17 +57,6 @@ struct DealtCells {
     static constexpr float most = std::numeric_limits<float>::max();
     double sum_ = 0;
 };
-
-/// A_tr / A_hemi of the paper: the share of a diffuse patch's power that a cell of the table gets,
-/// A being the projected solid angle; with the rules as printed the solid angle.
-[[nodiscard]] inline double power_share(const Hemisphere& hemisphere, std::uint16_t cell,
-                                        bool literal) {
-    if (cell == whole_hemisphere)
-        return 1;
-    const Hemisphere::Cell& its = hemisphere.cells()[cell];
-    return literal ? its.solid_angle / (2 * std::numbers::pi)
-                   : its.projected_solid_angle / std::numbers::pi;
-}
 
 /// A cell that is not of the table which all patches share; made only when rays are shot into it.
 struct PrivateCell {

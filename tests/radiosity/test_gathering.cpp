@@ -2,7 +2,6 @@
 // reference.
 #include "radiosity/conjugate_gradients.h"
 #include "radiosity/direct_light.h"
-#include "radiosity/emitter_choice.h"
 #include "radiosity/exchange_matrix.h"
 #include "radiosity/ray_counts.h"
 #include "radiosity/ray_deal.h"
@@ -194,48 +193,6 @@ TEST_CASE("Direct light is unbiased: many emitters, some hidden") {
         value += area * std::pow(seen[i].x, 2);
     }
     CHECK(std::sqrt(error / value) < .03);
-}
-
-TEST_CASE("Direct light is unbiased where emitters are drawn by clusters") {
-    const Scene scene = test::room_with_block();
-    const Model whole(scene), fine(scene, {.max_edge = .05}); // the lamp in 144 patches
-    const std::vector<std::uint32_t> emitters = small_emitters(fine.mesh);
-    REQUIRE(emitters.size() > 128);
-    const std::size_t n = fine.mesh.patches().size();
-    Monitor monitor;
-    const Workers workers(2);
-    const EmitterChoice choice(fine.mesh, emitters);
-    EmitterChoice::Cut cut;
-    for (std::uint32_t i = 0; i < n; i += 97) {
-        choice.weigh(i, cut);
-        if (cut.dark())
-            continue;
-        // A fine sweep through [0, 1) meets each emitter by its chance.
-        std::vector<double> met(emitters.size()), told(emitters.size());
-        constexpr int sweep = 30000;
-        for (int k = 0; k < sweep; ++k) {
-            const auto [e, chance] = choice.choose(cut, (k + .5) / sweep);
-            met[e] += 1.0 / sweep;
-            told[e] = chance;
-        }
-        for (std::size_t e = 0; e < met.size(); ++e)
-            CHECK(met[e] == Approx(told[e]).margin(2.0 / sweep));
-        CHECK(std::accumulate(told.begin(), told.end(), 0.0) == Approx(1).epsilon(.01));
-    }
-    // All light that arrives, whether the lamp is one patch or many.
-    const auto light_of = [&](const Model& model, std::uint32_t samples) {
-        const std::vector<std::uint32_t> lamps = small_emitters(model.mesh);
-        DirectLight light(model.mesh, model.bvh, everything_needed, lamps, {5});
-        light.sample_up_to(std::vector<std::uint32_t>(model.mesh.patches().size(), samples),
-                           workers, monitor);
-        Vec3 power(0.0);
-        for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i)
-            power += model.mesh.patches()[i].area * light.irradiance(i);
-        return power;
-    };
-    const Vec3 coarse_power = light_of(whole, 1u << 14), fine_power = light_of(fine, 64);
-    for (int c = 0; c < 3; ++c)
-        CHECK(fine_power[c] == Approx(coarse_power[c]).epsilon(.01));
 }
 
 TEST_CASE("Emitters are small until they are three tenths of all surface") {

@@ -1,0 +1,17 @@
+// All sampling kernels of one instruction set, gathered for the choice at run time. The file that
+// includes this names the set in HEMILUX_KERNELS.
+
+#include "radiosity/kernels/cosine.h"
+
+#include "radiosity/kernels/emitters.h"
+
+#include "radiosity/kernels/random.h"
+
+#include "radiosity/kernels/sobol.h"
+
+namespace hemilux::HEMILUX_KERNELS {
+
+extern const SamplingKernels sampling;
+const SamplingKernels sampling{sobol, cosine, weigh_emitters, find_places, random, in_cells};
+
+} // namespace hemilux::HEMILUX_KERNELS

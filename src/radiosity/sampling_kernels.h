@@ -1,0 +1,83 @@
+#pragma once
+// The arithmetic of drawing samples, sixteen or more at once: plain loops that the compiler turns
+// into vector instructions, compiled once per instruction set (kernels/). All sets give the same
+// bits, as every operation is rounded by itself. Plain data only: this header may define no
+// function that the linker could merge.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace hemilux {
+
+enum class InstructionSet; // geometry/instruction_set.h
+
+inline constexpr std::size_t samples_per_block = 16;
+inline constexpr std::size_t most_dimensions = 5;
+
+/// Sixteen consecutive points of a scrambled sequence, an aligned block; all words with their bits
+/// reversed.
+struct SobolBlockStart {
+    std::uint32_t seeds[most_dimensions];
+    std::uint32_t first[most_dimensions]; ///< of the block's first point, not scrambled
+};
+
+/// The xor of any point of a block to the first one.
+struct alignas(64) SobolSteps {
+    std::uint32_t step[most_dimensions][samples_per_block];
+};
+
+/// Patches that emit, by their places; local units.
+struct EmitterArrays {
+    const double *centre[3], *normal[3], *corner[4][3];
+    const double *area, *side; ///< side: the root of the area
+    const double* light;       ///< emission, mean of channels
+};
+struct EmitterReceiver {
+    double centre[3], normal[3], corner[4][3], side, radius;
+};
+
+/// Of each sample: two words of its stream, and its number in that.
+struct RandomKeys {
+    const std::uint32_t *low, *high, *number;
+};
+
+/// Spherical triangles: points uniform in a parallelogram, or in its half, around the projection to
+/// the disc are kept if they lie inside (geometry/spherical_triangle.h). Arrays by cell.
+struct CellShapes {
+    /// Where what stands in `part`: first the unit normals of the planes of the three sides,
+    /// inwards; then the parallelogram; and 1 if it is half of that, else 0.
+    static constexpr unsigned corner = 9, edges = 11, half = 15, parts = 16;
+    const double* part[parts];
+};
+
+struct SamplingKernels {
+    /// Points in (0,1)^n, n being `dimensions`: coordinate d of point k at out[16 d + k].
+    void (*sobol)(const SobolBlockStart&, const SobolSteps&, std::size_t dimensions, double* out);
+    /// Directions with density cos(theta) / pi, for u and v in [0,1]: the concentric map of square
+    /// and disc (Shirley and Chiu 1997), which keeps the distances between points better than polar
+    /// coordinates, lifted to the hemisphere.
+    void (*cosine)(std::size_t count, const double* u, const double* v, double* x, double* y,
+                   double* z);
+    /// The root of the mean square of what a shadow ray to each emitter may bring, about; 0 where
+    /// it surely brings nothing.
+    void (*weigh_emitters)(const EmitterArrays&, std::size_t count, const EmitterReceiver&,
+                           double* weights);
+    /// places[k]: the last place with sums[place] <= at[k], or 0. `size` is a power of two.
+    void (*find_places)(const double* sums, std::size_t size, std::size_t count, const double* at,
+                        std::uint64_t* places);
+    /// Four independent numbers, uniform in (0,1), for each sample and attempt.
+    void (*random)(const RandomKeys&, std::size_t count, std::uint32_t attempt, double* a,
+                   double* b, double* c, double* d);
+    /// Directions into cells for u and v uniform in (0,1), cosine distributed as far as they are
+    /// inside (1); else (0) another u and v are to be tried.
+    void (*in_cells)(const CellShapes&, std::size_t count, const std::int32_t* cell,
+                     const double* u, const double* v, double* x, double* y, double* z,
+                     std::uint32_t* inside);
+};
+
+/// Of an instruction set that is available.
+[[nodiscard]] const SamplingKernels& sampling_kernels(InstructionSet set);
+/// Of the chosen one.
+[[nodiscard]] const SamplingKernels& sampling_kernels();
+
+} // namespace hemilux

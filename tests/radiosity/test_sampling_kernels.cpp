@@ -1,0 +1,162 @@
+// Every instruction set draws the same samples to the last bit, and they are what they should be.
+
+#include "geometry/instruction_set.h"
+#include "geometry/vector.h"
+#include "radiosity/rng.h"
+#include "radiosity/sampling_kernels.h"
+#include "radiosity/sobol.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+using namespace hemilux;
+
+namespace {
+
+/// Numbers in [0,1], the ends and the middle among them.
+std::vector<double> some_numbers(std::size_t count, std::uint64_t seed) {
+    Rng rng(seed);
+    std::vector<double> numbers(count);
+    for (double& x : numbers)
+        x = rng.uniform();
+    numbers[0] = numbers[1] = .5;
+    numbers[2] = 0;
+    numbers[3] = 1;
+    return numbers;
+}
+
+struct Directions {
+    std::vector<double> x, y, z;
+};
+Directions directions(const SamplingKernels& kernels, const std::vector<double>& u,
+                      const std::vector<double>& v) {
+    Directions d{u, u, u};
+    kernels.cosine(u.size(), u.data(), v.data(), d.x.data(), d.y.data(), d.z.data());
+    return d;
+}
+
+} // namespace
+
+TEST_CASE("every instruction set gives the same directions") {
+    const auto u = some_numbers(1003, 1), v = some_numbers(1003, 2);
+    const Directions expected = directions(sampling_kernels(InstructionSet::baseline), u, v);
+    for (const InstructionSet set : available_instruction_sets()) {
+        const Directions d = directions(sampling_kernels(set), u, v);
+        CHECK(d.x == expected.x);
+        CHECK(d.y == expected.y);
+        CHECK(d.z == expected.z);
+    }
+}
+
+TEST_CASE("directions are those of the concentric map, to the last bits") {
+    const auto u = some_numbers(100'000, 3), v = some_numbers(100'000, 4);
+    const Directions d = directions(sampling_kernels(), u, v);
+    double worst = 0, longest = 0;
+    for (std::size_t k = 0; k < u.size(); ++k) {
+        const double a = 2 * u[k] - 1, b = 2 * v[k] - 1, eighth = std::numbers::pi / 4;
+        const bool wide = std::abs(a) > std::abs(b);
+        const double r = wide ? a : b;
+        const double phi = r == 0 ? 0 : wide ? eighth * (b / a) : 2 * eighth - eighth * (a / b);
+        worst = std::max(
+            {worst, std::abs(d.x[k] - r * std::cos(phi)), std::abs(d.y[k] - r * std::sin(phi))});
+        longest = std::max(longest, std::abs(glm::length(Vec3(d.x[k], d.y[k], d.z[k])) - 1));
+    }
+    CHECK(worst < 5e-16); // half of it is the rounding of phi here
+    CHECK(longest < 4e-16);
+}
+
+TEST_CASE("every instruction set gives the same points") {
+    Rng rng(5);
+    SobolBlockStart start{};
+    SobolSteps steps{};
+    for (std::size_t d = 0; d < most_dimensions; ++d) {
+        start.seeds[d] = static_cast<std::uint32_t>(rng.bits());
+        start.first[d] = static_cast<std::uint32_t>(rng.bits());
+        for (std::uint32_t& step : steps.step[d])
+            step = static_cast<std::uint32_t>(rng.bits());
+    }
+    using Points = std::array<double, samples_per_block * most_dimensions>;
+    Points expected{};
+    sampling_kernels(InstructionSet::baseline)
+        .sobol(start, steps, most_dimensions, expected.data());
+    for (const InstructionSet set : available_instruction_sets()) {
+        Points points{};
+        sampling_kernels(set).sobol(start, steps, most_dimensions, points.data());
+        CHECK(points == expected);
+    }
+}
+
+TEST_CASE("a block holds the points of its sequence") {
+    SobolBlocks<5> blocks(77);
+    for (const std::uint32_t index : {0u, 15u, 16u, 1000u, 0xffffffffu}) {
+        blocks.move_to(index);
+        const auto expected = sobol4(index, 77);
+        for (std::size_t d = 0; d < 4; ++d)
+            CHECK(blocks.point(index)[d] == expected[d]);
+    }
+}
+
+TEST_CASE("every instruction set finds the same places") {
+    std::vector<double> sums{0};
+    Rng rng(6);
+    for (int k = 0; k < 50; ++k) // some of no width
+        sums.push_back(sums.back() + std::max(rng.uniform() - .3, 0.0));
+    const double end = std::nextafter(sums.back(), 0.0);
+    sums.resize(64, std::numeric_limits<double>::infinity());
+    std::vector<double> at = some_numbers(1003, 7);
+    for (double& each : at)
+        each = std::min(each * sums[50], end);
+    for (const InstructionSet set : available_instruction_sets()) {
+        std::vector<std::uint64_t> places(at.size());
+        sampling_kernels(set).find_places(sums.data(), sums.size(), at.size(), at.data(),
+                                          places.data());
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            CHECK(sums[places[k]] <= at[k]);
+            CHECK(at[k] < sums[places[k] + 1]);
+        }
+    }
+}
+
+TEST_CASE("every instruction set gives the same random numbers and directions into cells") {
+    constexpr std::size_t n = 1003;
+    Rng rng(8);
+    std::vector<std::uint32_t> low(n), high(n), number(n);
+    std::vector<std::int32_t> cell(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        low[k] = static_cast<std::uint32_t>(rng.bits());
+        high[k] = static_cast<std::uint32_t>(rng.bits());
+        number[k] = static_cast<std::uint32_t>(k);
+        cell[k] = static_cast<std::int32_t>(k % 10);
+    }
+    CellShapes shapes{};
+    std::vector<std::vector<double>> parts;
+    for (unsigned i = 0; i < CellShapes::parts; ++i) {
+        std::vector<double>& part = parts.emplace_back();
+        for (int c = 0; c < 10; ++c)
+            part.push_back(i == CellShapes::half ? c % 2 : rng.uniform() - .3);
+        shapes.part[i] = part.data();
+    }
+    using Numbers = std::vector<double>;
+    const auto draw = [&](InstructionSet set) {
+        std::array<Numbers, 7> r;
+        r.fill(Numbers(n));
+        std::vector<std::uint32_t> inside(n);
+        const SamplingKernels& kernels = sampling_kernels(set);
+        kernels.random({low.data(), high.data(), number.data()}, n, 3, r[0].data(), r[1].data(),
+                       r[2].data(), r[3].data());
+        kernels.in_cells(shapes, n, cell.data(), r[0].data(), r[1].data(), r[4].data(), r[5].data(),
+                         r[6].data(), inside.data());
+        return std::pair(r, inside);
+    };
+    const auto expected = draw(InstructionSet::baseline);
+    CHECK(std::ranges::count(expected.second, 1u) > 10);
+    CHECK(std::ranges::count(expected.second, 0u) > 10);
+    for (const InstructionSet set : available_instruction_sets())
+        CHECK(draw(set) == expected);
+}
