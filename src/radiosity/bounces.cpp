@@ -2,6 +2,7 @@
 
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
+#include "radiosity/sampling_kernels.h"
 #include "radiosity/shot.h"
 #include "radiosity/solve_error.h"
 
@@ -34,6 +35,8 @@ constexpr std::size_t bits_of_word = 64;
 
 /// std::floor for numbers of rays; compilers call a function for that.
 double whole_below(double rays) { return static_cast<double>(static_cast<std::int64_t>(rays)); }
+
+constexpr std::size_t most_looked_up = 24;
 
 /// A line on which a patch's cells own intervals one after the other, and a ray stands at each
 /// whole number.
@@ -68,6 +71,27 @@ class LineOfCells {
                 found(dealing_.cells[cell[i]], rays_ * dealing_.rays(cell[i]), low, high[i]);
                 low = high[i];
             }
+        }
+    }
+
+    /// The same for a patch with at most most_looked_up rays, whose cells are looked up one by one.
+    template <class Found>
+    void for_each_ray(const Found& found) const {
+        const double first = whole_below(before_);
+        const auto count = static_cast<std::size_t>(whole_below(after_) - first);
+        std::array<float, most_looked_up> at;
+        std::array<std::uint32_t, most_looked_up> cell;
+        const double scale = 1 / rays_, start = (first + 1 - before_) * scale;
+        for (std::size_t k = 0; k < count; ++k)
+            at[k] = static_cast<float>(start + double(k) * scale);
+        const std::span<const float> sums = dealing_.rays_up_to.first(dealing_.cells.size() - 1);
+        sampling_kernels().count_below(sums.data(), sums.size(), count, at.data(), cell.data());
+        for (std::size_t k = 0, end; k < count; k = end) {
+            end = k + 1;
+            while (end < count && cell[end] == cell[k])
+                ++end;
+            found(dealing_.cells[cell[k]], rays_ * dealing_.rays(cell[k]), first + double(k),
+                  first + double(end));
         }
     }
 
@@ -190,32 +214,54 @@ void Bounces::order(const Piece& piece, std::vector<Burst>& bursts) const {
 
 /// In the order of patches and rays, whatever thread traced them.
 void Bounces::collect(const Volley& volley, StepResult& result) {
+    const std::uint32_t* receivers = volley.receivers.data();
+    for (auto burst = volley.bursts.begin(); burst != volley.bursts.end();) {
+        const std::uint32_t patch = burst->patch;
+        const Vec3 held = unshot_[patch];
+        double sent = 0, lost_in_open = 0, lost_on_backs = 0; // shares of what the patch held
+        for (; burst != volley.bursts.end() && burst->patch == patch; ++burst) {
+            const auto [rays_escaped, rays_absorbed] =
+                receive(burst->ray_power * held, {receivers, burst->rays});
+            receivers += burst->rays;
+            sent += burst->rays * burst->ray_power;
+            lost_in_open += rays_escaped * burst->ray_power;
+            lost_on_backs += rays_absorbed * burst->ray_power;
+        }
+        result.sent += sent * held;
+        if (lost_in_open > 0)
+            result.escaped += lost_in_open * held;
+        if (lost_on_backs > 0)
+            result.absorbed += lost_on_backs * held;
+    }
+    if (tools_.strategy->learns())
+        teach(volley);
+    result.rays += volley.receivers.size();
+}
+
+/// Each brings `power`, which is Phi_ray. Returns how many escaped, and how many were absorbed.
+std::array<std::uint32_t, 2> Bounces::receive(const Vec3& power,
+                                              std::span<const std::uint32_t> receivers) {
+    std::array<std::uint32_t, 2> lost{};
+    for (const std::uint32_t receiver : receivers) {
+        if (receiver >= received_.size()) {
+            ++lost[receiver == escaped ? 0 : 1];
+            continue;
+        }
+        struck_[receiver / bits_of_word] |= std::uint64_t{1} << receiver % bits_of_word;
+        ++received_[receiver].rays;
+        received_[receiver].power += power;
+    }
+    return lost;
+}
+
+void Bounces::teach(const Volley& volley) const {
     std::size_t ray = 0;
     for (const Burst& burst : volley.bursts) {
-        const Vec3 power = burst.ray_power * unshot_[burst.patch]; // Phi_ray
-        if (tools_.strategy->learns())
-            tools_.strategy->learn(burst.patch, burst.cell,
-                                   std::span(volley.receivers).subspan(ray, burst.rays),
-                                   std::span(volley.arrivals).subspan(ray, burst.rays));
-        std::uint32_t rays_escaped = 0, rays_absorbed = 0;
-        for (std::uint32_t k = 0; k < burst.rays; ++k) {
-            const std::uint32_t receiver = volley.receivers[ray++];
-            if (receiver == escaped) {
-                ++rays_escaped;
-            } else if (receiver == absorbed) {
-                ++rays_absorbed;
-            } else {
-                Arrived& arrived = received_[receiver];
-                if (arrived.rays++ == 0)
-                    struck_[receiver / bits_of_word] |= std::uint64_t{1} << receiver % bits_of_word;
-                arrived.power += power;
-            }
-        }
-        result.sent += double(burst.rays) * power;
-        result.escaped += double(rays_escaped) * power;
-        result.absorbed += double(rays_absorbed) * power;
+        tools_.strategy->learn(burst.patch, burst.cell,
+                               std::span(volley.receivers).subspan(ray, burst.rays),
+                               std::span(volley.arrivals).subspan(ray, burst.rays));
+        ray += burst.rays;
     }
-    result.rays += ray;
 }
 
 /// What arrived is absorbed or to be shot, in the order of patches.
@@ -284,14 +330,18 @@ void Bounces::order(std::size_t sender, const Piece& piece, const Dealing& deali
     const std::uint32_t patch = senders_[sender];
     const LineOfCells line(dealing, rays_before_[sender], rays_before_[sender + 1]);
     const double before = whole_below(rays_before_[sender]);
-    line.for_each_cell([&](std::uint16_t cell, double expected, double low, double high) {
+    const auto add = [&](std::uint16_t cell, double expected, double low, double high) {
         const double first = std::max(low, piece.from), here = std::min(high, piece.to) - first;
         // Below one ray per cell, the ray that is shot carries the power of those that are not.
         const double sharing = expected >= 1 ? high - low : expected;
         if (here > 0)
             bursts.push_back({patch, cell, static_cast<std::uint32_t>(first - before),
                               static_cast<std::uint32_t>(here), 1 / sharing});
-    });
+    };
+    if (whole_below(rays_before_[sender + 1]) - before <= double(most_looked_up))
+        line.for_each_ray(add);
+    else
+        line.for_each_cell(add);
 }
 
 void Bounces::order_as_printed(std::uint32_t patch, const Dealing& dealing,

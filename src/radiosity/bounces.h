@@ -13,8 +13,10 @@
 #include "radiosity/strategy.h"
 #include "radiosity/workers.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -76,6 +78,9 @@ class Bounces {
     void trace(std::uint64_t stream, Volley& volley) const;
 
     void collect(const Volley& volley, StepResult& result);
+    std::array<std::uint32_t, 2> receive(const Vec3& power,
+                                         std::span<const std::uint32_t> receivers);
+    void teach(const Volley& volley) const;
     void reflect(StepResult& result);
     void add_sender(std::uint32_t patch, const Vec3& power);
 

@@ -45,14 +45,15 @@ class BurstRays {
     [[nodiscard]] std::span<const Ray> next();
 
   private:
-    /// Rays of one burst among those that are drawn now.
+    /// Rays of a patch among those that are drawn now: of a private cell, or of all others.
     struct Run {
         std::uint32_t patch, rays;
-        std::uint16_t cell;
-        std::uint32_t own; ///< place in own_ if the cell is private, else none
+        std::uint32_t own; ///< the private cell's place in own_, else none
     };
     void list();
     void list(Burst& burst, std::uint32_t rays);
+    void list(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power);
+    void list_private(Burst& burst, std::uint32_t rays, PrivateCell own);
     void fill(const Run& run, std::size_t first);
     void fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
                       std::span<Ray> rays);
@@ -61,6 +62,7 @@ class BurstRays {
     std::span<Burst> bursts_;
     std::uint64_t stream_;
     std::vector<Ray>& rays_;
+    bool has_private_cells_;
     std::uint32_t drawn_ = 0;     ///< of the first of bursts_
     std::uint32_t listed_ = none; ///< the patch of that
     std::uint64_t key_ = 0;       ///< of that patch's random numbers
