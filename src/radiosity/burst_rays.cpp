@@ -7,9 +7,9 @@
 
 namespace hemilux {
 
-BurstRays::BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t seed,
+BurstRays::BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t stream,
                      std::vector<Ray>& memory)
-    : source_(source), bursts_(bursts), seed_(seed), rays_(memory) {
+    : source_(source), bursts_(bursts), stream_(stream), rays_(memory) {
     rays_.resize(DirectionBatch::room);
 }
 
@@ -45,14 +45,13 @@ void BurstRays::list() {
 void BurstRays::list(Burst& burst, std::uint32_t rays) {
     if (listed_ != burst.patch) {
         listed_ = burst.patch;
-        key_ = hash_words({seed_, burst.patch});
-        number_ = 0;
+        key_ = hash_words({stream_, burst.patch});
     }
     auto own = source_.strategy.private_cell(burst.patch, burst.cell);
     if (drawn_ == 0)
         burst.ray_power *= own ? own->power : source_.directions.power_share(burst.cell);
     for (std::uint32_t k = 0; k < rays; ++k)
-        batch_.add(key_, number_++, own ? whole_hemisphere : burst.cell);
+        batch_.add(key_, burst.first + drawn_ + k, own ? whole_hemisphere : burst.cell);
     runs_.push_back({burst.patch, rays, burst.cell, none});
     if (own) {
         runs_.back().own = static_cast<std::uint32_t>(own_.size());

@@ -18,6 +18,7 @@ class Mesh;
 struct Burst {
     std::uint32_t patch;
     std::uint16_t cell;
+    std::uint32_t first; ///< its first ray's number among all those of the patch
     std::uint32_t rays;
     /// Phi_ray / Phi_patch; until the rays are drawn Phi_ray / Phi_tr.
     double ray_power;
@@ -32,12 +33,12 @@ struct RaySource {
     bool literal;
 };
 
-/// The rays of a list of bursts in their order, some at a time. The bursts of a patch follow each
-/// other, and what is drawn for them depends on the seed, the patch and them, not on others.
+/// The rays of a list of bursts in their order, some at a time. A ray depends on the stream, its
+/// patch, its number there and its cell, not on what else is listed.
 class BurstRays {
   public:
     /// `memory` holds the rays between two calls and may be used again afterwards.
-    BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t seed,
+    BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t stream,
               std::vector<Ray>& memory);
 
     /// The next ones, rays_at_a_time until the last; none when there are no more.
@@ -58,11 +59,10 @@ class BurstRays {
 
     const RaySource& source_;
     std::span<Burst> bursts_;
-    std::uint64_t seed_;
+    std::uint64_t stream_;
     std::vector<Ray>& rays_;
     std::uint32_t drawn_ = 0;     ///< of the first of bursts_
     std::uint32_t listed_ = none; ///< the patch of that
-    std::uint32_t number_ = 0;    ///< of that patch's next ray
     std::uint64_t key_ = 0;       ///< of that patch's random numbers
     std::vector<Run> runs_;
     std::vector<PrivateCell> own_;

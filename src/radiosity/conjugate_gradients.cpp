@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace hemilux {
 namespace {
@@ -19,26 +20,32 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
                                   std::vector<Vec3>& h, const Workers& workers,
                                   const GradientOptions& options) {
     const std::size_t n = h.size();
-    std::vector<Vec3> r(n), p(n), q(n), reflected(n);
-    /// y = (I - F rho) x
-    const auto apply = [&](const std::vector<Vec3>& x, std::vector<Vec3>& y) {
-        for (std::size_t i = 0; i < n; ++i)
-            reflected[i] = reflectance[i] * x[i];
-        factors.multiply(reflected, y, workers);
-        for (std::size_t i = 0; i < n; ++i)
-            y[i] = x[i] - y[i];
+    std::vector<Vec3> weight(n), r(n), p(n), q(n);
+    std::vector<Lanes> reflected(n);
+    std::vector<Vec3> part((n + factors.rows_per_chunk - 1) / factors.rows_per_chunk);
+    /// Sum of term(i) over all patches, in an order that does not depend on the threads.
+    const auto sum = [&](const auto& term) {
+        factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
+            Vec3 some(0.0);
+            for (std::size_t i = begin; i < end; ++i)
+                some += term(i);
+            part[begin / factors.rows_per_chunk] = some;
+        });
+        return std::accumulate(part.begin(), part.end(), Vec3(0.0));
     };
-    const auto product = [&](const auto& x, const auto& y) {
-        Vec3 sum(0.0);
-        for (std::size_t i = 0; i < n; ++i)
-            sum += area[i] * reflectance[i] * x[i] * y[i];
-        return sum;
+    const auto reflect = [&](std::size_t i, const Vec3& x) {
+        reflected[i] = factors.scaled(i, reflectance[i] * x);
     };
-    apply(h, q);
-    for (std::size_t i = 0; i < n; ++i)
-        p[i] = r[i] = d[i] - q[i];
-    const Vec3 size = product(d, d);
-    Vec3 squares = product(r, r);
+    const Vec3 size = sum([&](std::size_t i) {
+        weight[i] = area[i] * reflectance[i];
+        reflect(i, h[i]);
+        return weight[i] * d[i] * d[i];
+    });
+    Vec3 squares = sum([&](std::size_t i) {
+        r[i] = d[i] - (h[i] - factors.row_times(i, reflected));
+        return weight[i] * r[i] * r[i];
+    });
+    Vec3 more(0.0);
     GradientResult result;
     const auto worst = [&] {
         const Vec3 share = glm::sqrt(ratio(squares, size));
@@ -48,22 +55,28 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
     for (result.residual = worst();
          result.residual > options.tolerance && result.iterations < options.most && !interrupted();
          result.residual = worst(), ++result.iterations) {
-        apply(p, q);
-        const Vec3 step = ratio(squares, product(p, q));
-        for (std::size_t i = 0; i < n; ++i) {
+        factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                p[i] = r[i] + more * p[i];
+                reflect(i, p[i]);
+            }
+        });
+        const Vec3 curvature = sum([&](std::size_t i) {
+            q[i] = p[i] - factors.row_times(i, reflected);
+            return weight[i] * p[i] * q[i];
+        });
+        const Vec3 step = ratio(squares, curvature);
+        const Vec3 before = squares;
+        squares = sum([&](std::size_t i) {
             h[i] += step * p[i];
             r[i] -= step * q[i];
-        }
-        const Vec3 before = squares;
-        squares = product(r, r);
-        const Vec3 more = ratio(squares, before);
-        for (std::size_t i = 0; i < n; ++i)
-            p[i] = r[i] + more * p[i];
+            return weight[i] * r[i] * r[i];
+        });
+        more = ratio(squares, before);
     }
-    // Where nothing is reflected the weight is 0: there one product tells h.
-    apply(h, q);
+    // Where nothing is reflected the weight is 0: there one more step without a product tells h.
     for (std::size_t i = 0; i < n; ++i)
-        h[i] += d[i] - q[i];
+        h[i] += r[i];
     return result;
 }
 

@@ -3,193 +3,226 @@
 #include "radiosity/mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace hemilux {
 namespace {
 
-constexpr std::size_t rows_per_chunk = 64;
 /// Each takes most of what is missing away. In open scenes no symmetric matrix may agree with all
 /// that was lost, and no number would be enough.
 constexpr int scalings = 6;
 
-/// Chunks of rows that are merged with one accumulator.
-constexpr std::size_t merging_chunks = 16;
+/// Fewer entries are read sooner than other threads would be called.
+constexpr std::size_t entries_for_one_thread = 60'000;
 
-/// Fewer entries are read sooner than other threads would be started.
-constexpr std::size_t entries_for_one_thread = 400'000;
-
-/// Puts the hits of one row together. The order of the columns is that in which they come.
+/// Adds up what several sets tell of one row. The order of the columns is that in which they come.
+/// Some floats of similar size sum up to a double without rounding: the sums are symmetric too.
 class Accumulator {
   public:
-    explicit Accumulator(std::size_t columns) : hits_(columns) {}
+    explicit Accumulator(std::size_t columns) : sum_(columns), touched_(columns + 1) {}
 
-    void add(const RayCounts::Count& count) {
-        if (hits_[count.patch] == 0)
-            touched_.push_back(count.patch);
-        hits_[count.patch] += count.hits;
+    void add(const MatrixEntry& entry) {
+        double& sum = sum_[entry.column];
+        touched_[count_] = entry.column; // for good if it is a new one: no branch could be foreseen
+        count_ += !(sum > 0);
+        sum += static_cast<double>(entry.value);
     }
-    /// visit(column, hits); and is empty again.
-    template <class Visit>
-    void flush(const Visit& visit) {
-        for (const std::uint32_t column : touched_)
-            visit(column, std::exchange(hits_[column], 0));
-        touched_.clear();
+    /// Adds all sums, times a factor, to the entries; and is empty again.
+    void flush(double factor, std::vector<MatrixEntry>& entries) {
+        for (std::size_t k = 0; k < count_; ++k) {
+            const double sum = std::exchange(sum_[touched_[k]], 0.0);
+            entries.push_back({touched_[k], static_cast<float>(factor * sum)});
+        }
+        count_ = 0;
     }
 
   private:
-    std::vector<std::uint64_t> hits_;
+    std::vector<double> sum_;
     std::vector<std::uint32_t> touched_;
+    std::size_t count_ = 0;
 };
 
-/// What other patches counted of each: the counts, transposed.
-struct Incoming {
-    std::vector<std::size_t> begin; ///< one more than rows
-    std::vector<RayCounts::Count> counts;
-
-    Incoming(std::span<const RayCounts> sets, std::size_t n) : begin(n + 1) {
-        for_all(sets, n, [&](std::uint32_t, const auto& count) { ++begin[count.patch + 1]; });
-        for (std::size_t i = 0; i < n; ++i)
-            begin[i + 1] += begin[i];
-        counts.resize(begin[n]);
-        std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-        for_all(sets, n, [&](std::uint32_t i, const auto& count) {
-            counts[next[count.patch]++] = {i, count.hits};
-        });
-    }
-    [[nodiscard]] std::span<const RayCounts::Count> row(std::size_t i) const {
-        return std::span(counts).subspan(begin[i], begin[i + 1] - begin[i]);
-    }
-
-  private:
-    template <class Visit>
-    static void for_all(std::span<const RayCounts> sets, std::size_t n, const Visit& visit) {
-        for (const RayCounts& set : sets)
-            for (std::uint32_t i = 0; i < n; ++i)
-                for (const RayCounts::Count& count : set.row(i))
-                    visit(i, count);
-    }
-};
+/// Sum of value times x[column], in four sums that do not wait for each other.
+double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
+    const auto term = [&](const MatrixEntry& entry) {
+        return static_cast<double>(entry.value) * x[entry.column];
+    };
+    std::array<double, 4> sum{};
+    std::size_t next = 0;
+    for (; next + 4 <= row.size(); next += 4)
+        for (std::size_t k = 0; k < 4; ++k)
+            sum[k] += term(row[next + k]);
+    for (; next < row.size(); ++next)
+        sum[0] += term(row[next]);
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
 
 } // namespace
 
-ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, std::span<const RayCounts> sets,
-                               const Workers& workers)
-    : lost_(mesh.patches().size()) {
+ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& set)
+    : row_size_(mesh.patches().size()), lost_(mesh.patches().size()) {
     for (const Patch& patch : mesh.patches())
         area_.push_back(patch.area);
+    find_lost(set);
+    store(set);
+    find_scale(Workers(1));
+    close(Workers(1));
+}
+
+ExchangeMatrix::ExchangeMatrix(std::span<const ExchangeMatrix> sets, const Workers& workers)
+    : row_size_(sets[0].row_size_.size()), area_(sets[0].area_), rays_(area_.size()),
+      lost_(area_.size()) {
     find_lost(sets);
     merge(sets, workers);
-    close(find_scale(workers), workers);
+    find_scale(workers);
+    close(workers);
 }
 
-void ExchangeMatrix::find_lost(std::span<const RayCounts> sets) {
+void ExchangeMatrix::find_lost(const RayCounts& set) {
     for (std::uint32_t i = 0; i < lost_.size(); ++i) {
-        double rays = 0;
-        for (const RayCounts& set : sets) {
-            rays += set.rays(i);
-            lost_[i].escaped += set.escaped(i);
-            lost_[i].absorbed += set.absorbed(i);
-        }
-        if (rays > 0) {
-            lost_[i].escaped /= rays;
-            lost_[i].absorbed /= rays;
-        }
-        rays_.push_back(rays);
-        rays_per_area_.push_back(area_[i] > 0 ? rays / area_[i] : 0);
+        rays_.push_back(set.rays(i));
+        if (rays_[i] > 0)
+            lost_[i] = {set.escaped(i) / rays_[i], set.absorbed(i) / rays_[i]};
     }
 }
 
-void ExchangeMatrix::merge(std::span<const RayCounts> sets, const Workers& workers) {
-    const std::size_t n = area_.size();
-    const Incoming incoming(sets, n);
-    row_begin_.assign(n + 1, 0);
-    for (std::uint32_t i = 0; i < n; ++i) {
-        std::size_t most = incoming.row(i).size();
-        for (const RayCounts& set : sets)
-            most += set.row(i).size();
-        row_begin_[i + 1] = row_begin_[i] + most;
-    }
-    entry_ = std::make_unique_for_overwrite<Entry[]>(row_begin_[n]);
-    row_size_.resize(n);
-    workers.for_chunks(n, n / merging_chunks + 1, [&](std::size_t begin, std::size_t end) {
-        Accumulator sum(n);
-        for (std::size_t i = begin; i < end; ++i) {
-            for (const RayCounts& set : sets)
-                for (const RayCounts::Count& count : set.row(static_cast<std::uint32_t>(i)))
-                    sum.add(count);
-            for (const RayCounts::Count& count : incoming.row(i))
-                sum.add(count);
-            Entry* next = &entry_[row_begin_[i]];
-            sum.flush([&](std::uint32_t j, std::uint64_t hits) {
-                const double worth = rays_per_area_[i] + rays_per_area_[j];
-                *next++ = {j, static_cast<float>(static_cast<double>(hits) / worth)};
-            });
-            row_size_[i] = static_cast<std::uint32_t>(next - &entry_[row_begin_[i]]);
+void ExchangeMatrix::find_lost(std::span<const ExchangeMatrix> sets) {
+    const auto count = static_cast<double>(sets.size());
+    for (const ExchangeMatrix& set : sets)
+        for (std::size_t i = 0; i < lost_.size(); ++i) {
+            rays_[i] += set.rays_[i];
+            lost_[i].escaped += set.lost_[i].escaped / count;
+            lost_[i].absorbed += set.lost_[i].absorbed / count;
         }
-    });
+}
+
+/// First in each row stands what the patch saw, then by what it was seen.
+void ExchangeMatrix::store(const RayCounts& set) {
+    const auto n = static_cast<std::uint32_t>(area_.size());
+    std::vector<double> rays_per_area(n);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        rays_per_area[i] = area_[i] > 0 ? rays_[i] / area_[i] : 0;
+        row_size_[i] += static_cast<std::uint32_t>(set.row(i).size());
+        for (const RayCounts::Count& count : set.row(i))
+            ++row_size_[count.patch];
+    }
+    entries_ = std::accumulate(row_size_.begin(), row_size_.end(), std::size_t{0});
+    stored_.push_back(std::make_unique_for_overwrite<Entry[]>(entries_));
+    std::vector<Entry*> next(n);
+    Entry* begin = stored_[0].get();
+    for (std::uint32_t i = 0; i < n; ++i) {
+        row_begin_.push_back(begin);
+        next[i] = begin + set.row(i).size();
+        begin += row_size_[i];
+    }
+    begin = stored_[0].get();
+    for (std::uint32_t i = 0; i < n; begin += row_size_[i++]) {
+        Entry* seen = begin;
+        for (const auto& [j, hits] : set.row(i)) {
+            const auto value = static_cast<float>(hits / (rays_per_area[i] + rays_per_area[j]));
+            *seen++ = {j, value};
+            *next[j]++ = {i, value};
+        }
+    }
+}
+
+void ExchangeMatrix::merge(std::span<const ExchangeMatrix> sets, const Workers& workers) {
+    const std::size_t n = area_.size();
+    row_begin_.resize(n);
+    stored_.resize((n + rows_per_chunk - 1) / rows_per_chunk);
+    struct Scratch {
+        Accumulator sum;
+        std::vector<Entry> rows;
+    };
+    workers.for_chunks_with(
+        n, rows_per_chunk,
+        [&] {
+            return Scratch{Accumulator(n), {}};
+        },
+        [&](Scratch& scratch, std::size_t begin, std::size_t end) {
+            scratch.rows.clear();
+            for (std::size_t i = begin; i < end; ++i) {
+                for (const ExchangeMatrix& set : sets)
+                    for (const Entry& entry : set.row(i))
+                        scratch.sum.add(entry);
+                const std::size_t before = scratch.rows.size();
+                scratch.sum.flush(1 / static_cast<double>(sets.size()), scratch.rows);
+                row_size_[i] = static_cast<std::uint32_t>(scratch.rows.size() - before);
+            }
+            auto& stored = stored_[begin / rows_per_chunk];
+            stored = std::make_unique_for_overwrite<Entry[]>(scratch.rows.size());
+            std::ranges::copy(scratch.rows, stored.get());
+            const Entry* next = stored.get();
+            for (std::size_t i = begin; i < end; next += row_size_[i++])
+                row_begin_[i] = next;
+        });
+    entries_ = std::accumulate(row_size_.begin(), row_size_.end(), std::size_t{0});
 }
 
 Workers ExchangeMatrix::readers(const Workers& workers) const {
-    return row_begin_.back() < entries_for_one_thread ? Workers(1) : workers;
+    return entries_ < entries_for_one_thread ? Workers(1) : workers;
 }
 
 double ExchangeMatrix::due(std::size_t i) const {
-    return rays_per_area_[i] > 0
-               ? area_[i] * std::max(1 - lost_[i].escaped - lost_[i].absorbed, 0.0)
-               : -1;
+    return rays_[i] > 0 ? area_[i] * std::max(1 - lost_[i].escaped - lost_[i].absorbed, 0.0) : -1;
 }
 
 /// Rows are closed by c = due / (S r), then by r = due / (S c), and so on (Sinkhorn and Knopp
 /// 1967). As S is symmetric, r and c end as multiples of each other, and g is their geometric mean.
-std::vector<double> ExchangeMatrix::find_scale(const Workers& workers) const {
+void ExchangeMatrix::find_scale(const Workers& workers) {
     const std::size_t n = area_.size();
-    std::vector<double> scale(n, 1.0), before(n, 1.0), after(n);
+    std::vector<double> before(n, 1.0), after(n);
+    scale_.assign(n, 1.0);
     for (int k = 0; k < scalings; ++k) {
-        readers(workers).for_chunks(n, rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+        for_rows(workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                double sum = 0;
-                for (const auto& [j, value] : row(i))
-                    sum += static_cast<double>(value) * scale[j];
+                const double sum = row_sum(row(i), scale_);
                 after[i] = 1; // where the patch itself has not looked, what others saw is all
                 if (due(i) >= 0)
                     after[i] = sum > 0 ? due(i) / sum : 0;
             }
         });
-        before = std::exchange(scale, after);
+        before = std::exchange(scale_, after);
     }
     for (std::size_t i = 0; i < n; ++i)
-        scale[i] = std::sqrt(scale[i] * before[i]);
-    return scale;
+        scale_[i] = std::sqrt(scale_[i] * before[i]);
 }
 
-void ExchangeMatrix::close(const std::vector<double>& scale, const Workers& workers) {
+void ExchangeMatrix::close(const Workers& workers) {
     self_.assign(area_.size(), 0.0);
-    readers(workers).for_chunks(
-        area_.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                double sum = 0;
-                for (std::size_t e = row_begin_[i]; e < row_begin_[i] + row_size_[i]; ++e) {
-                    auto& [j, value] = entry_[e];
-                    value = static_cast<float>(static_cast<double>(value) * (scale[i] * scale[j]));
-                    sum += static_cast<double>(value);
-                }
-                if (sum > 0 && due(i) >= 0)
-                    self_[i] = due(i) - sum;
-            }
-        });
+    per_area_.assign(area_.size(), 0.0);
+    for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const double sum = row_sum(row(i), scale_);
+            if (scale_[i] > 0 && due(i) >= 0)
+                self_[i] = (due(i) / scale_[i] - sum) / scale_[i];
+            if (area_[i] > 0)
+                per_area_[i] = scale_[i] / area_[i];
+        }
+    });
+}
+
+Vec3 ExchangeMatrix::row_times(std::size_t i, std::span<const Lanes> scaled) const {
+    static const MatrixKernels& kernels = matrix_kernels();
+    Lanes sum;
+    kernels.row_times(row(i).data(), row(i).size(), scaled.data(), &sum);
+    const auto channel = [&](int c) {
+        return per_area_[i] * (sum.lane[c] + self_[i] * scaled[i].lane[c]);
+    };
+    return {channel(0), channel(1), channel(2)};
 }
 
 void ExchangeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y,
                               const Workers& workers) const {
-    readers(workers).for_chunks(y.size(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            Vec3 sum = self_[i] * x[i];
-            for (const auto& [j, value] : row(i))
-                sum += static_cast<double>(value) * x[j];
-            y[i] = area_[i] > 0 ? sum / area_[i] : Vec3(0.0);
-        }
+    std::vector<Lanes> z(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+        z[i] = scaled(i, x[i]);
+    for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            y[i] = row_times(i, z);
     });
 }
 

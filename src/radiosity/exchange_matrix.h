@@ -8,7 +8,10 @@
 // missing after some scalings, or too much, is what a patch exchanges with itself: so rows are
 // closed and S is symmetric to the last bits, no energy is made or lost between patches, however
 // reflective, and furnaces are exact.
+//
+// Stored is S before it is scaled, so that the S of several sets is their mean.
 
+#include "radiosity/matrix_kernels.h"
 #include "radiosity/ray_counts.h"
 #include "radiosity/sampled_form_factors.h"
 
@@ -21,44 +24,60 @@ namespace hemilux {
 
 class ExchangeMatrix {
   public:
-    /// The rays of all these sets together.
-    ExchangeMatrix(const Mesh& mesh, std::span<const RayCounts> sets, const Workers& workers);
+    ExchangeMatrix() = default;
+    /// Of the rays of one set.
+    ExchangeMatrix(const Mesh& mesh, const RayCounts& set);
+    /// Of the rays of several sets, where each patch shot as many in one as in the others.
+    ExchangeMatrix(std::span<const ExchangeMatrix> sets, const Workers& workers);
 
     /// y_i = sum_j F_ij x_j
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
+
+    /// The same in parts: the element j of a vector as rows take it,
+    [[nodiscard]] Lanes scaled(std::size_t j, const Vec3& x) const {
+        return {{scale_[j] * x.x, scale_[j] * x.y, scale_[j] * x.z, 0}};
+    }
+    /// and its product with the row i.
+    [[nodiscard]] Vec3 row_times(std::size_t i, std::span<const Lanes> scaled) const;
+    /// Calls body(begin, end) for chunks of the rows, by as many threads as that is worth.
+    template <class Body>
+    void for_rows(const Workers& workers, const Body& body) const {
+        readers(workers).for_chunks(area_.size(), rows_per_chunk, body);
+    }
+    static constexpr std::size_t rows_per_chunk = 64;
+
     /// By patch.
     [[nodiscard]] std::span<const LostShare> lost() const { return lost_; }
     /// Those that the patch shot itself.
     [[nodiscard]] std::span<const double> rays() const { return rays_; }
-    [[nodiscard]] std::uint64_t bytes() const { return row_begin_.back() * sizeof(Entry); }
+    [[nodiscard]] std::uint64_t bytes() const { return entries_ * sizeof(Entry); }
 
   private:
-    struct Entry {
-        std::uint32_t column;
-        float value; ///< S_ij; the same number in both rows
-    };
-    struct Row {
-        const Entry *begin_, *end_;
-        [[nodiscard]] const Entry* begin() const { return begin_; }
-        [[nodiscard]] const Entry* end() const { return end_; }
-    };
-    [[nodiscard]] Row row(std::size_t i) const {
-        return {&entry_[row_begin_[i]], &entry_[row_begin_[i]] + row_size_[i]};
+    /// A part of S_ij, the same number in both rows. A column may come twice in a row: as one patch
+    /// saw the other, and was seen by it.
+    using Entry = MatrixEntry;
+    [[nodiscard]] std::span<const Entry> row(std::size_t i) const {
+        return {row_begin_[i], row_size_[i]};
     }
-    void find_lost(std::span<const RayCounts> sets);
-    void merge(std::span<const RayCounts> sets, const Workers& workers);
-    [[nodiscard]] std::vector<double> find_scale(const Workers& workers) const;
-    void close(const std::vector<double>& scale, const Workers& workers);
+    void find_lost(const RayCounts& set);
+    void find_lost(std::span<const ExchangeMatrix> sets);
+    void store(const RayCounts& set);
+    void merge(std::span<const ExchangeMatrix> sets, const Workers& workers);
+    void find_scale(const Workers& workers);
+    void close(const Workers& workers);
     /// What the row i is to sum to; less than 0: unknown, as the patch itself has not looked.
     [[nodiscard]] double due(std::size_t i) const;
     [[nodiscard]] Workers readers(const Workers& workers) const;
 
-    std::vector<std::size_t> row_begin_; ///< one more than rows; rows have room for more
+    std::vector<std::unique_ptr<Entry[]>> stored_; ///< some rows each, or all
+    std::vector<const Entry*> row_begin_;
     std::vector<std::uint32_t> row_size_;
-    std::unique_ptr<Entry[]> entry_;
-    std::vector<double> self_; ///< S_ii, which closes the row
+    std::size_t entries_ = 0;
+    std::vector<double> scale_;    ///< g_i
+    std::vector<double> per_area_; ///< g_i / A_i
+    std::vector<double> self_;     ///< S_ii, which closes the row, not scaled
     std::vector<double> area_;
-    std::vector<double> rays_, rays_per_area_;
+    std::vector<double> rays_;
     std::vector<LostShare> lost_;
 };
 

@@ -122,17 +122,20 @@ void GatheringPlan::mix(std::span<const double> known, std::span<const double> p
 void GatheringPlan::weigh(const ExchangeMatrix& factors, std::span<const Vec3> light,
                           const Workers& workers) {
     const std::size_t n = light.size();
-    std::vector<Vec3> squares(n), mean(n), mean_of_squares(n);
-    for (std::size_t i = 0; i < n; ++i)
-        squares[i] = light[i] * light[i];
-    factors.multiply(light, mean, workers);
-    factors.multiply(squares, mean_of_squares, workers);
-    std::vector<double> known(n);
+    std::vector<Lanes> once(n), squared(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const Vec3 variance = glm::max(mean_of_squares[i] - mean[i] * mean[i], 0.0);
-        known[i] =
-            prior_weights_[i] * std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance));
+        once[i] = factors.scaled(i, light[i]);
+        squared[i] = factors.scaled(i, light[i] * light[i]);
     }
+    std::vector<double> known(n);
+    factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Vec3 mean = factors.row_times(i, once);
+            const Vec3 variance = glm::max(factors.row_times(i, squared) - mean * mean, 0.0);
+            known[i] = prior_weights_[i] *
+                       std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance));
+        }
+    });
     mix(known, prior_weights_, weights_);
 }
 

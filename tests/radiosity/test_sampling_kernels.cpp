@@ -2,6 +2,7 @@
 
 #include "geometry/instruction_set.h"
 #include "geometry/vector.h"
+#include "radiosity/matrix_kernels.h"
 #include "radiosity/rng.h"
 #include "radiosity/sampling_kernels.h"
 #include "radiosity/sobol.h"
@@ -159,4 +160,30 @@ TEST_CASE("every instruction set gives the same random numbers and directions in
     CHECK(std::ranges::count(expected.second, 0u) > 10);
     for (const InstructionSet set : available_instruction_sets())
         CHECK(draw(set) == expected);
+}
+
+TEST_CASE("every instruction set gives the same products with a row") {
+    Rng rng(7);
+    std::vector<Lanes> x(50);
+    for (Lanes& lanes : x)
+        for (int c = 0; c < 3; ++c)
+            lanes.lane[c] = rng.uniform();
+    std::vector<MatrixEntry> row;
+    for (std::size_t count = 0; count < 20; ++count) {
+        Vec3 plain(0.0);
+        for (const auto& [column, value] : row)
+            for (int c = 0; c < 3; ++c)
+                plain[c] += value * x[column].lane[c];
+        Lanes expected{};
+        matrix_kernels(InstructionSet::baseline).row_times(row.data(), count, x.data(), &expected);
+        for (const InstructionSet set : available_instruction_sets()) {
+            Lanes sum{};
+            matrix_kernels(set).row_times(row.data(), count, x.data(), &sum);
+            for (int c = 0; c < 3; ++c) {
+                CHECK(sum.lane[c] == expected.lane[c]);
+                CHECK(sum.lane[c] == Approx(plain[c]).epsilon(1e-14));
+            }
+        }
+        row.push_back({std::uint32_t(50 * rng.uniform()), float(rng.uniform())});
+    }
 }

@@ -1,9 +1,11 @@
-// All sampling kernels of one instruction set, gathered for the choice at run time. The file that
+// All kernels of one instruction set, gathered for the choice at run time. The file that
 // includes this names the set in HEMILUX_KERNELS.
 
 #include "radiosity/kernels/cosine.h"
 
 #include "radiosity/kernels/emitters.h"
+
+#include "radiosity/kernels/matrix.h"
 
 #include "radiosity/kernels/random.h"
 
@@ -13,5 +15,8 @@ namespace hemilux::HEMILUX_KERNELS {
 
 extern const SamplingKernels sampling;
 const SamplingKernels sampling{sobol, cosine, weigh_emitters, find_places, random, in_cells};
+
+extern const MatrixKernels matrix;
+const MatrixKernels matrix{row_times};
 
 } // namespace hemilux::HEMILUX_KERNELS

@@ -14,7 +14,7 @@
 // Consistent: the solution depends on what was counted in a non-linear way, so its bias falls as
 // one over the rays, and its error more slowly. Good nearly everywhere: it needs ten to fifty times
 // fewer rays than shooting, most where light is even and surfaces reflect much. Costs 8 bytes per
-// patch and patch that it saw, and as many to solve.
+// patch and patch that it saw, and up to four times as many to solve.
 
 #include "radiosity/check_input.h"
 #include "radiosity/conjugate_gradients.h"
@@ -171,27 +171,27 @@ class GatheringSolver final : public Solver {
         direct_.emplace(input_.mesh, input_.tracer, input_.needs, emitters_, std::move(seeds));
     }
 
-    /// Each set by a thread of its own, while another puts the whole together; then the whole by
-    /// all threads.
+    /// Each set by a thread of its own; then the whole by all threads, from where their mean is.
     /// Nothing is changed when it is interrupted.
     ExchangeMatrix solve_all() {
-        std::optional<ExchangeMatrix> all;
+        std::vector<ExchangeMatrix> parts(sets);
         std::vector<GatheredLight::Light> found = light_.solved();
-        const unsigned busy = std::min(sets, workers_.threads() - 1);
-        workers_.for_chunks(sets + 1, 1, [&](std::size_t task, std::size_t) {
-            if (task == 0) {
-                all.emplace(input_.mesh, counts_, Workers(workers_.threads() - busy));
-                return;
-            }
-            const std::size_t set = task - 1;
-            const Workers alone(1);
-            solve({input_.mesh, std::span(&counts_[set], 1), alone}, set, found[set], alone,
-                  roughly);
+        workers_.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
+            parts[set] = ExchangeMatrix(input_.mesh, counts_[set]);
+            solve(parts[set], set, found[set], Workers(1), roughly);
         });
-        solve(*all, sets, found[sets], workers_, precisely);
+        ExchangeMatrix all(parts, workers_);
+        parts.clear();
+        for (std::size_t i = 0; i < area_.size(); ++i) {
+            Vec3 sum(0.0);
+            for (std::size_t set = 0; set < sets; ++set)
+                sum += found[set].incident[i];
+            found[sets].incident[i] = sum / double(sets);
+        }
+        solve(all, sets, found[sets], workers_, precisely);
         if (!input_.monitor.interrupted)
             light_.solved() = std::move(found);
-        return std::move(*all);
+        return all;
     }
 
     /// How many times as many rays may be stored.
@@ -209,22 +209,38 @@ class GatheringSolver final : public Solver {
     /// from what `light` holds on.
     void solve(const ExchangeMatrix& factors, std::size_t set, GatheredLight::Light& light,
                const Workers& workers, double residual) const {
-        const std::size_t n = area_.size();
-        std::vector<Vec3> d(n), seen(n);
-        factors.multiply(seen_emission_, d, workers);
-        const bool some_unsampled = plan_.some_without_shadow_rays();
-        if (some_unsampled) // black: rays at random tell well enough what they absorb
-            factors.multiply(emission_, seen, workers);
-        for (std::uint32_t i = 0; i < n; ++i) {
-            if (some_unsampled && direct_->samples(i) == 0)
-                d[i] = seen[i];
+        std::vector<Vec3> d = found_at_random(factors, workers);
+        for (std::uint32_t i = 0; i < d.size(); ++i)
             d[i] += set == sets ? direct_->irradiance(i) : direct_->irradiance(i, set);
-        }
         const Transport transport{area_, emission_, reflectance_, factors.lost(), factors.rays()};
         scale_direct_light(transport, d);
         solve_by_gradients(factors, area_, reflectance_, d, light.incident, workers,
                            {.tolerance = residual, .interrupted = &input_.monitor.interrupted});
         light.energy = close_energy(transport, light.incident);
+    }
+
+    /// The light straight from the emitters that shadow rays do not reach; where there are no
+    /// shadow rays, from all. Those patches are black: rays at random tell well enough what they
+    /// absorb.
+    [[nodiscard]] std::vector<Vec3> found_at_random(const ExchangeMatrix& factors,
+                                                    const Workers& workers) const {
+        const std::size_t n = area_.size();
+        std::vector<Vec3> found(n);
+        std::vector<Lanes> all(n), some(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            all[i] = factors.scaled(i, emission_[i]);
+            some[i] = factors.scaled(i, seen_emission_[i]);
+        }
+        const bool any =
+            std::ranges::any_of(seen_emission_, [](const Vec3& e) { return e != Vec3(0.0); });
+        factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                if (plan_.some_without_shadow_rays() && direct_->samples(std::uint32_t(i)) == 0)
+                    found[i] = factors.row_times(i, all);
+                else if (any)
+                    found[i] = factors.row_times(i, some);
+        });
+        return found;
     }
 
     void combine(const ExchangeMatrix& all) {
