@@ -132,6 +132,7 @@ int solve(const SolveSettings& settings) {
     SolveOptions options = with_memory(settings.options, settings.scene);
     options.growing_steps = !stop.steps;
     options.aim = stop.error.value_or(0);
+    options.expected_steps = expected_steps(stop);
     const SolverInput input{mesh, *tracer, options, monitor, needs};
     const std::unique_ptr<Solver> solver = make_solver(settings, input);
     std::vector<StepRow> rows;

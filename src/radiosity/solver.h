@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -54,8 +55,11 @@ struct SolveOptions {
     /// `gathering`: each step takes as many rays as all before, or as `aim` asks for; else each
     /// takes `rays`, as with the other methods.
     bool growing_steps = true;
-    /// `gathering`: the estimated error at which the run is to end; 0: none.
+    /// The estimated error at which the run is to end; 0: none. `gathering` plans its steps by it.
     double aim = 0;
+    /// Steps that the caller will take, as far as it knows: methods whose steps are independent
+    /// work out several at the same time. The result does not depend on it.
+    std::uint32_t expected_steps = 0;
     /// Bytes that `gathering` may use for its rays; 0: as many as it needs.
     std::uint64_t memory = 0;
     /// 0: one per core. The result does not depend on it.
@@ -74,6 +78,11 @@ struct StopRule {
     static constexpr double tolerance = 1.2;
     static constexpr std::uint32_t default_steps = 16;
 };
+
+/// For SolveOptions: more than will be taken where the time ends the run.
+[[nodiscard]] inline std::uint32_t expected_steps(const StopRule& stop) {
+    return stop.steps.value_or(stop.seconds ? std::numeric_limits<std::uint32_t>::max() : 0);
+}
 
 /// How a caller watches a run and ends it early. All members may be used from any thread.
 struct Monitor {

@@ -7,13 +7,14 @@
 #include "radiosity/state.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 namespace hemilux {
 
 StepwiseSolver::StepwiseSolver(const SolverInput& input, bool equal_rays)
-    : input_(input), equal_rays_(equal_rays) {
+    : input_(input), workers_(input.options.threads), equal_rays_(equal_rays) {
     check_input(input);
     const auto patches = input_.mesh.patches();
     const double unknown = input.needs.bounces ? std::numeric_limits<double>::quiet_NaN() : 0;
@@ -29,13 +30,60 @@ StepwiseSolver::StepwiseSolver(const SolverInput& input, bool equal_rays)
 bool StepwiseSolver::step() {
     if (ray_power_ == 0 && !find_ray_power())
         return false;
-    input_.monitor.phase = "step";
-    StepResult result = fresh_result();
-    if (!solve_once(solution_.steps, result))
+    if (ahead_.empty())
+        work_ahead();
+    const Ahead next = std::move(ahead_.front());
+    ahead_.pop_front();
+    if (next.failure || !next.done)
+        ahead_.clear();
+    if (next.failure)
+        std::rethrow_exception(next.failure);
+    if (!next.done)
         return false;
-    check_finite(input_.mesh, result.radiosity, "the radiosity", step_under_way());
-    combine(result);
+    check_finite(input_.mesh, next.result.radiosity, "the radiosity", solution_.steps + 1);
+    combine(next.result);
     return true;
+}
+
+void StepwiseSolver::work_ahead() {
+    input_.monitor.phase = "step";
+    const unsigned count = side_by_side();
+    make_places(count);
+    ahead_.resize(count);
+    workers_.for_chunks(count, 1, [&](std::size_t k, std::size_t) {
+        const StepTask task{solution_.steps + k, solution_.steps + k + 1, ray_power_,
+                            static_cast<unsigned>(k), Workers(workers_.threads() / count)};
+        try {
+            ahead_[k].result = fresh_result();
+            ahead_[k].done = solve_once(task, ahead_[k].result);
+        } catch (...) {
+            ahead_[k].failure = std::current_exception();
+        }
+    });
+}
+
+/// One for each thread, if so many will be wanted. In large scenes a step keeps all threads busy,
+/// and several would take much memory.
+unsigned StepwiseSolver::side_by_side() const {
+    constexpr std::size_t most_patches = 100'000;
+    if (!steps_are_alike() || input_.mesh.patches().size() > most_patches)
+        return 1;
+    return static_cast<unsigned>(
+        std::min(steps_to_come(), static_cast<double>(workers_.threads())));
+}
+
+/// As far as it is known; at least 1. Two are needed to tell an error, which then falls as the root
+/// of their number.
+double StepwiseSolver::steps_to_come() const {
+    const SolveOptions& options = input_.options;
+    const double done = solution_.steps;
+    double last = options.expected_steps > 0 ? options.expected_steps : done + 1;
+    if (options.aim > 0) {
+        const double off = estimated_error(input_.mesh, solution_) / options.aim;
+        const double by_error = done < 2 ? 2 : done * off * off;
+        last = options.expected_steps > 0 ? std::min(last, by_error) : by_error;
+    }
+    return last > done + 1 ? last - done : 1;
 }
 
 /// Of the solution, local units.
@@ -80,7 +128,8 @@ bool StepwiseSolver::find_ray_power() {
         return true;
     }
     ray_power_ = emitted() / (1 - mean_reflectance(input_.mesh)) / pilot_rays;
-    if (!solve_once(pilot_stream, pilot)) {
+    make_places(1);
+    if (!solve_once({pilot_stream, 1, ray_power_, 0, workers_}, pilot)) {
         ray_power_ = 0;
         return false;
     }
@@ -91,23 +140,23 @@ bool StepwiseSolver::find_ray_power() {
 }
 
 /// Rays die out by chance, which in a room of reflectance .99999 takes about 2e6 bounces.
-void StepwiseSolver::check_bounces(std::uint64_t bounces) const {
+void check_bounces(const Mesh& mesh, std::uint64_t bounces, std::uint64_t step) {
     constexpr std::uint64_t most = 10'000'000;
     if (bounces <= most)
         return;
     const auto unabsorbed = [&](std::uint32_t a, std::uint32_t b) {
-        return mean_of_channels(input_.mesh.material(a).reflectance) <
-               mean_of_channels(input_.mesh.material(b).reflectance);
+        return mean_of_channels(mesh.material(a).reflectance) <
+               mean_of_channels(mesh.material(b).reflectance);
     };
     std::uint32_t brightest = 0;
-    for (std::uint32_t i = 1; i < input_.mesh.patches().size(); ++i)
+    for (std::uint32_t i = 1; i < mesh.patches().size(); ++i)
         if (unabsorbed(brightest, i))
             brightest = i;
-    throw SolveError("step " + std::to_string(step_under_way()) +
+    throw SolveError("step " + std::to_string(step) +
                          ": light is still on its way after ten million bounces, as between " +
-                         name_of_patch(input_.mesh, brightest) +
+                         name_of_patch(mesh, brightest) +
                          " and others; --method gathering needs no bounces",
-                     face_of(input_.mesh, brightest));
+                     face_of(mesh, brightest));
 }
 
 /// What a single ray of all steps so far has added to the patch's radiosity, on average; where none

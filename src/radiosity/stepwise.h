@@ -1,12 +1,15 @@
 #pragma once
 // Methods each of whose steps is a complete solution of all bounces, independent of the other
 // steps (docs/decisions.md, D11): the result is the mean of the steps, its standard error their
-// spread.
+// spread. As they are independent, several are worked out at the same time, each by a thread.
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/solver.h"
+#include "radiosity/workers.h"
 
 #include <cstdint>
+#include <deque>
+#include <exception>
 #include <span>
 #include <vector>
 
@@ -20,6 +23,18 @@ struct StepResult {
     double shot = 0; ///< all power that was to be shot, mean of channels
     std::uint64_t rays = 0;
 };
+
+/// One step to be worked out.
+struct StepTask {
+    std::uint64_t stream; ///< of its random numbers
+    std::uint64_t number; ///< from 1; the pilot belongs to the first
+    double ray_power;     ///< that each ray is to carry on average, mean of channels; or infinite
+    unsigned place;       ///< among those that are worked out at the same time, from 0
+    Workers workers;      ///< for this one
+};
+
+/// Throws SolveError after so many bounces that the series seems not to end.
+void check_bounces(const Mesh& mesh, std::uint64_t bounces, std::uint64_t step);
 
 class StepwiseSolver : public Solver {
   public:
@@ -37,8 +52,12 @@ class StepwiseSolver : public Solver {
     StepwiseSolver(const SolverInput& input, bool equal_rays);
 
     /// One solution of all bounces. `result` comes with emission as radiosity and nothing else.
-    /// False when interrupted.
-    virtual bool solve_once(std::uint64_t stream, StepResult& result) = 0;
+    /// False when interrupted. If steps are alike, called for several at the same time.
+    virtual bool solve_once(const StepTask& task, StepResult& result) = 0;
+    /// Before solve_once is called for so many places.
+    virtual void make_places(unsigned /*count*/) {}
+    /// No step depends on those before.
+    [[nodiscard]] virtual bool steps_are_alike() const { return false; }
 
     /// What the next steps depend on besides, see Solver.
     virtual void save_more(StateWriter&) const {}
@@ -49,16 +68,6 @@ class StepwiseSolver : public Solver {
         return solution_.steps > 0 || pilot_.empty() ? solution_.radiosity : pilot_;
     }
 
-    /// Power that each ray is to carry on average, mean of channels; infinite without equal rays.
-    [[nodiscard]] double ray_power() const { return ray_power_; }
-    /// From 1; the pilot belongs to the first.
-    [[nodiscard]] std::uint64_t step_under_way() const { return solution_.steps + 1; }
-    /// Mean of channels, local units.
-    [[nodiscard]] double emitted() const;
-
-    /// Throws SolveError after so many that the series seems not to end.
-    void check_bounces(std::uint64_t bounces) const;
-
     /// The stream of the pilot; steps count from 0.
     static constexpr std::uint64_t pilot_stream = ~std::uint64_t{0};
 
@@ -66,6 +75,16 @@ class StepwiseSolver : public Solver {
     Solution solution_;
 
   private:
+    /// A step that is worked out, or that was begun.
+    struct Ahead {
+        StepResult result;
+        bool done = false;
+        std::exception_ptr failure;
+    };
+    void work_ahead();
+    [[nodiscard]] unsigned side_by_side() const;
+    [[nodiscard]] double steps_to_come() const;
+    [[nodiscard]] double emitted() const;
     [[nodiscard]] Vec3 power_leaving() const;
     [[nodiscard]] StepResult fresh_result() const;
     bool find_ray_power();
@@ -73,7 +92,9 @@ class StepwiseSolver : public Solver {
     void combine(const StepResult& result);
     void account(const StepResult& result);
 
+    Workers workers_;
     bool equal_rays_;
+    std::deque<Ahead> ahead_;   ///< the next steps
     double ray_power_ = 0;      ///< 0 until the pilot has found it
     std::vector<Vec3> pilot_;   ///< its radiosity; empty where there was none
     std::vector<Vec3> squares_; ///< sum of squared deviations of the steps (Welford 1962)

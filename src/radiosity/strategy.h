@@ -68,6 +68,9 @@ struct PrivateCell {
 class Strategy {
   public:
     virtual ~Strategy() = default;
+    /// It deals alike in all steps and learns nothing: then several steps are worked out at the
+    /// same time, and it is told of none.
+    [[nodiscard]] virtual bool is_same_in_all_steps() const { return false; }
     /// Before a step other than the pilot: estimates of the radiosity, by patch, in local units,
     /// and the power of a ray, mean of channels.
     virtual void prepare(std::span<const Vec3> /*radiosity*/, double /*ray_power*/) {}

@@ -247,7 +247,7 @@ TEST_CASE("With little memory gathering goes on, and its rays take no more") {
     options.memory = 0;
     const Solution free = test::solve(model, gathering(), options, test::steps(10));
     CHECK(many.bytes_transport <= 300'000);
-    CHECK(many.bytes_transport >= few.bytes_transport);
+    CHECK(many.bytes_transport > few.bytes_transport / 2);
     CHECK(free.bytes_transport > 2 * many.bytes_transport);
     const auto off = [&](const Solution& s) {
         return true_error(model.mesh, s.radiosity, exact.radiosity).all;

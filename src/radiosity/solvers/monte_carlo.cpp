@@ -37,13 +37,14 @@ constexpr std::size_t rays_for_one_thread = 2048;
 
 class MonteCarloSolver final : public StepwiseSolver {
   public:
-    explicit MonteCarloSolver(const SolverInput& input)
-        : StepwiseSolver(input, true), workers_(input.options.threads) {}
+    explicit MonteCarloSolver(const SolverInput& input) : StepwiseSolver(input, true) {}
 
   private:
-    bool solve_once(std::uint64_t stream, StepResult& result) override {
+    [[nodiscard]] bool steps_are_alike() const override { return true; }
+    bool solve_once(const StepTask& task, StepResult& result) override {
         const auto patches = static_cast<std::uint32_t>(input_.mesh.patches().size());
         std::vector<CompensatedSum<Vec3>> unshot(patches), received(patches);
+        std::vector<std::uint32_t> receivers; // of some of a shot's rays, ray by ray
         LargestFirst order(patches);
         for (std::uint32_t i = 0; i < patches; ++i) {
             unshot[i] += result.radiosity[i] * input_.mesh.patches()[i].area;
@@ -55,15 +56,16 @@ class MonteCarloSolver final : public StepwiseSolver {
             const auto shooter = static_cast<std::uint32_t>(order.index_of_largest());
             const Vec3 power = std::exchange(unshot[shooter], {}).value();
             order.set(shooter, 0);
-            check_finite(input_.mesh, shooter, power, "the power to be shot", step_under_way());
-            check_bounces(shots / patches);
+            check_finite(input_.mesh, shooter, power, "the power to be shot", task.number);
+            check_bounces(input_.mesh, shots / patches, task.number);
             result.shot += mean_of_channels(power);
-            const Shot shot = aim(shooter, power, hash_words({input_.options.seed, stream, shots}));
+            const Shot shot = aim(shooter, power, task.ray_power,
+                                  hash_words({input_.options.seed, task.stream, shots}));
             for (std::size_t first = 0; first < shot.rays; first += rays_per_volley) {
-                shoot(shot, first);
+                shoot(shot, first, task.workers, receivers);
                 if (input_.monitor.interrupted)
                     return false;
-                for (const std::uint32_t i : receivers_)
+                for (const std::uint32_t i : receivers)
                     if (i < patches) {
                         received[i] += shot.each;
                         unshot[i] += input_.mesh.material(i).reflectance * shot.each;
@@ -72,7 +74,7 @@ class MonteCarloSolver final : public StepwiseSolver {
                     } else {
                         (i == escaped ? result.escaped : result.absorbed) += shot.each;
                     }
-                count(result);
+                count(receivers.size(), result);
             }
             result.sent += double(shot.rays) * shot.each;
         }
@@ -87,19 +89,21 @@ class MonteCarloSolver final : public StepwiseSolver {
         std::uint64_t stream;
     };
 
-    [[nodiscard]] Shot aim(std::uint32_t shooter, const Vec3& power, std::uint64_t stream) const {
-        const double expected = mean_of_channels(power) / ray_power();
+    [[nodiscard]] static Shot aim(std::uint32_t shooter, const Vec3& power, double ray_power,
+                                  std::uint64_t stream) {
+        const double expected = mean_of_channels(power) / ray_power;
         const double n = std::floor(expected + Rng(stream).uniform());
         // Below one ray, the ray that is shot carries the power of those that are not.
         return {shooter, static_cast<std::size_t>(n), power / (expected >= 1 ? n : expected),
                 stream};
     }
 
-    /// Some of the shot's rays, from `first` on; fills receivers_, one for each.
-    void shoot(const Shot& shot, std::size_t first) {
+    /// Some of the shot's rays, from `first` on.
+    void shoot(const Shot& shot, std::size_t first, const Workers& all,
+               std::vector<std::uint32_t>& receivers) const {
         const std::size_t rays = std::min(shot.rays - first, rays_per_volley);
-        receivers_.resize(rays);
-        const Workers workers = rays < rays_for_one_thread ? Workers(1) : workers_;
+        receivers.resize(rays);
+        const Workers workers = rays < rays_for_one_thread ? Workers(1) : all;
         workers.for_chunks(rays, rays_per_stream, [&](std::size_t begin, std::size_t end) {
             if (input_.monitor.interrupted)
                 return;
@@ -112,7 +116,7 @@ class MonteCarloSolver final : public StepwiseSolver {
             for (std::size_t k = begin; k < end; ++k)
                 drawn.push_back(draw(from, origins, frame, rng));
             find_receivers(drawn, input_.mesh, input_.tracer, struck);
-            std::ranges::copy(struck, receivers_.begin() + static_cast<std::ptrdiff_t>(begin));
+            std::ranges::copy(struck, receivers.begin() + static_cast<std::ptrdiff_t>(begin));
         });
     }
 
@@ -135,16 +139,13 @@ class MonteCarloSolver final : public StepwiseSolver {
         }
     }
 
-    void count(StepResult& result) {
-        result.rays += receivers_.size();
-        input_.monitor.rays += receivers_.size();
+    void count(std::size_t rays, StepResult& result) const {
+        result.rays += rays;
+        input_.monitor.rays += rays;
         input_.monitor.step_share = std::min(
             1.0, static_cast<double>(result.rays) /
                      (input_.options.rays * static_cast<double>(input_.mesh.patches().size())));
     }
-
-    Workers workers_;
-    std::vector<std::uint32_t> receivers_; ///< of the present volley, ray by ray
 };
 
 std::unique_ptr<Solver> make_monte_carlo(const SolverInput& input) {

@@ -12,6 +12,7 @@ namespace {
 
 class Cosine final : public Strategy {
   public:
+    [[nodiscard]] bool is_same_in_all_steps() const override { return true; }
     Dealing deal(std::uint32_t, DealtCells&) const override {
         static constexpr std::uint16_t cell = whole_hemisphere;
         static constexpr float all_rays = 1;

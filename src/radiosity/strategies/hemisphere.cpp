@@ -46,6 +46,7 @@ class HemisphereStrategy final : public Strategy {
             keep_dealt(input, workers);
     }
 
+    [[nodiscard]] bool is_same_in_all_steps() const override { return true; }
     Dealing deal(std::uint32_t patch, DealtCells& memory) const override {
         if (!density_)
             return dealt_of_one_surface_.view();

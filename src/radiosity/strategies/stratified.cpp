@@ -18,6 +18,7 @@ class Stratified final : public Strategy {
             dealt_.add(cell, power_share(hemisphere, cell, false));
         }
     }
+    [[nodiscard]] bool is_same_in_all_steps() const override { return true; }
     Dealing deal(std::uint32_t, DealtCells&) const override { return dealt_.view(); }
 
   private:

@@ -1,0 +1,92 @@
+#pragma once
+// All bounces of one step: power is shot from all patches that hold some, what arrives is reflected
+// and shot in turn, until nothing is left (paper section 5b).
+//
+// Late bounces are of few rays: they cost what is shot, not a look at all patches.
+
+#include "geometry/compensated_sum.h"
+#include "radiosity/burst_rays.h"
+#include "radiosity/cell_directions.h"
+#include "radiosity/hemisphere.h"
+#include "radiosity/patch_starts.h"
+#include "radiosity/stepwise.h"
+#include "radiosity/strategy.h"
+#include "radiosity/workers.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace hemilux {
+
+/// What all steps share.
+struct ShootingTools {
+    SolverInput input;
+    Hemisphere hemisphere;
+    CellDirections directions;
+    PatchStarts starts;
+    std::unique_ptr<Strategy> strategy;
+};
+
+class Bounces {
+  public:
+    /// The tools outlive this. May be used for one step after the other.
+    explicit Bounces(const ShootingTools& tools) : tools_(tools), input_(tools.input) {}
+
+    /// Shoots what `result` holds as radiosity, and all that follows. False when interrupted.
+    bool shoot(const StepTask& task, StepResult& result);
+
+  private:
+    /// What one thread shoots at a time: of the rays on the line (plan) those in (from, to], which
+    /// are of senders from `first` to before `last`.
+    struct Piece {
+        std::uint32_t first, last;
+        double from, to;
+    };
+    /// What a piece shot and where each ray arrived.
+    struct Volley {
+        std::vector<Burst> bursts;
+        std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
+        std::vector<std::uint16_t> arrivals;  ///< from which of its cells, if the strategy learns
+    };
+
+    /// What a patch received in a bounce.
+    struct Arrived {
+        CompensatedSum<Vec3> power;
+        std::uint32_t rays = 0;
+    };
+
+    void begin(const StepResult& result);
+    /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
+    std::uint64_t bounce(std::uint64_t stream, StepResult& result);
+    void plan(std::uint64_t stream);
+    [[nodiscard]] double cut();
+    void fire(const Piece& piece, std::uint64_t stream, Volley& volley) const;
+    // What is to be drawn of a patch is added to `bursts`.
+    void order(std::size_t sender, const Piece& piece, const Dealing& dealing,
+               std::vector<Burst>& bursts) const;
+    void order_as_printed(std::uint32_t patch, const Dealing& dealing,
+                          std::vector<Burst>& bursts) const;
+    void trace(std::uint64_t seed, Volley& volley) const;
+
+    void collect(const Volley& volley, StepResult& result);
+    void reflect(StepResult& result);
+    void add_sender(std::uint32_t patch, const Vec3& power);
+
+    const ShootingTools& tools_;
+    const SolverInput& input_;
+    const StepTask* task_ = nullptr;
+
+    // Of the present bounce.
+    std::vector<std::uint32_t> senders_; ///< patches that hold power, ascending
+    double left_ = 0;                    ///< their power, mean of channels
+    std::vector<Vec3> unshot_;           ///< by patch, of senders
+    /// Expected rays of the senders before sender k, counted from the bounce's random offset.
+    std::vector<double> rays_before_;
+    std::vector<Arrived> received_;     ///< by patch
+    std::vector<std::uint64_t> struck_; ///< a bit for each patch that received any
+    std::vector<Piece> pieces_;
+    std::vector<Volley> volleys_; ///< kept for their memory
+};
+
+} // namespace hemilux
