@@ -68,7 +68,6 @@ ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& set)
         area_.push_back(patch.area);
     find_lost(set);
     store(set);
-    find_scale(Workers(1));
     close(Workers(1));
 }
 
@@ -77,7 +76,6 @@ ExchangeMatrix::ExchangeMatrix(std::span<const ExchangeMatrix> sets, const Worke
       lost_(area_.size()) {
     find_lost(sets);
     merge(sets, workers);
-    find_scale(workers);
     close(workers);
 }
 
@@ -166,13 +164,18 @@ Workers ExchangeMatrix::readers(const Workers& workers) const {
     return entries_ < entries_for_one_thread ? Workers(1) : workers;
 }
 
-double ExchangeMatrix::due(std::size_t i) const {
-    return rays_[i] > 0 ? area_[i] * std::max(1 - lost_[i].escaped - lost_[i].absorbed, 0.0) : -1;
+/// What the rows are to sum to; less than 0: unknown, as the patch itself has not looked.
+std::vector<double> ExchangeMatrix::due() const {
+    std::vector<double> due(area_.size(), -1.0);
+    for (std::size_t i = 0; i < due.size(); ++i)
+        if (rays_[i] > 0)
+            due[i] = area_[i] * std::max(1 - lost_[i].escaped - lost_[i].absorbed, 0.0);
+    return due;
 }
 
 /// Rows are closed by c = due / (S r), then by r = due / (S c), and so on (Sinkhorn and Knopp
 /// 1967). As S is symmetric, r and c end as multiples of each other, and g is their geometric mean.
-void ExchangeMatrix::find_scale(const Workers& workers) {
+void ExchangeMatrix::find_scale(std::span<const double> due, const Workers& workers) {
     const std::size_t n = area_.size();
     std::vector<double> before(n, 1.0), after(n);
     scale_.assign(n, 1.0);
@@ -181,8 +184,8 @@ void ExchangeMatrix::find_scale(const Workers& workers) {
             for (std::size_t i = begin; i < end; ++i) {
                 const double sum = row_sum(row(i), scale_);
                 after[i] = 1; // where the patch itself has not looked, what others saw is all
-                if (due(i) >= 0)
-                    after[i] = sum > 0 ? due(i) / sum : 0;
+                if (due[i] >= 0)
+                    after[i] = sum > 0 ? due[i] / sum : 0;
             }
         });
         before = std::exchange(scale_, after);
@@ -192,27 +195,19 @@ void ExchangeMatrix::find_scale(const Workers& workers) {
 }
 
 void ExchangeMatrix::close(const Workers& workers) {
+    const std::vector<double> due = this->due();
+    find_scale(due, workers);
     self_.assign(area_.size(), 0.0);
     per_area_.assign(area_.size(), 0.0);
     for_rows(workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const double sum = row_sum(row(i), scale_);
-            if (scale_[i] > 0 && due(i) >= 0)
-                self_[i] = (due(i) / scale_[i] - sum) / scale_[i];
+            if (scale_[i] > 0 && due[i] >= 0)
+                self_[i] = (due[i] / scale_[i] - sum) / scale_[i];
             if (area_[i] > 0)
                 per_area_[i] = scale_[i] / area_[i];
         }
     });
-}
-
-Vec3 ExchangeMatrix::row_times(std::size_t i, std::span<const Lanes> scaled) const {
-    static const MatrixKernels& kernels = matrix_kernels();
-    Lanes sum;
-    kernels.row_times(row(i).data(), row(i).size(), scaled.data(), &sum);
-    const auto channel = [&](int c) {
-        return per_area_[i] * (sum.lane[c] + self_[i] * scaled[i].lane[c]);
-    };
-    return {channel(0), channel(1), channel(2)};
 }
 
 void ExchangeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y,

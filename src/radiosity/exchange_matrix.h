@@ -38,7 +38,14 @@ class ExchangeMatrix {
         return {{scale_[j] * x.x, scale_[j] * x.y, scale_[j] * x.z, 0}};
     }
     /// and its product with the row i.
-    [[nodiscard]] Vec3 row_times(std::size_t i, std::span<const Lanes> scaled) const;
+    [[nodiscard]] Vec3 row_times(std::size_t i, std::span<const Lanes> scaled) const {
+        Lanes sum;
+        kernels_->row_times(row_begin_[i], row_size_[i], scaled.data(), &sum);
+        const auto channel = [&](int c) {
+            return per_area_[i] * (sum.lane[c] + self_[i] * scaled[i].lane[c]);
+        };
+        return {channel(0), channel(1), channel(2)};
+    }
     /// Calls body(begin, end) for chunks of the rows, by as many threads as that is worth.
     template <class Body>
     void for_rows(const Workers& workers, const Body& body) const {
@@ -63,12 +70,12 @@ class ExchangeMatrix {
     void find_lost(std::span<const ExchangeMatrix> sets);
     void store(const RayCounts& set);
     void merge(std::span<const ExchangeMatrix> sets, const Workers& workers);
-    void find_scale(const Workers& workers);
     void close(const Workers& workers);
-    /// What the row i is to sum to; less than 0: unknown, as the patch itself has not looked.
-    [[nodiscard]] double due(std::size_t i) const;
+    [[nodiscard]] std::vector<double> due() const;
+    void find_scale(std::span<const double> due, const Workers& workers);
     [[nodiscard]] Workers readers(const Workers& workers) const;
 
+    const MatrixKernels* kernels_ = &matrix_kernels();
     std::vector<std::unique_ptr<Entry[]>> stored_; ///< some rows each, or all
     std::vector<const Entry*> row_begin_;
     std::vector<std::uint32_t> row_size_;

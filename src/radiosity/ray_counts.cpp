@@ -100,23 +100,28 @@ struct RayCounts::Volley {
     std::uint64_t traced = 0;
 };
 
-std::uint64_t RayCounts::trace_up_to(std::span<const std::uint32_t> rays, const Workers& workers,
-                                     Monitor& monitor) {
+std::uint64_t RayCounts::trace_up_to(std::span<RayCounts> sets, std::span<const std::uint32_t> rays,
+                                     const Workers& workers, Monitor& monitor, double share) {
     std::atomic<std::uint64_t> traced{0};
+    std::atomic<std::size_t> done{0};
+    const std::size_t blocks = sets[0].blocks_.size(), all = sets.size() * blocks;
     workers.for_chunks_with(
-        rows_.size(), rows_per_block, [&] { return Volley(rows_.size()); },
-        [&](Volley& volley, std::size_t begin, std::size_t end) {
-            trace_block(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), rays,
-                        volley, monitor);
+        all, 1, [&] { return Volley(rays.size()); },
+        [&](Volley& volley, std::size_t k, std::size_t) {
+            sets[k / blocks].trace_block(k % blocks, rays, volley, monitor);
             traced += volley.traced;
             monitor.rays += std::exchange(volley.traced, 0);
+            if (share > 0)
+                monitor.step_share = share * static_cast<double>(++done) / static_cast<double>(all);
         });
     return traced;
 }
 
-void RayCounts::trace_block(std::uint32_t begin, std::uint32_t end,
-                            std::span<const std::uint32_t> rays, Volley& volley,
+void RayCounts::trace_block(std::size_t block, std::span<const std::uint32_t> rays, Volley& volley,
                             const Monitor& monitor) {
+    const auto begin = static_cast<std::uint32_t>(block * rows_per_block);
+    const auto end =
+        static_cast<std::uint32_t>(std::min(rows_.size(), (block + 1) * rows_per_block));
     volley.first_row = begin;
     for (std::uint32_t i = begin; i < end && !monitor.interrupted; ++i)
         if (rays[i] > rows_[i].rays)

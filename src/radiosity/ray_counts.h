@@ -29,7 +29,13 @@ class RayCounts {
     /// Goes on until each patch has so many rays. Returns the number traced now. Where the monitor
     /// was interrupted meanwhile some patches have fewer, and another call takes up the rest.
     std::uint64_t trace_up_to(std::span<const std::uint32_t> rays, const Workers& workers,
-                              Monitor& monitor);
+                              Monitor& monitor) {
+        return trace_up_to({this, 1}, rays, workers, monitor, 0);
+    }
+    /// The same in several sets of one mesh, so that no thread waits at the end of each. `share`:
+    /// what part of a step this is.
+    static std::uint64_t trace_up_to(std::span<RayCounts> sets, std::span<const std::uint32_t> rays,
+                                     const Workers& workers, Monitor& monitor, double share);
 
     /// Of this patch.
     [[nodiscard]] std::uint32_t rays(std::uint32_t patch) const { return rows_[patch].rays; }
@@ -57,8 +63,8 @@ class RayCounts {
     };
     class Tally;
     struct Volley;
-    void trace_block(std::uint32_t begin, std::uint32_t end, std::span<const std::uint32_t> rays,
-                     Volley& volley, const Monitor& monitor);
+    void trace_block(std::size_t block, std::span<const std::uint32_t> rays, Volley& volley,
+                     const Monitor& monitor);
     void draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley);
     void trace(Volley& volley);
     void store(std::uint32_t begin, std::uint32_t end, Tally& tally);

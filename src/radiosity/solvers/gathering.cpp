@@ -79,10 +79,8 @@ class GatheringSolver final : public Solver {
         plan();
         const auto& [rays, samples] = plan_.rays();
         input_.monitor.phase = "rays";
-        for (std::size_t s = 0; s < sets; ++s) {
-            traced_ += counts_[s].trace_up_to(rays, workers_, input_.monitor);
-            input_.monitor.step_share = static_cast<double>(s + 1) / (sets + 2);
-        }
+        constexpr double share_of_rays = 2.0 / 3;
+        traced_ += RayCounts::trace_up_to(counts_, rays, workers_, input_.monitor, share_of_rays);
         traced_ += direct_->sample_up_to(samples, workers_, input_.monitor);
         if (input_.monitor.interrupted)
             return false;
