@@ -44,7 +44,7 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
         done(before.steps, last, estimated_error(input.mesh, solver.solution())))
         return true;
     for (std::uint32_t step = before.steps + 1;; ++step) {
-        if (input.monitor.interrupted || !solver.step())
+        if ((input.monitor.interrupted && solver.steps_ready() == 0) || !solver.step())
             return false;
         const Solution& solution = solver.solution();
         const StepRecord record{step, solution.rays_energy + solution.rays_density, elapsed(),

@@ -102,6 +102,8 @@ class Solver {
     /// before.
     virtual bool step() = 0;
     [[nodiscard]] virtual const Solution& solution() const = 0;
+    /// The next ones that are worked out already: they cost no time.
+    [[nodiscard]] virtual std::uint32_t steps_ready() const { return 0; }
     /// The solver's own stop, e.g. nothing is left to shoot.
     [[nodiscard]] virtual bool finished() const { return false; }
 
@@ -164,8 +166,8 @@ struct Before {
     double seconds = 0; ///< but for those of Solution::seconds_density
 };
 
-/// Steps until the rule or the monitor ends the run. `after_step` sees each new solution.
-/// Returns false when interrupted.
+/// Steps until the rule or the monitor ends the run; then still those that are ready. `after_step`
+/// sees each new solution. Returns false when interrupted.
 bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
          const std::function<void(const StepRecord&, const Solution&)>& after_step = {},
          const Before& before = {});

@@ -7,6 +7,8 @@
 #include "radiosity/state.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -45,31 +47,50 @@ bool StepwiseSolver::step() {
     return true;
 }
 
+/// Each thread takes one step after the other; whoever is done with all helps with the last.
 void StepwiseSolver::work_ahead() {
     input_.monitor.phase = "step";
-    const unsigned count = side_by_side();
-    make_places(count);
+    const auto start = std::chrono::steady_clock::now();
+    const unsigned count = side_by_side(), places = std::min(count, workers_.threads());
+    make_places(places);
     ahead_.resize(count);
-    workers_.for_chunks(count, 1, [&](std::size_t k, std::size_t) {
-        const StepTask task{solution_.steps + k, solution_.steps + k + 1, ray_power_,
-                            static_cast<unsigned>(k), Workers(workers_.threads() / count)};
+    std::atomic<unsigned> place{0};
+    const Workers own(workers_.threads() / places);
+    const auto work = [&](unsigned at, std::size_t k, std::size_t) {
+        const StepTask task{solution_.steps + k, solution_.steps + k + 1, ray_power_, at,
+                            k + 1 == count ? workers_ : own};
         try {
             ahead_[k].result = fresh_result();
             ahead_[k].done = solve_once(task, ahead_[k].result);
         } catch (...) {
             ahead_[k].failure = std::current_exception();
         }
-    });
+    };
+    workers_.for_chunks_with(
+        count, 1, [&] { return place++; }, work);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    seconds_per_step_ = took.count() * places / count;
 }
 
-/// One for each thread, if so many will be wanted. In large scenes a step keeps all threads busy,
-/// and several would take much memory.
+/// If so many will be wanted, as many as threads work out within half a second, so that none waits
+/// long for another, one at least for each. In large scenes a step keeps all threads busy, and
+/// several would take much memory.
 unsigned StepwiseSolver::side_by_side() const {
     constexpr std::size_t most_patches = 100'000;
-    if (!steps_are_alike() || input_.mesh.patches().size() > most_patches)
+    constexpr double seconds_ahead = .5, most_each = 16;
+    if (!steps_are_alike() || workers_.threads() == 1 ||
+        input_.mesh.patches().size() > most_patches)
         return 1;
-    return static_cast<unsigned>(
-        std::min(steps_to_come(), static_cast<double>(workers_.threads())));
+    const double each =
+        seconds_per_step_ > 0 ? std::clamp(seconds_ahead / seconds_per_step_, 1.0, most_each) : 1;
+    return static_cast<unsigned>(std::min(steps_to_come(), std::floor(each) * workers_.threads()));
+}
+
+std::uint32_t StepwiseSolver::steps_ready() const {
+    std::uint32_t ready = 0;
+    while (ready < ahead_.size() && ahead_[ready].done)
+        ++ready;
+    return ready;
 }
 
 /// As far as it is known; at least 1. Two are needed to tell an error, which then falls as the root

@@ -44,6 +44,7 @@ class StepwiseSolver : public Solver {
     [[nodiscard]] bool finished() const final {
         return !input_.needs.bounces && solution_.steps > 0;
     }
+    [[nodiscard]] std::uint32_t steps_ready() const final;
     void save(StateWriter& state) const final;
     void load(StateReader& state) final;
 
@@ -94,10 +95,11 @@ class StepwiseSolver : public Solver {
 
     Workers workers_;
     bool equal_rays_;
-    std::deque<Ahead> ahead_;   ///< the next steps
-    double ray_power_ = 0;      ///< 0 until the pilot has found it
-    std::vector<Vec3> pilot_;   ///< its radiosity; empty where there was none
-    std::vector<Vec3> squares_; ///< sum of squared deviations of the steps (Welford 1962)
+    std::deque<Ahead> ahead_;     ///< the next steps
+    double seconds_per_step_ = 0; ///< of one thread, when several are worked out; 0: unknown
+    double ray_power_ = 0;        ///< 0 until the pilot has found it
+    std::vector<Vec3> pilot_;     ///< its radiosity; empty where there was none
+    std::vector<Vec3> squares_;   ///< sum of squared deviations of the steps (Welford 1962)
     CompensatedSum<Vec3> absorbed_, escaped_, sent_; ///< of all steps
 };
 

@@ -116,3 +116,25 @@ TEST_CASE("What goes wrong in one of the steps side by side leaves those before 
     check_same(solver->solution(),
                test::solve(model, *find_method("stratified"), options, test::steps(steps)));
 }
+
+TEST_CASE("What is worked out when a run is interrupted is not lost") {
+    const Model model(test::room_with_block());
+    const Method& method = *find_method("stratified");
+    const SolveOptions options = options_of(2, 100);
+    Monitor monitor;
+    const SolverInput input{model.mesh, model.bvh, options, monitor};
+    const auto solver = method.make(input);
+    std::uint32_t ready = 0, at = 0;
+    CHECK_FALSE(
+        run(*solver, input, test::steps(100), [&](const StepRecord& record, const Solution&) {
+            if (ready > 0)
+                return;
+            ready = solver->steps_ready();
+            at = record.step;
+            monitor.interrupted = ready > 0;
+        }));
+    CHECK(ready > 0);
+    CHECK(solver->solution().steps == at + ready);
+    check_same(solver->solution(),
+               test::solve(model, method, options_of(1, 0), test::steps(at + ready)));
+}
