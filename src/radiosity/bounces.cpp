@@ -2,6 +2,7 @@
 
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
+#include "radiosity/sampling_kernels.h"
 #include "radiosity/shot.h"
 #include "radiosity/solve_error.h"
 
@@ -15,12 +16,16 @@
 namespace hemilux {
 namespace {
 
-/// Rays that one thread takes at a time, and rays whose receivers are kept until they are summed.
-constexpr double pieces_a_bounce = 64, least_piece = 512, largest_piece = 8192;
+/// Rays that one thread takes at a time: a part of those that are left of the bounce, so that at
+/// its end no thread waits long for another. And rays whose receivers are kept until they are
+/// summed.
+constexpr double pieces_of_rest = 32, least_piece = 256, largest_piece = 8192;
 constexpr std::uint32_t patches_per_piece = 32;
 constexpr double rays_per_batch = 2e6;
-/// Fewer rays than this are traced sooner than other threads would be started.
-constexpr double rays_for_one_thread = 2000;
+/// A thread that works alone takes pieces of so many together: tracing likes many rays at once.
+constexpr double rays_at_least = 4096;
+/// Fewer rays than this are traced sooner than others would have come to help.
+constexpr double rays_for_one_thread = 500;
 
 /// Literal steps shoot as many rays for the last of the power as for the first; they end when this
 /// share of the emitted power is left.
@@ -30,6 +35,8 @@ constexpr std::size_t bits_of_word = 64;
 
 /// std::floor for numbers of rays; compilers call a function for that.
 double whole_below(double rays) { return static_cast<double>(static_cast<std::int64_t>(rays)); }
+
+constexpr std::size_t most_looked_up = 24;
 
 /// A line on which a patch's cells own intervals one after the other, and a ray stands at each
 /// whole number.
@@ -64,6 +71,27 @@ class LineOfCells {
                 found(dealing_.cells[cell[i]], rays_ * dealing_.rays(cell[i]), low, high[i]);
                 low = high[i];
             }
+        }
+    }
+
+    /// The same for a patch with at most most_looked_up rays, whose cells are looked up one by one.
+    template <class Found>
+    void for_each_ray(const Found& found) const {
+        const double first = whole_below(before_);
+        const auto count = static_cast<std::size_t>(whole_below(after_) - first);
+        std::array<float, most_looked_up> at;
+        std::array<std::uint32_t, most_looked_up> cell;
+        const double scale = 1 / rays_, start = (first + 1 - before_) * scale;
+        for (std::size_t k = 0; k < count; ++k)
+            at[k] = static_cast<float>(start + double(k) * scale);
+        const std::span<const float> sums = dealing_.rays_up_to.first(dealing_.cells.size() - 1);
+        sampling_kernels().count_below(sums.data(), sums.size(), count, at.data(), cell.data());
+        for (std::size_t k = 0, end; k < count; k = end) {
+            end = k + 1;
+            while (end < count && cell[end] == cell[k])
+                ++end;
+            found(dealing_.cells[cell[k]], rays_ * dealing_.rays(cell[k]), first + double(k),
+                  first + double(end));
         }
     }
 
@@ -122,16 +150,17 @@ void Bounces::add_sender(std::uint32_t patch, const Vec3& power) {
 
 std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
     plan(stream);
-    const double rays_a_piece = cut();
+    cut();
     const std::uint64_t before = result.rays;
     const bool few = rays_before_.back() - rays_before_[0] < rays_for_one_thread;
     const Workers workers = few ? Workers(1) : task_->workers;
-    const auto most = static_cast<std::size_t>(std::ceil(rays_per_batch / rays_a_piece));
-    volleys_.resize(std::min(most, pieces_.size()));
-    for (std::size_t begin = 0; begin < pieces_.size(); begin += most) {
-        const std::size_t count = std::min(most, pieces_.size() - begin);
+    share_out(workers.threads() > 1 ? 0 : rays_at_least);
+    const auto most = static_cast<std::size_t>(rays_per_batch / largest_piece);
+    volleys_.resize(std::min(most, shares_.size()));
+    for (std::size_t begin = 0; begin < shares_.size(); begin += most) {
+        const std::size_t count = std::min(most, shares_.size() - begin);
         workers.for_each_in_order(
-            count, [&](std::size_t k) { fire(pieces_[begin + k], stream, volleys_[k]); },
+            count, [&](std::size_t k) { fire(shares_[begin + k], stream, volleys_[k]); },
             [&](std::size_t k) {
                 if (!input_.monitor.interrupted) // else volleys may not be whole
                     collect(volleys_[k], result);
@@ -145,54 +174,94 @@ std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
     return result.rays - before;
 }
 
-void Bounces::fire(const Piece& piece, std::uint64_t stream, Volley& volley) const {
+/// Pieces in their order to shares of so many rays at least.
+void Bounces::share_out(double rays) {
+    shares_.clear();
+    double from = 0;
+    for (const Piece& piece : pieces_) {
+        if (shares_.empty() || piece.to - from >= rays) {
+            const std::size_t first = shares_.empty() ? 0 : shares_.back().last;
+            shares_.push_back({first, first});
+            from = piece.from;
+        }
+        ++shares_.back().last;
+    }
+}
+
+void Bounces::fire(const Share& share, std::uint64_t stream, Volley& volley) const {
     volley.bursts.clear();
     volley.receivers.clear();
     volley.arrivals.clear();
     if (input_.monitor.interrupted)
         return;
+    for (std::size_t k = share.first; k < share.last; ++k)
+        order(pieces_[k], volley.bursts);
+    trace(stream, volley);
+    input_.monitor.rays += volley.receivers.size();
+}
+
+void Bounces::order(const Piece& piece, std::vector<Burst>& bursts) const {
     thread_local DealtCells memory;
     for (std::size_t k = piece.first; k < piece.last; ++k) {
         const double first = std::max(whole_below(rays_before_[k]), piece.from);
         const double last = std::min(whole_below(rays_before_[k + 1]), piece.to);
         if (input_.options.literal)
-            order_as_printed(senders_[k], tools_.strategy->deal(senders_[k], memory),
-                             volley.bursts);
+            order_as_printed(senders_[k], tools_.strategy->deal(senders_[k], memory), bursts);
         else if (last > first)
-            order(k, piece, tools_.strategy->deal(senders_[k], memory), volley.bursts);
+            order(k, piece, tools_.strategy->deal(senders_[k], memory), bursts);
     }
-    trace(hash_words({stream, static_cast<std::uint64_t>(piece.from)}), volley);
-    input_.monitor.rays += volley.receivers.size();
 }
 
 /// In the order of patches and rays, whatever thread traced them.
 void Bounces::collect(const Volley& volley, StepResult& result) {
+    const std::uint32_t* receivers = volley.receivers.data();
+    for (auto burst = volley.bursts.begin(); burst != volley.bursts.end();) {
+        const std::uint32_t patch = burst->patch;
+        const Vec3 held = unshot_[patch];
+        double sent = 0, lost_in_open = 0, lost_on_backs = 0; // shares of what the patch held
+        for (; burst != volley.bursts.end() && burst->patch == patch; ++burst) {
+            const auto [rays_escaped, rays_absorbed] =
+                receive(burst->ray_power * held, {receivers, burst->rays});
+            receivers += burst->rays;
+            sent += burst->rays * burst->ray_power;
+            lost_in_open += rays_escaped * burst->ray_power;
+            lost_on_backs += rays_absorbed * burst->ray_power;
+        }
+        result.sent += sent * held;
+        if (lost_in_open > 0)
+            result.escaped += lost_in_open * held;
+        if (lost_on_backs > 0)
+            result.absorbed += lost_on_backs * held;
+    }
+    if (tools_.strategy->learns())
+        teach(volley);
+    result.rays += volley.receivers.size();
+}
+
+/// Each brings `power`, which is Phi_ray. Returns how many escaped, and how many were absorbed.
+std::array<std::uint32_t, 2> Bounces::receive(const Vec3& power,
+                                              std::span<const std::uint32_t> receivers) {
+    std::array<std::uint32_t, 2> lost{};
+    for (const std::uint32_t receiver : receivers) {
+        if (receiver >= received_.size()) {
+            ++lost[receiver == escaped ? 0 : 1];
+            continue;
+        }
+        struck_[receiver / bits_of_word] |= std::uint64_t{1} << receiver % bits_of_word;
+        ++received_[receiver].rays;
+        received_[receiver].power += power;
+    }
+    return lost;
+}
+
+void Bounces::teach(const Volley& volley) const {
     std::size_t ray = 0;
     for (const Burst& burst : volley.bursts) {
-        const Vec3 power = burst.ray_power * unshot_[burst.patch]; // Phi_ray
-        if (tools_.strategy->learns())
-            tools_.strategy->learn(burst.patch, burst.cell,
-                                   std::span(volley.receivers).subspan(ray, burst.rays),
-                                   std::span(volley.arrivals).subspan(ray, burst.rays));
-        std::uint32_t rays_escaped = 0, rays_absorbed = 0;
-        for (std::uint32_t k = 0; k < burst.rays; ++k) {
-            const std::uint32_t receiver = volley.receivers[ray++];
-            if (receiver == escaped) {
-                ++rays_escaped;
-            } else if (receiver == absorbed) {
-                ++rays_absorbed;
-            } else {
-                Arrived& arrived = received_[receiver];
-                if (arrived.rays++ == 0)
-                    struck_[receiver / bits_of_word] |= std::uint64_t{1} << receiver % bits_of_word;
-                arrived.power += power;
-            }
-        }
-        result.sent += double(burst.rays) * power;
-        result.escaped += double(rays_escaped) * power;
-        result.absorbed += double(rays_absorbed) * power;
+        tools_.strategy->learn(burst.patch, burst.cell,
+                               std::span(volley.receivers).subspan(ray, burst.rays),
+                               std::span(volley.arrivals).subspan(ray, burst.rays));
+        ray += burst.rays;
     }
-    result.rays += ray;
 }
 
 /// What arrived is absorbed or to be shot, in the order of patches.
@@ -232,58 +301,67 @@ void Bounces::plan(std::uint64_t stream) {
     }
 }
 
-/// Pieces of equal numbers of rays, so that no thread waits long for another: a lamp may shoot half
-/// of a bounce. They do not depend on the number of threads. Returns the rays of one.
-double Bounces::cut() {
+/// By numbers of rays, as a lamp may shoot half of a bounce. Pieces do not depend on the number of
+/// threads.
+void Bounces::cut() {
     pieces_.clear();
     const auto senders = static_cast<std::uint32_t>(senders_.size());
     if (input_.options.literal) { // rays do not stand on the line
         for (std::uint32_t k = 0; k < senders; k += patches_per_piece)
             pieces_.push_back({k, std::min(k + patches_per_piece, senders), 0,
                                std::numeric_limits<double>::infinity()});
-        return patches_per_piece * input_.options.rays;
+        return;
     }
     const double first = whole_below(rays_before_[0]), end = whole_below(rays_before_.back());
-    const double size =
-        std::clamp(std::ceil((end - first) / pieces_a_bounce), least_piece, largest_piece);
     const auto sender_of = [&](double ray) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(rays_before_, ray) -
                                           rays_before_.begin() - 1);
     };
-    for (double from = first; from < end; from += size) {
+    for (double from = first; from < end; from = pieces_.back().to) {
+        const double size =
+            std::clamp(std::ceil((end - from) / pieces_of_rest), least_piece, largest_piece);
         const double to = std::min(from + size, end);
         pieces_.push_back({sender_of(from + 1), sender_of(to) + 1, from, to});
     }
-    return size;
 }
 
 void Bounces::order(std::size_t sender, const Piece& piece, const Dealing& dealing,
                     std::vector<Burst>& bursts) const {
     const std::uint32_t patch = senders_[sender];
     const LineOfCells line(dealing, rays_before_[sender], rays_before_[sender + 1]);
-    line.for_each_cell([&](std::uint16_t cell, double expected, double low, double high) {
-        const double here = std::min(high, piece.to) - std::max(low, piece.from);
+    const double before = whole_below(rays_before_[sender]);
+    const auto add = [&](std::uint16_t cell, double expected, double low, double high) {
+        const double first = std::max(low, piece.from), here = std::min(high, piece.to) - first;
         // Below one ray per cell, the ray that is shot carries the power of those that are not.
         const double sharing = expected >= 1 ? high - low : expected;
         if (here > 0)
-            bursts.push_back({patch, cell, static_cast<std::uint32_t>(here), 1 / sharing});
-    });
+            bursts.push_back({patch, cell, static_cast<std::uint32_t>(first - before),
+                              static_cast<std::uint32_t>(here), 1 / sharing});
+    };
+    if (whole_below(rays_before_[sender + 1]) - before <= double(most_looked_up))
+        line.for_each_ray(add);
+    else
+        line.for_each_cell(add);
 }
 
 void Bounces::order_as_printed(std::uint32_t patch, const Dealing& dealing,
                                std::vector<Burst>& bursts) const {
+    std::uint32_t before = 0;
     for (std::size_t k = 0; k < dealing.cells.size(); ++k) {
         const double rays = std::round(input_.options.rays * dealing.rays(k)); // N_tr
-        if (rays > 0)
-            bursts.push_back({patch, dealing.cells[k], static_cast<std::uint32_t>(rays), 1 / rays});
+        if (rays > 0) {
+            bursts.push_back(
+                {patch, dealing.cells[k], before, static_cast<std::uint32_t>(rays), 1 / rays});
+            before += bursts.back().rays;
+        }
     }
 }
 
-void Bounces::trace(std::uint64_t seed, Volley& volley) const {
+void Bounces::trace(std::uint64_t stream, Volley& volley) const {
     thread_local std::vector<Ray> memory;
     const RaySource source{input_.mesh, tools_.starts, tools_.directions, *tools_.strategy,
                            input_.options.literal};
-    BurstRays drawn(source, volley.bursts, seed, memory);
+    BurstRays drawn(source, volley.bursts, stream, memory);
     for (auto rays = drawn.next(); !rays.empty(); rays = drawn.next()) {
         if (input_.monitor.interrupted) // one lamp may shoot many millions
             return;

@@ -13,8 +13,10 @@
 #include "radiosity/strategy.h"
 #include "radiosity/workers.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -37,13 +39,17 @@ class Bounces {
     bool shoot(const StepTask& task, StepResult& result);
 
   private:
-    /// What one thread shoots at a time: of the rays on the line (plan) those in (from, to], which
-    /// are of senders from `first` to before `last`.
+    /// What one thread shoots at a time at least: of the rays on the line (plan) those in (from,
+    /// to], which are of senders from `first` to before `last`.
     struct Piece {
         std::uint32_t first, last;
         double from, to;
     };
-    /// What a piece shot and where each ray arrived.
+    /// Pieces that one thread takes together.
+    struct Share {
+        std::size_t first, last;
+    };
+    /// What a share shot and where each ray arrived.
     struct Volley {
         std::vector<Burst> bursts;
         std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
@@ -60,16 +66,21 @@ class Bounces {
     /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
     std::uint64_t bounce(std::uint64_t stream, StepResult& result);
     void plan(std::uint64_t stream);
-    [[nodiscard]] double cut();
-    void fire(const Piece& piece, std::uint64_t stream, Volley& volley) const;
-    // What is to be drawn of a patch is added to `bursts`.
+    void cut();
+    void share_out(double rays);
+    void fire(const Share& share, std::uint64_t stream, Volley& volley) const;
+    // What is to be drawn is added to `bursts`.
+    void order(const Piece& piece, std::vector<Burst>& bursts) const;
     void order(std::size_t sender, const Piece& piece, const Dealing& dealing,
                std::vector<Burst>& bursts) const;
     void order_as_printed(std::uint32_t patch, const Dealing& dealing,
                           std::vector<Burst>& bursts) const;
-    void trace(std::uint64_t seed, Volley& volley) const;
+    void trace(std::uint64_t stream, Volley& volley) const;
 
     void collect(const Volley& volley, StepResult& result);
+    std::array<std::uint32_t, 2> receive(const Vec3& power,
+                                         std::span<const std::uint32_t> receivers);
+    void teach(const Volley& volley) const;
     void reflect(StepResult& result);
     void add_sender(std::uint32_t patch, const Vec3& power);
 
@@ -86,6 +97,7 @@ class Bounces {
     std::vector<Arrived> received_;     ///< by patch
     std::vector<std::uint64_t> struck_; ///< a bit for each patch that received any
     std::vector<Piece> pieces_;
+    std::vector<Share> shares_;
     std::vector<Volley> volleys_; ///< kept for their memory
 };
 

@@ -7,9 +7,10 @@
 
 namespace hemilux {
 
-BurstRays::BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t seed,
+BurstRays::BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t stream,
                      std::vector<Ray>& memory)
-    : source_(source), bursts_(bursts), seed_(seed), rays_(memory) {
+    : source_(source), bursts_(bursts), stream_(stream), rays_(memory),
+      has_private_cells_(source.strategy.has_private_cells()) {
     rays_.resize(DirectionBatch::room);
 }
 
@@ -45,19 +46,30 @@ void BurstRays::list() {
 void BurstRays::list(Burst& burst, std::uint32_t rays) {
     if (listed_ != burst.patch) {
         listed_ = burst.patch;
-        key_ = hash_words({seed_, burst.patch});
-        number_ = 0;
+        key_ = hash_words({stream_, burst.patch});
     }
-    auto own = source_.strategy.private_cell(burst.patch, burst.cell);
+    if (has_private_cells_)
+        if (auto own = source_.strategy.private_cell(burst.patch, burst.cell))
+            return list_private(burst, rays, std::move(*own));
+    list(burst, rays, burst.cell, source_.directions.power_share(burst.cell));
+    if (!runs_.empty() && runs_.back().patch == burst.patch && runs_.back().own == none)
+        runs_.back().rays += rays;
+    else
+        runs_.push_back({burst.patch, rays, none});
+}
+
+/// Its directions are drawn elsewhere (fill_private).
+void BurstRays::list_private(Burst& burst, std::uint32_t rays, PrivateCell own) {
+    list(burst, rays, whole_hemisphere, own.power);
+    runs_.push_back({burst.patch, rays, static_cast<std::uint32_t>(own_.size())});
+    own_.push_back(std::move(own));
+}
+
+void BurstRays::list(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power) {
     if (drawn_ == 0)
-        burst.ray_power *= own ? own->power : source_.directions.power_share(burst.cell);
+        burst.ray_power *= power;
     for (std::uint32_t k = 0; k < rays; ++k)
-        batch_.add(key_, number_++, own ? whole_hemisphere : burst.cell);
-    runs_.push_back({burst.patch, rays, burst.cell, none});
-    if (own) {
-        runs_.back().own = static_cast<std::uint32_t>(own_.size());
-        own_.push_back(std::move(*own));
-    }
+        batch_.add(key_, burst.first + drawn_ + k, cell);
 }
 
 /// As printed, rays into triangles leave from the centre; those of plain Monte Carlo do not.
@@ -66,9 +78,9 @@ void BurstRays::fill(const Run& run, std::size_t first) {
     const std::span<Ray> rays = std::span(rays_).subspan(first, run.rays);
     if (run.own != none)
         return fill_private(own_[run.own], start, first, rays);
-    const bool from_centre = source_.literal && run.cell != whole_hemisphere;
     for (std::size_t k = first; Ray & ray : rays) {
         ray.from = start.facet;
+        const bool from_centre = source_.literal && batch_.cell[k] != whole_hemisphere;
         ray.origin = from_centre ? source_.mesh.patches()[run.patch].centre
                                  : start.points.sample({batch_.u[k], batch_.v[k]});
         ray.direction = start.frame.to_world({batch_.x[k], batch_.y[k], batch_.z[k]});

@@ -18,6 +18,7 @@ class Mesh;
 struct Burst {
     std::uint32_t patch;
     std::uint16_t cell;
+    std::uint32_t first; ///< its first ray's number among all those of the patch
     std::uint32_t rays;
     /// Phi_ray / Phi_patch; until the rays are drawn Phi_ray / Phi_tr.
     double ray_power;
@@ -32,37 +33,38 @@ struct RaySource {
     bool literal;
 };
 
-/// The rays of a list of bursts in their order, some at a time. The bursts of a patch follow each
-/// other, and what is drawn for them depends on the seed, the patch and them, not on others.
+/// The rays of a list of bursts in their order, some at a time. A ray depends on the stream, its
+/// patch, its number there and its cell, not on what else is listed.
 class BurstRays {
   public:
     /// `memory` holds the rays between two calls and may be used again afterwards.
-    BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t seed,
+    BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t stream,
               std::vector<Ray>& memory);
 
     /// The next ones, rays_at_a_time until the last; none when there are no more.
     [[nodiscard]] std::span<const Ray> next();
 
   private:
-    /// Rays of one burst among those that are drawn now.
+    /// Rays of a patch among those that are drawn now: of a private cell, or of all others.
     struct Run {
         std::uint32_t patch, rays;
-        std::uint16_t cell;
-        std::uint32_t own; ///< place in own_ if the cell is private, else none
+        std::uint32_t own; ///< the private cell's place in own_, else none
     };
     void list();
     void list(Burst& burst, std::uint32_t rays);
+    void list(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power);
+    void list_private(Burst& burst, std::uint32_t rays, PrivateCell own);
     void fill(const Run& run, std::size_t first);
     void fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
                       std::span<Ray> rays);
 
     const RaySource& source_;
     std::span<Burst> bursts_;
-    std::uint64_t seed_;
+    std::uint64_t stream_;
     std::vector<Ray>& rays_;
+    bool has_private_cells_;
     std::uint32_t drawn_ = 0;     ///< of the first of bursts_
     std::uint32_t listed_ = none; ///< the patch of that
-    std::uint32_t number_ = 0;    ///< of that patch's next ray
     std::uint64_t key_ = 0;       ///< of that patch's random numbers
     std::vector<Run> runs_;
     std::vector<PrivateCell> own_;

@@ -13,13 +13,6 @@ struct Attempt {
 
 } // namespace
 
-void DirectionBatch::add(std::uint64_t key, std::uint32_t number_, std::uint16_t cell_) {
-    key_low[size] = static_cast<std::uint32_t>(key);
-    key_high[size] = static_cast<std::uint32_t>(key >> 32);
-    number[size] = number_;
-    cell[size++] = cell_;
-}
-
 CellDirections::CellDirections(const Hemisphere& hemisphere, bool literal) {
     for (std::uint16_t cell = 0; cell < hemisphere.cells().size(); ++cell) {
         add(hemisphere.cells()[cell].shape);

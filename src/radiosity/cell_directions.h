@@ -39,7 +39,12 @@ struct DirectionBatch {
     alignas(64) std::array<double, room> x, y, z; ///< unit, z along the normal
 
     [[nodiscard]] bool full() const { return size == room; }
-    void add(std::uint64_t key, std::uint32_t number, std::uint16_t cell);
+    void add(std::uint64_t key_, std::uint32_t number_, std::uint16_t cell_) {
+        key_low[size] = static_cast<std::uint32_t>(key_);
+        key_high[size] = static_cast<std::uint32_t>(key_ >> 32);
+        number[size] = number_;
+        cell[size++] = cell_;
+    }
 };
 
 class CellDirections {

@@ -84,6 +84,8 @@ class Strategy {
     /// The cells of a patch, always in the same order: a view of what is kept or of what is put
     /// into `memory`, until either changes. Callable from several threads.
     [[nodiscard]] virtual Dealing deal(std::uint32_t patch, DealtCells& memory) const = 0;
+    /// Whether any cell that it deals may be private.
+    [[nodiscard]] virtual bool has_private_cells() const { return false; }
     /// What a cell that was dealt is, where it is not of the table.
     [[nodiscard]] virtual std::optional<PrivateCell> private_cell(std::uint32_t /*patch*/,
                                                                   std::uint16_t /*cell*/) const {

@@ -88,12 +88,15 @@ class HemisphereStrategy final : public Strategy {
                 std::ranges::copy(dealt.rays_up_to, kept_rays_.begin() + place);
             }
         });
+        whole_tree_ =
+            static_cast<std::size_t>(std::ranges::find(kept_, most_leaves_) - kept_.begin());
     }
 
     [[nodiscard]] Dealing kept(std::uint32_t patch) const {
-        const std::size_t place = patch * most_leaves_;
-        return {std::span(kept_cells_).subspan(place, kept_[patch]),
-                std::span(kept_rays_).subspan(place, kept_[patch])};
+        // Whole trees have the same cells: one row of them, which stays in the caches.
+        const std::size_t leaves = kept_[patch], row = leaves == most_leaves_ ? whole_tree_ : patch;
+        return {std::span(kept_cells_).subspan(row * most_leaves_, leaves),
+                std::span(kept_rays_).subspan(patch * most_leaves_, leaves)};
     }
 
     void deal_densities(std::uint32_t patch, DealtCells& dealt) const {
@@ -140,7 +143,7 @@ class HemisphereStrategy final : public Strategy {
     std::optional<DensityMap> density_;
     DealtCells dealt_of_one_surface_; ///< of all patches, where there is no density_
     // In small scenes: by patch, how many leaves it has, and a row of them.
-    std::size_t most_leaves_ = 0;
+    std::size_t most_leaves_ = 0, whole_tree_ = 0; ///< a patch that has all leaves
     std::vector<std::uint16_t> kept_, kept_cells_;
     std::vector<float> kept_rays_;
 };

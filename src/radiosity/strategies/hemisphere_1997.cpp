@@ -99,6 +99,7 @@ class Hemisphere1997 final : public Strategy {
 
     Dealing deal(std::uint32_t, DealtCells&) const override { return dealt_.view(); }
 
+    [[nodiscard]] bool has_private_cells() const override { return true; }
     [[nodiscard]] std::optional<PrivateCell> private_cell(std::uint32_t patch,
                                                           std::uint16_t cell) const override {
         if (cell == whole_hemisphere)
