@@ -72,7 +72,7 @@ TEST_CASE("Exchange between patches is symmetric, and each row closed") {
             right += model.mesh.patches()[i].area * b[i] * fa[i];
         }
         for (int c = 0; c < 3; ++c)
-            CHECK(left[c] == Approx(right[c]).epsilon(1e-6).margin(1e-12));
+            CHECK(left[c] == Approx(right[c]).epsilon(1e-13).margin(1e-13));
     }
 }
 
