@@ -36,6 +36,12 @@ constexpr std::size_t bits_of_word = 64;
 /// std::floor for numbers of rays; compilers call a function for that.
 double whole_below(double rays) { return static_cast<double>(static_cast<std::int64_t>(rays)); }
 
+/// The smallest float that is not below x > 0: what floats are less than it are less than x.
+float at_least(double x) {
+    const float nearest = static_cast<float>(x);
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) + (nearest < x ? 1u : 0u));
+}
+
 constexpr std::size_t most_looked_up = 24;
 
 /// A line on which a patch's cells own intervals one after the other, and a ray stands at each
@@ -83,7 +89,7 @@ class LineOfCells {
         std::array<std::uint32_t, most_looked_up> cell;
         const double scale = 1 / rays_, start = (first + 1 - before_) * scale;
         for (std::size_t k = 0; k < count; ++k)
-            at[k] = static_cast<float>(start + double(k) * scale);
+            at[k] = at_least(start + double(k) * scale);
         const std::span<const float> sums = dealing_.rays_up_to.first(dealing_.cells.size() - 1);
         sampling_kernels().count_below(sums.data(), sums.size(), count, at.data(), cell.data());
         for (std::size_t k = 0, end; k < count; k = end) {
