@@ -31,9 +31,36 @@ bool enter_box(const Ray& ray, const Space& space, double& enter) {
     return enter <= leave;
 }
 
+/// What nearly all rays are: of unit length, from within the scene; nothing infinite, no NaN.
+bool is_usual(const Ray& ray, const Space& space) {
+    const Vec3 &o = ray.origin, &d = ray.direction;
+    const double square = glm::dot(d, d) + 0 * (o.x + o.y + o.z);
+    const double distance = std::max(std::max(std::abs(o.x), std::abs(o.y)), std::abs(o.z));
+    return square > .99 && square < 1 + 1e-9 && distance <= space.size;
+}
+
+void set_component(FloatRay& ray, int i, double start, double direction) {
+    const double d =
+        std::abs(direction) < least_slope ? std::copysign(least_slope, direction) : direction;
+    ray.origin[i] = static_cast<float>(start);
+    ray.direction[i] = static_cast<float>(direction);
+    ray.inverse[i] = 1.0f / static_cast<float>(d);
+}
+
 } // namespace
 
 Fit scale_ray(const Ray& given, const Space& space, FloatRay& ray) {
+    const double shrink = 1 / space.size; // a power of two
+    if (is_usual(given, space)) {
+        ray.skipped = 0;
+        ray.per_unit = shrink;
+        ray.from = given.from;
+        for (int i = 0; i < 3; ++i)
+            set_component(ray, i, given.origin[i] * shrink, given.direction[i]);
+        ray.t_min_low = below(ray, given.t_min);
+        ray.t_min_high = above(ray, given.t_min);
+        return Fit::good;
+    }
     const double longest = max_abs(given.direction);
     const double distance = max_abs(given.origin) / space.size;
     const double sum = given.direction.x + given.direction.y + given.direction.z + distance;
@@ -54,16 +81,9 @@ Fit scale_ray(const Ray& given, const Space& space, FloatRay& ray) {
     ray.skipped = skipped;
     ray.per_unit = 1 / (space.size * shorten); // exact
     ray.from = given.from;
-    const double shrink = 1 / space.size;
-    for (int i = 0; i < 3; ++i) {
-        const double d = given.direction[i] * shorten;
-        const auto slope =
-            static_cast<float>(std::abs(d) < least_slope ? std::copysign(least_slope, d) : d);
-        const double start = given.origin[i] + skipped * given.direction[i];
-        ray.origin[i] = static_cast<float>(start * shrink);
-        ray.direction[i] = static_cast<float>(d);
-        ray.inverse[i] = 1.0f / slope;
-    }
+    for (int i = 0; i < 3; ++i)
+        set_component(ray, i, (given.origin[i] + skipped * given.direction[i]) * shrink,
+                      given.direction[i] * shorten);
     ray.t_min_low = below(ray, given.t_min);
     ray.t_min_high = above(ray, given.t_min);
     return Fit::good;

@@ -30,7 +30,7 @@ TEST_CASE("Deviations from matrix are those of the reported standard errors", "[
             if (!method->unbiased)
                 continue;
             // One run's mean over some 900 patches of correlated channels is itself uncertain by
-            // .03.
+            // .03, its RMS by .03 too; now and then a patch that few rays strike adds .05.
             double mean = 0, squares = 0;
             for (int run = 0; run < runs; ++run) {
                 SolveOptions options;
@@ -39,13 +39,15 @@ TEST_CASE("Deviations from matrix are those of the reported standard errors", "[
                 const ZScores z = z_scores(model.mesh, s, exact.radiosity, exact.standard_error);
                 CAPTURE(scene, method->name, run, z.mean, z.rms, z.count);
                 CHECK(z.count > 1500);
-                CHECK(z.rms > .9);
-                CHECK(z.rms < 1.1);
+                CHECK(z.rms > .85);
+                CHECK(z.rms < 1.15);
                 mean += z.mean / runs;
                 squares += z.rms * z.rms / runs;
             }
             CAPTURE(scene, method->name, mean, std::sqrt(squares));
             CHECK(std::abs(mean) < .05);
+            CHECK(std::sqrt(squares) > .93);
+            CHECK(std::sqrt(squares) < 1.07);
         }
     }
 }
