@@ -15,7 +15,7 @@ namespace hemilux {
 namespace {
 
 /// Emitters that a patch weighs one by one; else so many clusters.
-constexpr std::size_t most_emitters = 512, most_clusters = 128;
+constexpr std::size_t most_emitters = 1024, most_clusters = 128;
 
 } // namespace
 
@@ -133,27 +133,6 @@ void EmitterChoice::divide(std::uint32_t cluster) {
     divide(right);
 }
 
-/// Rather too large than too small, and 0 only where no light can come from.
-double EmitterChoice::weight(std::uint32_t receiver, const Cluster& cluster) const {
-    const Patch& to = mesh_.patches()[receiver];
-    if (cluster.left == 0) {
-        double weight = 0;
-        sampling_kernels().weigh_emitters(arrays_from(cluster.begin), 1, receiver_at(receiver),
-                                          &weight);
-        return weight;
-    }
-    const Vec3 d = cluster.centre - to.centre;
-    const double reach = cluster.radius + radius_[receiver], r = glm::length(d);
-    const double height = glm::dot(to.normal, d) + reach;
-    const double cosine = r > reach ? std::min(height / r, 1.0) : 1.0;
-    const double area = std::numbers::pi * cluster.radius * cluster.radius;
-    const double nearest = std::max(r - radius_[receiver], 0.0);
-    const double square = std::numbers::pi * r * r + area;
-    return cosine > 0 ? cluster.power * cosine / square *
-                            std::sqrt(square / (std::numbers::pi * nearest * nearest + area))
-                      : 0;
-}
-
 /// How much a cluster's emitters differ to the receiver; 0 where there is but one.
 double EmitterChoice::nearness(std::uint32_t receiver, const Cluster& cluster) const {
     const double gap = glm::distance(mesh_.patches()[receiver].centre, cluster.centre) -
@@ -162,13 +141,13 @@ double EmitterChoice::nearness(std::uint32_t receiver, const Cluster& cluster) c
 }
 
 void EmitterChoice::weigh(std::uint32_t receiver, Cut& cut) const {
-    cut.clusters.clear();
-    if (order_.size() > most_emitters)
-        weigh_clusters(receiver, cut);
-    else {
+    if (order_.size() <= most_emitters) {
         cut.sums.resize(order_.size() + 1);
         sampling_kernels().weigh_emitters(arrays_from(0), order_.size(), receiver_at(receiver),
                                           cut.sums.data() + 1);
+    } else {
+        choose_clusters(receiver, cut);
+        weigh_clusters(receiver, cut);
     }
     cut.sum = cut.sums[0] = 0;
     for (std::size_t k = 1; k < cut.sums.size(); ++k)
@@ -177,7 +156,7 @@ void EmitterChoice::weigh(std::uint32_t receiver, Cut& cut) const {
 }
 
 /// The cluster that is nearest for its size is divided as long as there is room.
-void EmitterChoice::weigh_clusters(std::uint32_t receiver, Cut& cut) const {
+void EmitterChoice::choose_clusters(std::uint32_t receiver, Cut& cut) const {
     using Near = std::pair<double, std::uint32_t>;
     thread_local std::vector<Near> heap;
     heap.assign(1, {nearness(receiver, clusters_.front()), 0});
@@ -191,11 +170,33 @@ void EmitterChoice::weigh_clusters(std::uint32_t receiver, Cut& cut) const {
         heap.push_back({nearness(receiver, clusters_[cluster.right]), cluster.right});
         std::ranges::push_heap(heap);
     }
-    cut.sums.assign(1, 0.0);
-    for (const Near& near : heap) {
+    cut.clusters.clear();
+    for (const Near& near : heap)
         cut.clusters.push_back(near.second);
-        cut.sums.push_back(weight(receiver, clusters_[near.second]));
+    const auto is_of_many = [&](std::uint32_t c) { return clusters_[c].left != 0; };
+    const auto single = std::stable_partition(cut.clusters.begin(), cut.clusters.end(), is_of_many);
+    for (auto& array : cut.of_many)
+        array.clear();
+    for (auto c = cut.clusters.begin(); c != single; ++c) {
+        const Cluster& cluster = clusters_[*c];
+        const Vec3& centre = cluster.centre;
+        auto array = cut.of_many.begin();
+        for (const double x : {centre.x, centre.y, centre.z, cluster.radius, cluster.power})
+            (array++)->push_back(x);
     }
+}
+
+/// Rather too large than too small, and 0 only where no light can come from.
+void EmitterChoice::weigh_clusters(std::uint32_t receiver, Cut& cut) const {
+    const EmitterReceiver to = receiver_at(receiver);
+    const auto& [x, y, z, radius, power] = cut.of_many;
+    cut.sums.resize(cut.clusters.size() + 1);
+    double* weights = cut.sums.data() + 1;
+    sampling_kernels().weigh_clusters({{x.data(), y.data(), z.data()}, radius.data(), power.data()},
+                                      power.size(), to, weights);
+    for (std::size_t k = power.size(); k < cut.clusters.size(); ++k)
+        sampling_kernels().weigh_emitters(arrays_from(clusters_[cut.clusters[k]].begin), 1, to,
+                                          weights + k);
 }
 
 void EmitterChoice::choose(const Cut& cut, const double* u, Choices& choices) const {
@@ -219,11 +220,16 @@ void EmitterChoice::choose(const Cut& cut, const double* u, Choices& choices) co
 
 /// By the power of its emitters.
 EmitterChoice::Choice EmitterChoice::choose_within(const Cluster& cluster, double share) const {
-    const std::span powers(&power_sums_[cluster.begin + 1], cluster.end - cluster.begin);
-    const double first = power_sums_[cluster.begin], power = powers.back() - first;
-    const auto drawn = std::ranges::upper_bound(powers, first + share * power);
-    const auto k = std::min(static_cast<std::size_t>(drawn - powers.begin()), powers.size() - 1);
-    return {order_[cluster.begin + k], (powers[k] - power_sums_[cluster.begin + k]) / power};
+    const double* powers = &power_sums_[cluster.begin]; // of all before each
+    const double power = powers[cluster.end - cluster.begin] - powers[0];
+    const double at = powers[0] + share * power;
+    std::uint32_t k = 0; // the last that is not above, by halves without branches
+    for (std::uint32_t size = cluster.end - cluster.begin; size > 1;) {
+        const std::uint32_t half = size / 2;
+        k += powers[k + half] <= at ? half : 0;
+        size -= half;
+    }
+    return {order_[cluster.begin + k], (powers[k + 1] - powers[k]) / power};
 }
 
 } // namespace hemilux

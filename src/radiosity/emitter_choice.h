@@ -2,7 +2,7 @@
 // Which emitter a shadow ray of a patch goes to: drawn by the light that each would send there if
 // nothing stood between.
 //
-// With up to 512 emitters each is weighed by itself. Where there are more, they form a tree of
+// With up to 1024 emitters each is weighed by itself. Where there are more, they form a tree of
 // clusters, and each patch weighs 128 of these: near ones are divided, far ones are not (as in
 // Walter et al. 2005, "Lightcuts"); within a cluster emitters are drawn by their power. So the work
 // for a patch does not grow with the emitters. Any emitter that may send light there has a chance,
@@ -32,6 +32,8 @@ class EmitterChoice {
     /// What a patch weighs: emitters or clusters, and running sums of their weights.
     struct Cut {
         std::vector<std::uint32_t> clusters; ///< empty: it is all emitters, in their order
+        /// Centre, radius and power of those that are not single emitters, which stand first.
+        std::array<std::vector<double>, 5> of_many;
         /// One more than there are weights, from 0; then infinity, up to a power of two.
         std::vector<double> sums;
         double sum = 0;
@@ -62,10 +64,10 @@ class EmitterChoice {
     void list_emitters();
     [[nodiscard]] EmitterArrays arrays_from(std::size_t k) const;
     [[nodiscard]] EmitterReceiver receiver_at(std::uint32_t patch) const;
+    void choose_clusters(std::uint32_t receiver, Cut& cut) const;
     void weigh_clusters(std::uint32_t receiver, Cut& cut) const;
     [[nodiscard]] Choice choose_within(const Cluster& cluster, double share) const;
     [[nodiscard]] double power_of(std::uint32_t place) const;
-    [[nodiscard]] double weight(std::uint32_t receiver, const Cluster& cluster) const;
     [[nodiscard]] double nearness(std::uint32_t receiver, const Cluster& cluster) const;
     [[nodiscard]] const Vec3& centre(std::uint32_t place) const;
 

@@ -32,6 +32,10 @@ struct EmitterArrays {
     const double *area, *side; ///< side: the root of the area
     const double* light;       ///< emission, mean of channels
 };
+/// Spheres that hold several of them.
+struct ClusterArrays {
+    const double *centre[3], *radius, *power;
+};
 struct EmitterReceiver {
     double centre[3], normal[3], corner[4][3], side, radius;
 };
@@ -61,6 +65,9 @@ struct SamplingKernels {
     /// The root of the mean square of what a shadow ray to each emitter may bring, about; 0 where
     /// it surely brings nothing.
     void (*weigh_emitters)(const EmitterArrays&, std::size_t count, const EmitterReceiver&,
+                           double* weights);
+    /// The same for clusters of emitters: rather too large than too small.
+    void (*weigh_clusters)(const ClusterArrays&, std::size_t count, const EmitterReceiver&,
                            double* weights);
     /// places[k]: the last place with sums[place] <= at[k], or 0. `size` is a power of two.
     void (*find_places)(const double* sums, std::size_t size, std::size_t count, const double* at,

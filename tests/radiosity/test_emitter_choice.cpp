@@ -51,7 +51,7 @@ TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may brin
     const std::span<const Patch> patches = model.mesh.patches();
     std::vector<std::uint32_t> emitters(patches.size());
     std::iota(emitters.begin(), emitters.end(), 0u);
-    REQUIRE(emitters.size() <= 512); // weighed one by one
+    REQUIRE(emitters.size() <= 1024); // weighed one by one
     const EmitterChoice choice(model.mesh, emitters);
     EmitterChoice::Cut cut;
     for (std::uint32_t i = 0; i < patches.size(); i += 7) {
@@ -82,9 +82,9 @@ TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may brin
 
 TEST_CASE("Direct light is unbiased where emitters are drawn by clusters") {
     const Scene scene = test::room_with_block();
-    const Model whole(scene), fine(scene, {.max_edge = .025}); // the lamp in 576 patches
+    const Model whole(scene), fine(scene, {.max_edge = .018}); // the lamp in 1156 patches
     const std::vector<std::uint32_t> emitters = small_emitters(fine.mesh);
-    REQUIRE(emitters.size() > 512);
+    REQUIRE(emitters.size() > 1024);
     const std::size_t n = fine.mesh.patches().size();
     Monitor monitor;
     const Workers workers(2);

@@ -187,3 +187,46 @@ TEST_CASE("every instruction set gives the same products with a row") {
         row.push_back({std::uint32_t(50 * rng.uniform()), float(rng.uniform())});
     }
 }
+
+TEST_CASE("every instruction set weighs emitters and clusters alike") {
+    constexpr std::size_t n = 203;
+    Rng rng(9);
+    std::vector<std::vector<double>> numbers;
+    const auto more = [&](double least) {
+        std::vector<double>& some = numbers.emplace_back(n);
+        for (double& x : some)
+            x = least + rng.uniform();
+        return some.data();
+    };
+    EmitterArrays emitters{};
+    EmitterReceiver to{};
+    for (int axis = 0; axis < 3; ++axis) {
+        emitters.centre[axis] = more(-.5);
+        emitters.normal[axis] = more(-.5);
+        to.centre[axis] = rng.uniform() - .5;
+        to.normal[axis] = rng.uniform() - .5;
+        for (std::size_t i = 0; i < 4; ++i) {
+            emitters.corner[i][axis] = more(-.5);
+            to.corner[i][axis] = rng.uniform() - .5;
+        }
+    }
+    emitters.area = more(0);
+    emitters.side = more(0);
+    emitters.light = more(0);
+    to.side = to.radius = .1;
+    const ClusterArrays clusters{{more(-.5), more(-.5), more(-.5)}, more(0), more(0)};
+    const auto weights = [&](InstructionSet set) {
+        std::array<std::vector<double>, 2> result;
+        result.fill(std::vector<double>(n));
+        sampling_kernels(set).weigh_emitters(emitters, n, to, result[0].data());
+        sampling_kernels(set).weigh_clusters(clusters, n, to, result[1].data());
+        return result;
+    };
+    const auto expected = weights(InstructionSet::baseline);
+    for (const auto& each : expected) {
+        CHECK(std::ranges::count_if(each, [](double w) { return w > 0; }) > 20);
+        CHECK(std::ranges::count_if(each, [](double w) { return w == 0; }) > 20);
+    }
+    for (const InstructionSet set : available_instruction_sets())
+        CHECK(weights(set) == expected);
+}

@@ -46,6 +46,24 @@ inline void weigh_emitters(const EmitterArrays& emitters, std::size_t count,
     }
 }
 
+inline void weigh_clusters(const ClusterArrays& clusters, std::size_t count,
+                           const EmitterReceiver& to, double* __restrict weights) {
+    constexpr double pi = 0x1.921fb54442d18p+1;
+    const double *cx = clusters.centre[0], *cy = clusters.centre[1], *cz = clusters.centre[2];
+    for (std::size_t k = 0; k < count; ++k) {
+        const double x = cx[k] - to.centre[0], y = cy[k] - to.centre[1], z = cz[k] - to.centre[2];
+        const double r2 = x * x + y * y + z * z, r = __builtin_sqrt(r2);
+        const double reach = clusters.radius[k] + to.radius;
+        const double height = to.normal[0] * x + to.normal[1] * y + to.normal[2] * z + reach;
+        const double cosine = r > reach ? lesser(height / r, 1.0) : 1.0;
+        const double area = pi * clusters.radius[k] * clusters.radius[k];
+        const double nearest = greater(r - to.radius, 0.0), square = pi * r2 + area;
+        const double weight = clusters.power[k] * cosine / square *
+                              __builtin_sqrt(square / (pi * nearest * nearest + area));
+        weights[k] = cosine > 0 ? weight : 0.0;
+    }
+}
+
 /// Branch-free binary search: whichever half is taken, the next is known in time.
 inline void find_places(const double* sums, std::size_t size, std::size_t count,
                         const double* __restrict at, std::uint64_t* __restrict places) {

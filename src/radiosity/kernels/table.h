@@ -14,8 +14,8 @@
 namespace hemilux::HEMILUX_KERNELS {
 
 extern const SamplingKernels sampling;
-const SamplingKernels sampling{sobol,       cosine, weigh_emitters, find_places,
-                               count_below, random, in_cells};
+const SamplingKernels sampling{sobol,       cosine,      weigh_emitters, weigh_clusters,
+                               find_places, count_below, random,         in_cells};
 
 extern const MatrixKernels matrix;
 const MatrixKernels matrix{row_times};
