@@ -225,7 +225,7 @@ TEST_CASE("every instruction set weighs emitters and clusters alike") {
     const auto expected = weights(InstructionSet::baseline);
     for (const auto& each : expected) {
         CHECK(std::ranges::count_if(each, [](double w) { return w > 0; }) > 20);
-        CHECK(std::ranges::count_if(each, [](double w) { return w == 0; }) > 20);
+        CHECK(std::ranges::count_if(each, [](double w) { return w == 0; }) > 0);
     }
     for (const InstructionSet set : available_instruction_sets())
         CHECK(weights(set) == expected);
