@@ -1,13 +1,12 @@
 #include "radiosity/bounces.h"
 
+#include "radiosity/line_of_cells.h"
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
-#include "radiosity/sampling_kernels.h"
 #include "radiosity/shot.h"
 #include "radiosity/solve_error.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -32,85 +31,6 @@ constexpr double rays_for_one_thread = 500;
 constexpr double literal_rest = 1e-4;
 
 constexpr std::size_t bits_of_word = 64;
-
-/// std::floor for numbers of rays; compilers call a function for that.
-double whole_below(double rays) { return static_cast<double>(static_cast<std::int64_t>(rays)); }
-
-/// The smallest float that is not below x > 0: what floats are less than it are less than x.
-float at_least(double x) {
-    const float nearest = static_cast<float>(x);
-    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) + (nearest < x ? 1u : 0u));
-}
-
-constexpr std::size_t most_looked_up = 24;
-
-/// A line on which a patch's cells own intervals one after the other, and a ray stands at each
-/// whole number.
-class LineOfCells {
-  public:
-    LineOfCells(const Dealing& dealing, double before, double after)
-        : dealing_(dealing), before_(before), after_(after),
-          rays_((after - before) / dealing.rays_up_to.back()) {}
-
-    /// Calls found(cell, expected, low, high) for each cell with rays: expected, which is N_tr, and
-    /// those from low + 1 to high. Most have none when the light is nearly spent.
-    template <class Found>
-    void for_each_cell(const Found& found) const {
-        constexpr std::size_t block = 16;
-        std::array<std::size_t, block> cell;
-        std::array<double, block> high;
-        double low = whole_below(before_);
-        for (std::size_t begin = 0, cells = dealing_.cells.size(); begin < cells; begin += block) {
-            const std::size_t end = std::min(begin + block, cells);
-            if (end_of(end - 1) < low + 1)
-                continue;
-            std::size_t count = 0;
-            double before = low;
-            for (std::size_t k = begin; k < end; ++k) { // a branch would be guessed wrong
-                const double after = whole_below(end_of(k));
-                cell[count] = k;
-                high[count] = after;
-                count += after > before;
-                before = after;
-            }
-            for (std::size_t i = 0; i < count; ++i) {
-                found(dealing_.cells[cell[i]], rays_ * dealing_.rays(cell[i]), low, high[i]);
-                low = high[i];
-            }
-        }
-    }
-
-    /// The same for a patch with at most most_looked_up rays, whose cells are looked up one by one.
-    template <class Found>
-    void for_each_ray(const Found& found) const {
-        const double first = whole_below(before_);
-        const auto count = static_cast<std::size_t>(whole_below(after_) - first);
-        std::array<float, most_looked_up> at;
-        std::array<std::uint32_t, most_looked_up> cell;
-        const double scale = 1 / rays_, start = (first + 1 - before_) * scale;
-        for (std::size_t k = 0; k < count; ++k)
-            at[k] = at_least(start + double(k) * scale);
-        const std::span<const float> sums = dealing_.rays_up_to.first(dealing_.cells.size() - 1);
-        sampling_kernels().count_below(sums.data(), sums.size(), count, at.data(), cell.data());
-        for (std::size_t k = 0, end; k < count; k = end) {
-            end = k + 1;
-            while (end < count && cell[end] == cell[k])
-                ++end;
-            found(dealing_.cells[cell[k]], rays_ * dealing_.rays(cell[k]), first + double(k),
-                  first + double(end));
-        }
-    }
-
-  private:
-    [[nodiscard]] double end_of(std::size_t cell) const {
-        return cell + 1 == dealing_.cells.size() ? after_
-                                                 : before_ + rays_ * dealing_.rays_up_to[cell];
-    }
-
-    const Dealing& dealing_;
-    double before_, after_;
-    double rays_; ///< for one unit of the running sums
-};
 
 } // namespace
 
@@ -336,18 +256,14 @@ void Bounces::order(std::size_t sender, const Piece& piece, const Dealing& deali
     const std::uint32_t patch = senders_[sender];
     const LineOfCells line(dealing, rays_before_[sender], rays_before_[sender + 1]);
     const double before = whole_below(rays_before_[sender]);
-    const auto add = [&](std::uint16_t cell, double expected, double low, double high) {
+    line.for_each_cell([&](std::uint16_t cell, double expected, double low, double high) {
         const double first = std::max(low, piece.from), here = std::min(high, piece.to) - first;
         // Below one ray per cell, the ray that is shot carries the power of those that are not.
         const double sharing = expected >= 1 ? high - low : expected;
         if (here > 0)
             bursts.push_back({patch, cell, static_cast<std::uint32_t>(first - before),
                               static_cast<std::uint32_t>(here), 1 / sharing});
-    };
-    if (whole_below(rays_before_[sender + 1]) - before <= double(most_looked_up))
-        line.for_each_ray(add);
-    else
-        line.for_each_cell(add);
+    });
 }
 
 void Bounces::order_as_printed(std::uint32_t patch, const Dealing& dealing,
