@@ -6,6 +6,7 @@
 #include "radiosity/ray_counts.h"
 #include "radiosity/ray_deal.h"
 #include "radiosity/state.h"
+#include "support/after_streams.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -257,34 +258,6 @@ TEST_CASE("With little memory gathering goes on, and its rays take no more") {
     CHECK(estimated_error(model.mesh, many) > off(many) / 2);
 }
 
-namespace {
-
-/// Asks the run to stop when so many streams of rays have been traced.
-class Interrupting final : public Tracer {
-  public:
-    Interrupting(const Tracer& tracer, Monitor& monitor, int streams)
-        : tracer_(tracer), monitor_(monitor), left_(streams) {}
-    [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override {
-        return tracer_.closest(ray);
-    }
-    [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target) const override {
-        return tracer_.occluded(ray, target);
-    }
-    [[nodiscard]] std::uint32_t count(const Ray& ray) const override { return tracer_.count(ray); }
-    void closest_stream(std::span<const Ray> rays, std::span<Struck> out) const override {
-        if (--left_ == 0)
-            monitor_.interrupted = true;
-        tracer_.closest_stream(rays, out);
-    }
-
-  private:
-    const Tracer& tracer_;
-    Monitor& monitor_;
-    mutable std::atomic<int> left_;
-};
-
-} // namespace
-
 TEST_CASE("A step of gathering that was interrupted is taken up where it was left") {
     const Model model(test::room_with_block());
     SolveOptions options;
@@ -296,7 +269,7 @@ TEST_CASE("A step of gathering that was interrupted is taken up where it was lef
         REQUIRE(whole->step());
     for (const int streams : {1, 5, 30}) {
         CAPTURE(streams);
-        const Interrupting tracer(model.bvh, monitor, streams);
+        const test::AfterStreams tracer(model.bvh, streams, [&] { monitor.interrupted = true; });
         const SolverInput input{model.mesh, tracer, options, monitor};
         const auto stopped = gathering().make(input);
         while (stopped->step())

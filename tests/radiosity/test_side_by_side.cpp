@@ -1,11 +1,11 @@
 // Steps that are worked out at the same time: nobody can tell from the solution.
 
+#include "support/after_streams.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
 #include <catch2/catch.hpp>
 
-#include <atomic>
 #include <stdexcept>
 
 using namespace hemilux;
@@ -28,31 +28,6 @@ void check_same(const Solution& a, const Solution& b) {
     CHECK(a.rays_energy == b.rays_energy);
     CHECK(a.energy.escaped == b.energy.escaped);
 }
-
-/// Does something when so many streams of rays have been traced.
-template <class What>
-class AfterStreams final : public Tracer {
-  public:
-    AfterStreams(const Tracer& tracer, int streams, const What& what)
-        : tracer_(tracer), left_(streams), what_(what) {}
-    [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override {
-        return tracer_.closest(ray);
-    }
-    [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target) const override {
-        return tracer_.occluded(ray, target);
-    }
-    [[nodiscard]] std::uint32_t count(const Ray& ray) const override { return tracer_.count(ray); }
-    void closest_stream(std::span<const Ray> rays, std::span<Struck> out) const override {
-        if (--left_ == 0)
-            what_();
-        tracer_.closest_stream(rays, out);
-    }
-
-  private:
-    const Tracer& tracer_;
-    mutable std::atomic<int> left_;
-    What what_;
-};
 
 } // namespace
 
@@ -89,7 +64,8 @@ TEST_CASE("A run of steps side by side goes on where it was interrupted") {
         for (const int streams : {1, 40, 90}) {
             CAPTURE(name, streams);
             Monitor monitor;
-            const AfterStreams tracer(model.bvh, streams, [&] { monitor.interrupted = true; });
+            const test::AfterStreams tracer(model.bvh, streams,
+                                            [&] { monitor.interrupted = true; });
             const auto solver = method.make({model.mesh, tracer, options, monitor});
             while (solver->solution().steps < 6)
                 if (!solver->step())
@@ -103,7 +79,7 @@ TEST_CASE("What goes wrong in one of the steps side by side leaves those before 
     const Model model(test::room_with_block());
     const SolveOptions options = options_of(2, 100);
     Monitor monitor;
-    const AfterStreams tracer(model.bvh, 200, [] { throw std::runtime_error("no more"); });
+    const test::AfterStreams tracer(model.bvh, 200, [] { throw std::runtime_error("no more"); });
     const auto solver = find_method("stratified")->make({model.mesh, tracer, options, monitor});
     std::uint32_t steps = 0;
     CHECK_THROWS_AS(
