@@ -34,7 +34,7 @@ void BurstRays::list() {
         Burst& burst = bursts_.front();
         const auto rays = static_cast<std::uint32_t>(
             std::min<std::size_t>(burst.rays - drawn_, DirectionBatch::room - batch_.size));
-        list(burst, rays);
+        list_burst(burst, rays);
         drawn_ += rays;
         if (drawn_ < burst.rays)
             break;
@@ -43,7 +43,7 @@ void BurstRays::list() {
     }
 }
 
-void BurstRays::list(Burst& burst, std::uint32_t rays) {
+void BurstRays::list_burst(Burst& burst, std::uint32_t rays) {
     if (listed_ != burst.patch) {
         listed_ = burst.patch;
         key_ = hash_words({stream_, burst.patch});
@@ -51,7 +51,7 @@ void BurstRays::list(Burst& burst, std::uint32_t rays) {
     if (has_private_cells_)
         if (auto own = source_.strategy.private_cell(burst.patch, burst.cell))
             return list_private(burst, rays, std::move(*own));
-    list(burst, rays, burst.cell, source_.directions.power_share(burst.cell));
+    add_to_batch(burst, rays, burst.cell, source_.directions.power_share(burst.cell));
     if (!runs_.empty() && runs_.back().patch == burst.patch && runs_.back().own == none)
         runs_.back().rays += rays;
     else
@@ -60,12 +60,12 @@ void BurstRays::list(Burst& burst, std::uint32_t rays) {
 
 /// Its directions are drawn elsewhere (fill_private).
 void BurstRays::list_private(Burst& burst, std::uint32_t rays, PrivateCell own) {
-    list(burst, rays, whole_hemisphere, own.power);
+    add_to_batch(burst, rays, whole_hemisphere, own.power);
     runs_.push_back({burst.patch, rays, static_cast<std::uint32_t>(own_.size())});
     own_.push_back(std::move(own));
 }
 
-void BurstRays::list(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power) {
+void BurstRays::add_to_batch(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power) {
     if (drawn_ == 0)
         burst.ray_power *= power;
     for (std::uint32_t k = 0; k < rays; ++k)

@@ -41,7 +41,7 @@ class BurstRays {
     BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t stream,
               std::vector<Ray>& memory);
 
-    /// The next ones, rays_at_a_time until the last; none when there are no more.
+    /// The next ones, as many as a batch has room for until the last; none when there are no more.
     [[nodiscard]] std::span<const Ray> next();
 
   private:
@@ -51,9 +51,9 @@ class BurstRays {
         std::uint32_t own; ///< the private cell's place in own_, else none
     };
     void list();
-    void list(Burst& burst, std::uint32_t rays);
-    void list(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power);
+    void list_burst(Burst& burst, std::uint32_t rays);
     void list_private(Burst& burst, std::uint32_t rays, PrivateCell own);
+    void add_to_batch(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power);
     void fill(const Run& run, std::size_t first);
     void fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
                       std::span<Ray> rays);

@@ -121,11 +121,13 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, EmitterChoice::
     EmitterChoice::Choices choices;
     for (std::uint32_t s = 0; s < seeds_.size(); ++s) {
         SobolBlocks<5> points(hash_words({seeds_[s], patch}));
-        for (std::uint32_t k = begin; k < end;) {
-            points.move_to(k);
-            choice_.choose(cut, points.coordinate(4), choices);
-            for (bool in_block = true; in_block && k < end; in_block = ++k % samples_per_block != 0)
-                look(patch, s, receiver, points.point(k), choices[k % samples_per_block], volley);
+        for (std::uint32_t k = begin; k < end; ++k) {
+            const std::size_t in_block = k % samples_per_block;
+            if (k == begin || in_block == 0) {
+                points.move_to(k);
+                choice_.choose(cut, points.coordinate(4), choices);
+            }
+            look(patch, s, receiver, points.point(k), choices[in_block], volley);
             if (volley.rays.size() >= rays_at_a_time)
                 send(volley);
         }

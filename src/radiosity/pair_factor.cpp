@@ -78,11 +78,11 @@ PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t fro
     std::uint32_t begin = 0, end = adaptive ? points_per_set(least_share * worth, sets) : most;
     for (;; begin = end, end *= 2) {
         for (std::uint32_t set = 0; set < sets; ++set) {
-            const std::uint64_t set_seed = hash_words({seed, from, set});
+            SobolBlocks<4> points(hash_words({seed, from, set}));
             result.points += end - begin;
             for (std::uint32_t k = begin; k < end; ++k) {
-                const double f = point_to_patch(mesh, tracer, from, to, sobol4(k, set_seed),
-                                                result.rays, visibility);
+                const double f =
+                    point_to_patch(mesh, tracer, from, to, points.at(k), result.rays, visibility);
                 sum[set] += f;
                 result.hits += f > 0;
             }

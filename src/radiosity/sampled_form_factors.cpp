@@ -69,10 +69,10 @@ std::uint64_t SampledFormFactors::trace_emitters(std::uint32_t patch, std::uint3
                                                  std::uint32_t end) {
     std::uint64_t rays = 0;
     for (std::size_t e = 0; e < emitters_.size(); ++e) {
-        const std::uint64_t seed = hash_words({seed_, patch, emitters_[e], 1});
+        SobolBlocks<4> points(hash_words({seed_, patch, emitters_[e], 1}));
         double& sum = emitter_sum_[patch * emitters_.size() + e];
         for (std::uint32_t k = begin; k < end; ++k)
-            sum += point_to_patch(mesh_, tracer_, patch, emitters_[e], sobol4(k, seed), rays,
+            sum += point_to_patch(mesh_, tracer_, patch, emitters_[e], points.at(k), rays,
                                   needs_.visibility);
     }
     return rays;

@@ -240,10 +240,10 @@ void SeenGuide::look_from(std::uint32_t patch, const SolverInput& input, Seen& s
     if (!needs_.power(patch) || !(from.area > 0) || input.monitor.interrupted)
         return;
     constexpr std::uint64_t stream = 0x5ee2; // of no step
-    const std::uint64_t seed = hash_words({input.options.seed, stream, patch});
+    SobolBlocks<4> points(hash_words({input.options.seed, stream, patch}));
     const PolygonSampler origins(from.shape);
     for (std::uint32_t k = 0; k < rays_of_look(); ++k) {
-        const auto u = sobol4(k, seed);
+        const auto u = points.at(k);
         const Vec3 direction = cosine_direction({u[2], u[3]});
         seen.cells.push_back(hemisphere_.leaf_at(direction));
         seen.rays.push_back({origins.sample({u[0], u[1]}), frames_[patch].to_world(direction)});

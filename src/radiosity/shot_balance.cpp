@@ -23,8 +23,9 @@ ShotRays shoot_to_lose(const Mesh& mesh, const Tracer& tracer, const Needs& need
     const Patch& from = mesh.patches()[shooter];
     const Frame frame = Frame::from_normal(from.normal);
     std::vector<Ray> rays;
+    SobolBlocks<4> points(seed);
     for (std::uint32_t k = 0; k < count; ++k) {
-        const auto u = sobol4(k, seed);
+        const auto u = points.at(k);
         rays.push_back(
             {from.shape.sample({u[0], u[1]}), frame.to_world(cosine_direction({u[2], u[3]}))});
         rays.back().from = from.facet;

@@ -87,6 +87,7 @@ SobolBlocks<n>::SobolBlocks(std::uint64_t seed) {
 
 template <std::size_t n>
 void SobolBlocks<n>::move_to(std::uint32_t index) {
+    block_ = index / samples_per_block;
     for (std::size_t d = 0; d < n; ++d) {
         start_.first[d] = 0;
         for (std::size_t group = 1; group < 8; ++group)
@@ -99,9 +100,7 @@ template class SobolBlocks<4>;
 template class SobolBlocks<5>;
 
 std::array<double, 4> sobol4(std::uint32_t index, std::uint64_t seed) {
-    SobolBlocks<4> blocks(seed);
-    blocks.move_to(index);
-    return blocks.point(index);
+    return SobolBlocks<4>(seed).at(index);
 }
 
 } // namespace hemilux

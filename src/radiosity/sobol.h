@@ -30,6 +30,12 @@ class SobolBlocks {
     [[nodiscard]] const double* coordinate(std::size_t d) const {
         return &points_[samples_per_block * d];
     }
+    /// Any point; those after each other cost least.
+    [[nodiscard]] std::array<double, n> at(std::uint32_t index) {
+        if (index / samples_per_block != block_)
+            move_to(index);
+        return point(index);
+    }
     /// A point of the block.
     [[nodiscard]] std::array<double, n> point(std::uint32_t index) const {
         std::array<double, n> point;
@@ -40,6 +46,7 @@ class SobolBlocks {
 
   private:
     SobolBlockStart start_{};
+    std::size_t block_ = ~std::size_t{0}; ///< none yet
     alignas(64) std::array<double, samples_per_block * n> points_;
 };
 
