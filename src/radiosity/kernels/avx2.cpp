@@ -1,3 +1,3 @@
-// The sampling kernels for AVX2.
-#define HEMILUX_KERNELS sampling_avx2
+// The kernels of samples and matrices for AVX2.
+#define HEMILUX_KERNELS kernels_avx2
 #include "radiosity/kernels/table.h"

@@ -1,3 +1,3 @@
-// The sampling kernels for AVX-512.
-#define HEMILUX_KERNELS sampling_avx512
+// The kernels of samples and matrices for AVX-512.
+#define HEMILUX_KERNELS kernels_avx512
 #include "radiosity/kernels/table.h"

@@ -1,3 +1,3 @@
-// The sampling kernels for any machine.
-#define HEMILUX_KERNELS sampling_baseline
+// The kernels of samples and matrices for any machine.
+#define HEMILUX_KERNELS kernels_baseline
 #include "radiosity/kernels/table.h"

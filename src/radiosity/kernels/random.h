@@ -1,5 +1,4 @@
-// Random numbers by their place, cells by their share of the rays, and directions into cells. No
-// #pragma once: see sobol.h.
+// Random numbers by their place, and directions into cells. No #pragma once: see sobol.h.
 
 #include "radiosity/sampling_kernels.h"
 
@@ -22,17 +21,6 @@ inline void random(const RandomKeys& keys, std::size_t count, std::uint32_t atte
         b[k] = uniform(y);
         c[k] = uniform(z);
         d[k] = uniform(w);
-    }
-}
-
-inline void count_below(const float* sums, std::size_t size, std::size_t count, const float* at,
-                        std::uint32_t* __restrict places) {
-    for (std::size_t k = 0; k < count; ++k) {
-        const float limit = at[k];
-        std::uint32_t below = 0;
-        for (std::size_t i = 0; i < size; ++i)
-            below += sums[i] < limit ? 1 : 0;
-        places[k] = below;
     }
 }
 
