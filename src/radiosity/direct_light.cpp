@@ -11,6 +11,7 @@
 #include "radiosity/state.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <utility>
@@ -26,6 +27,19 @@ constexpr double largest_share = .3;
 /// An emitter is distant if a receiver keeps off by so many of its radii. Half or twice as many
 /// change the errors by less than a twentieth (measured).
 constexpr double distant_radii = 3;
+
+/// The emitters as they were before facets were divided: how finely the light is to be known is
+/// nothing to those who only receive it.
+std::vector<Patch> whole_sides(const Mesh& mesh, std::span<const std::uint32_t> emitters) {
+    std::vector<Patch> sides;
+    std::array<std::uint32_t, 2> last{none, none};
+    for (const std::uint32_t e : emitters) {
+        const Patch& patch = mesh.patches()[e];
+        if (std::exchange(last[patch.back ? 1 : 0], patch.facet) != patch.facet)
+            sides.push_back(mesh.whole_side(patch.facet, patch.back));
+    }
+    return sides;
+}
 
 double power_of(const Mesh& mesh, std::uint32_t patch) {
     return mesh.patches()[patch].area * mean_of_channels(mesh.material(patch).emission);
@@ -79,11 +93,12 @@ DirectLight::Shape::Shape(const Patch& of) : patch(&of), points(of.shape), radiu
 
 DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                          std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds)
-    : mesh_(mesh), tracer_(tracer), needs_(needs), emitters_(emitters), choice_(mesh, emitters),
-      seeds_(std::move(seeds)), sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)),
-      samples_(mesh.patches().size()), hits_(mesh.patches().size()) {
-    for (const std::uint32_t e : emitters_)
-        lamps_.push_back({Shape(mesh.patches()[e]), mesh.material(e).emission});
+    : mesh_(mesh), tracer_(tracer), needs_(needs), emitters_(whole_sides(mesh, emitters)),
+      choice_(mesh, emitters_), seeds_(std::move(seeds)),
+      sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)), samples_(mesh.patches().size()),
+      hits_(mesh.patches().size()) {
+    for (const Patch& emitter : emitters_)
+        lamps_.push_back({Shape(emitter), mesh.material(emitter).emission});
 }
 
 Vec3 DirectLight::irradiance(std::uint32_t patch) const {

@@ -33,7 +33,8 @@ struct Monitor;
 /// Several estimates at once, independent of each other.
 class DirectLight {
   public:
-    /// An estimate for each seed. What is referred to outlives this.
+    /// An estimate for each seed. `emitters`: patches, in their order; a facet's are either all
+    /// among them or none. What is referred to outlives this.
     DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                 std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds);
 
@@ -83,7 +84,7 @@ class DirectLight {
     const Mesh& mesh_;
     const Tracer& tracer_;
     const Needs& needs_;
-    std::span<const std::uint32_t> emitters_;
+    std::vector<Patch> emitters_; ///< whole sides of facets
     EmitterChoice choice_;
     std::vector<std::uint64_t> seeds_;
     std::vector<Vec3> sum_; ///< by patch and estimate

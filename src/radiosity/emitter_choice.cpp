@@ -19,7 +19,7 @@ constexpr std::size_t most_emitters = 1024, most_clusters = 128;
 
 } // namespace
 
-EmitterChoice::EmitterChoice(const Mesh& mesh, std::span<const std::uint32_t> emitters)
+EmitterChoice::EmitterChoice(const Mesh& mesh, std::span<const Patch> emitters)
     : mesh_(mesh), emitters_(emitters), order_(emitters.size()), power_sums_(1, 0.0) {
     for (const Patch& patch : mesh.patches())
         radius_.push_back(radius_of(patch));
@@ -33,7 +33,7 @@ EmitterChoice::EmitterChoice(const Mesh& mesh, std::span<const std::uint32_t> em
 
 void EmitterChoice::list_emitters() {
     for (const std::uint32_t place : order_) {
-        const Patch& patch = mesh_.patches()[emitters_[place]];
+        const Patch& patch = emitters_[place];
         auto array = arrays_.begin();
         const auto add = [&](double x) { (array++)->push_back(x); };
         const auto add_point = [&](const Vec3& p) {
@@ -83,13 +83,10 @@ EmitterReceiver EmitterChoice::receiver_at(std::uint32_t patch) const {
     return receiver;
 }
 
-const Vec3& EmitterChoice::centre(std::uint32_t place) const {
-    return mesh_.patches()[emitters_[place]].centre;
-}
+const Vec3& EmitterChoice::centre(std::uint32_t place) const { return emitters_[place].centre; }
 
 double EmitterChoice::power_of(std::uint32_t place) const {
-    return mesh_.patches()[emitters_[place]].area *
-           mean_of_channels(mesh_.material(emitters_[place]).emission);
+    return emitters_[place].area * mean_of_channels(mesh_.material(emitters_[place]).emission);
 }
 
 std::uint32_t EmitterChoice::add(std::uint32_t begin, std::uint32_t end) {
@@ -100,7 +97,7 @@ std::uint32_t EmitterChoice::add(std::uint32_t begin, std::uint32_t end) {
     }
     for (std::uint32_t k = begin; k < end; ++k)
         cluster.radius = std::max(cluster.radius, glm::distance(cluster.centre, centre(order_[k])) +
-                                                      radius_[emitters_[order_[k]]]);
+                                                      radius_of(emitters_[order_[k]]));
     clusters_.push_back(cluster);
     return static_cast<std::uint32_t>(clusters_.size() - 1);
 }

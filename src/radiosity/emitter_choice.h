@@ -23,11 +23,12 @@
 namespace hemilux {
 
 class Mesh;
+struct Patch;
 
 class EmitterChoice {
   public:
-    /// `emitters`: patches that emit; they outlive this.
-    EmitterChoice(const Mesh& mesh, std::span<const std::uint32_t> emitters);
+    /// `emitters`: what emits; they outlive this.
+    EmitterChoice(const Mesh& mesh, std::span<const Patch> emitters);
 
     /// What a patch weighs: emitters or clusters, and running sums of their weights.
     struct Cut {
@@ -72,7 +73,7 @@ class EmitterChoice {
     [[nodiscard]] const Vec3& centre(std::uint32_t place) const;
 
     const Mesh& mesh_;
-    std::span<const std::uint32_t> emitters_;
+    std::span<const Patch> emitters_;
     std::vector<std::uint32_t> order_; ///< places among the emitters, cluster by cluster
     std::vector<double> power_sums_;   ///< by order_, one more: of all before
     std::vector<Cluster> clusters_;    ///< the first is all of them

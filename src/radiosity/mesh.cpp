@@ -116,6 +116,25 @@ Polygon Mesh::shape_of(std::uint32_t facet) const {
     return shape;
 }
 
+Patch Mesh::whole_side(std::uint32_t facet, bool back) const {
+    return patch_from(shape_of(facet), facet, back);
+}
+
+Patch Mesh::patch_from(const Polygon& shape, std::uint32_t facet, bool back) const {
+    const double area = shape.area();
+    const Polygon whole = shape_of(facet);
+    const Vec3 normal = area > 0           ? shape.normal()
+                        : whole.area() > 0 ? whole.normal()
+                                           : Vec3(0, 0, 1);
+    return {back ? shape.flipped() : shape,
+            shape.centre(),
+            back ? -normal : normal,
+            area,
+            facet,
+            scene_.facets[facet].material,
+            back};
+}
+
 void Mesh::lay_apart() {
     constexpr double step = 0x1p-28; // larger than what is taken for rounding elsewhere
     const Stacks stacks = find_stacks(scene_, vertices_);
@@ -133,7 +152,6 @@ void Mesh::lay_apart() {
 }
 
 void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
-    const Facet& facet = scene_.facets[f];
     const Polygon shape = shape_of(f);
     const double max_edge = options.max_edge > 0 ? options.max_edge * frame_.scale
                                                  : std::numeric_limits<double>::infinity();
@@ -146,15 +164,10 @@ void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
     else
         divide_quad(division, shape, max_edge, room, made);
 
-    const Vec3 facet_normal = shape.area() > 0 ? shape.normal() : Vec3(0, 0, 1);
-    for (const Polygon& piece : made) {
-        const double area = piece.area();
-        const Vec3 normal = area > 0 ? piece.normal() : facet_normal;
-        patches_.push_back({piece, piece.centre(), normal, area, f, facet.material, false});
-        if (two_sided_)
-            patches_.push_back(
-                {piece.flipped(), piece.centre(), -normal, area, f, facet.material, true});
-    }
+    for (const Polygon& piece : made)
+        for (const bool back : {false, true})
+            if (!back || two_sided_)
+                patches_.push_back(patch_from(piece, f, back));
     divisions_.push_back(division);
     const bool divided = division.rows > 1 || division.columns > 1;
     only_patch_.push_back(divided ? none : division.first_patch);

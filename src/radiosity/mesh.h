@@ -62,8 +62,11 @@ class Mesh {
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const LocalFrame& frame() const { return frame_; }
     [[nodiscard]] std::span<const Patch> patches() const { return patches_; }
+    [[nodiscard]] const Material& material(const Patch& patch) const {
+        return scene_.materials[patch.material];
+    }
     [[nodiscard]] const Material& material(std::uint32_t patch) const {
-        return scene_.materials[patches_[patch].material];
+        return material(patches_[patch]);
     }
     /// Vertices of the scene in the local frame, indexed by Facet::vertex; then those of facets
     /// that lay in one plane over each other and were laid apart (stacked_facets.h).
@@ -74,6 +77,8 @@ class Mesh {
     [[nodiscard]] Frame hemisphere_frame(std::uint32_t patch) const;
     /// The facets for a tracer to copy or to refer to.
     [[nodiscard]] FacetSoup soup() const;
+    /// One side of a facet as if it were not divided.
+    [[nodiscard]] Patch whole_side(std::uint32_t facet, bool back) const;
     /// Whether a facet has more than one patch a side.
     [[nodiscard]] bool is_divided(std::uint32_t facet) const { return only_patch_[facet] == none; }
     /// The patch of a facet that is not divided; none for the back of a one-sided one.
@@ -99,6 +104,7 @@ class Mesh {
     };
 
     [[nodiscard]] Polygon shape_of(std::uint32_t facet) const;
+    [[nodiscard]] Patch patch_from(const Polygon& shape, std::uint32_t facet, bool back) const;
     void lay_apart();
     void divide(std::uint32_t facet, const MeshOptions& options);
     void divide_quad(Division& division, const Polygon& shape, double max_edge, std::size_t room,

@@ -40,6 +40,39 @@ struct Sweep {
     }
 };
 
+/// What arrives straight from the emitters, by patch.
+std::vector<Vec3> direct_light(const Model& model, std::uint32_t samples) {
+    const std::vector<std::uint32_t> emitters = small_emitters(model.mesh);
+    DirectLight light(model.mesh, model.bvh, everything_needed, emitters, {5});
+    const std::size_t n = model.mesh.patches().size();
+    Monitor monitor;
+    light.sample_up_to(std::vector<std::uint32_t>(n, samples), Workers(2), monitor);
+    std::vector<Vec3> found;
+    for (std::uint32_t i = 0; i < n; ++i)
+        found.push_back(light.irradiance(i));
+    return found;
+}
+
+Vec3 power_of(const Model& model, std::span<const Vec3> light) {
+    Vec3 power(0.0);
+    for (std::size_t i = 0; i < light.size(); ++i)
+        power += model.mesh.patches()[i].area * light[i];
+    return model.mesh.frame().area_to_world(1.0) * power;
+}
+
+/// With each patch as a facet.
+Scene made_of_patches(const Mesh& mesh) {
+    Scene scene;
+    scene.materials = mesh.scene().materials;
+    for (const Patch& patch : mesh.patches()) {
+        const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+        for (const Vec3& corner : patch.shape.corner)
+            scene.vertices.push_back(mesh.frame().to_world(corner));
+        scene.facets.push_back({{first, first + 1, first + 2, first + 3}, 0, patch.material, 0});
+    }
+    return scene;
+}
+
 } // namespace
 
 TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may bring") {
@@ -49,30 +82,27 @@ TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may brin
         material.emission += material.reflectance;
     const Model model(std::move(scene));
     const std::span<const Patch> patches = model.mesh.patches();
-    std::vector<std::uint32_t> emitters(patches.size());
-    std::iota(emitters.begin(), emitters.end(), 0u);
-    REQUIRE(emitters.size() <= 1024); // weighed one by one
-    const EmitterChoice choice(model.mesh, emitters);
+    REQUIRE(patches.size() <= 1024); // weighed one by one
+    const EmitterChoice choice(model.mesh, patches);
     EmitterChoice::Cut cut;
     for (std::uint32_t i = 0; i < patches.size(); i += 7) {
         choice.weigh(i, cut);
         if (cut.dark())
             continue;
-        const Sweep sweep(choice, cut, emitters.size());
-        std::vector<double> expected(emitters.size());
+        const Sweep sweep(choice, cut, patches.size());
+        std::vector<double> expected(patches.size());
         double sum = 0;
-        for (std::size_t e = 0; e < emitters.size(); ++e) {
-            const Patch &to = patches[i], &from = patches[emitters[e]];
+        for (std::size_t e = 0; e < patches.size(); ++e) {
+            const Patch &to = patches[i], &from = patches[e];
             const double r = glm::distance(to.centre, from.centre);
             const double nearest = std::max(r - radius_of(to), 0.0), pi = std::numbers::pi;
-            if (emitters[e] != i && may_see(to, from))
+            if (e != i && may_see(to, from))
                 expected[e] =
-                    mean_of_channels(model.mesh.material(emitters[e]).emission) *
-                    rough_factor(to, from) *
+                    mean_of_channels(model.mesh.material(from).emission) * rough_factor(to, from) *
                     std::sqrt((pi * r * r + from.area) / (pi * nearest * nearest + from.area));
             sum += expected[e];
         }
-        for (std::size_t e = 0; e < emitters.size(); ++e)
+        for (std::size_t e = 0; e < patches.size(); ++e)
             if (sweep.met[e] > 0)
                 CHECK(sweep.told[e] == Approx(expected[e] / sum).epsilon(1e-9));
             else
@@ -82,12 +112,13 @@ TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may brin
 
 TEST_CASE("Direct light is unbiased where emitters are drawn by clusters") {
     const Scene scene = test::room_with_block();
-    const Model whole(scene), fine(scene, {.max_edge = .018}); // the lamp in 1156 patches
-    const std::vector<std::uint32_t> emitters = small_emitters(fine.mesh);
-    REQUIRE(emitters.size() > 1024);
+    const Model whole(scene), divided(scene, {.max_edge = .018});
+    const Model fine(made_of_patches(divided.mesh)); // the lamp in 1156
     const std::size_t n = fine.mesh.patches().size();
-    Monitor monitor;
-    const Workers workers(2);
+    std::vector<Patch> emitters;
+    for (const std::uint32_t e : small_emitters(fine.mesh))
+        emitters.push_back(fine.mesh.patches()[e]);
+    REQUIRE(emitters.size() > 1024);
     const EmitterChoice choice(fine.mesh, emitters);
     EmitterChoice::Cut cut;
     for (std::uint32_t i = 0; i < n; i += 97) {
@@ -99,18 +130,28 @@ TEST_CASE("Direct light is unbiased where emitters are drawn by clusters") {
             CHECK(met[e] == Approx(told[e]).margin(2.0 / Sweep::steps));
         CHECK(std::accumulate(told.begin(), told.end(), 0.0) == Approx(1).epsilon(.01));
     }
-    // All light that arrives, whether the lamp is one patch or many.
-    const auto light_of = [&](const Model& model, std::uint32_t samples) {
-        const std::vector<std::uint32_t> lamps = small_emitters(model.mesh);
-        DirectLight light(model.mesh, model.bvh, everything_needed, lamps, {5});
-        light.sample_up_to(std::vector<std::uint32_t>(model.mesh.patches().size(), samples),
-                           workers, monitor);
-        Vec3 power(0.0);
-        for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i)
-            power += model.mesh.patches()[i].area * light.irradiance(i);
-        return power;
-    };
-    const Vec3 coarse_power = light_of(whole, 1u << 14), fine_power = light_of(fine, 64);
+    const Vec3 of_one = power_of(whole, direct_light(whole, 1u << 14));
+    const Vec3 of_many = power_of(fine, direct_light(fine, 64));
     for (int c = 0; c < 3; ++c)
-        CHECK(fine_power[c] == Approx(coarse_power[c]).epsilon(.01));
+        CHECK(of_many[c] == Approx(of_one[c]).epsilon(.01));
+}
+
+TEST_CASE("A lamp is one emitter however finely its patches divide it") {
+    Scene scene;
+    scene.materials = {{"ground", Vec3(.5), Vec3(0.0)}, {"lamp", Vec3(.1), Vec3(1.0)}};
+    test::add_quad(scene, {-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, 8, 8, 0);
+    test::add_quad(scene, {-.3, 1, -.3}, {.3, 1, -.3}, {.3, 1, .3}, {-.3, 1, .3}, 1, 1, 1);
+    // Pieces of .25 leave the ground as it is and make 9 of the lamp.
+    for (const bool two_sided : {false, true}) {
+        const std::size_t sides = two_sided ? 2 : 1, ground = 64 * sides;
+        std::vector<Vec3> of_whole = direct_light(Model(scene, {.two_sided = two_sided}), 16);
+        std::vector<Vec3> of_divided =
+            direct_light(Model(scene, {.max_edge = .25, .two_sided = two_sided}), 16);
+        REQUIRE(of_whole.size() == ground + sides);
+        REQUIRE(of_divided.size() == ground + 9 * sides);
+        of_whole.resize(ground);
+        of_divided.resize(ground);
+        CHECK(of_whole == of_divided);
+        CHECK(of_whole[0].x > 0);
+    }
 }
