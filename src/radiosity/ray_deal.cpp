@@ -13,7 +13,7 @@ namespace {
 constexpr double least_share = 1.0 / 8, most_share = 8;
 
 /// The power of two nearest to a number, in logarithms: the whole part of log2(sqrt(2) rays), which
-/// is an exponent's bits. Dealing asks for it 50 times a patch.
+/// is an exponent's bits. Dealing asks for it ten times a patch.
 std::uint32_t power_of_two(double rays) {
     constexpr std::uint64_t mantissa_bits = 52, bias = 1023;
     const auto bits = std::bit_cast<std::uint64_t>(std::numbers::sqrt2 * std::max(rays, 1.0));
@@ -36,6 +36,11 @@ std::vector<double> rounded(std::span<const double> weights, double largest) {
     return result;
 }
 
+/// A patch, and its rays at both ends of a range of rays per weight and in the middle.
+struct Open {
+    std::uint32_t index, low, high, middle = 0;
+};
+
 } // namespace
 
 std::vector<std::uint32_t> deal_rays(std::span<const double> given, double mean,
@@ -45,25 +50,37 @@ std::vector<std::uint32_t> deal_rays(std::span<const double> given, double mean,
     if (!(largest > 0))
         return rays;
     const std::vector<double> weights = rounded(given, largest);
-    const auto count = static_cast<double>(
-        std::ranges::count_if(weights, [](double weight) { return weight > 0; }));
-    const auto deal = [&](double per_weight) {
-        std::uint64_t sum = 0;
-        for (std::size_t i = 0; i < weights.size(); ++i) {
-            const double share =
-                std::clamp(per_weight * weights[i], least_share * mean, most_share * mean);
-            rays[i] = weights[i] > 0 ? std::max(power_of_two(share), already[i]) : 0;
-            sum += rays[i];
-        }
-        return static_cast<double>(sum) <= mean * count;
+    const auto rays_of = [&](std::uint32_t i, double per_weight) {
+        const double share =
+            std::clamp(per_weight * weights[i], least_share * mean, most_share * mean);
+        return std::max(power_of_two(share), already[i]);
     };
     // The number of rays per weight that deals out what there is, by bisection of its logarithm.
+    // A patch that gets as many at one end as at the other needs no more asking.
     double low = std::log(least_share * mean), high = low + 80;
-    for (int k = 0; k < 50; ++k) {
-        const double middle = (low + high) / 2;
-        (deal(std::exp(middle)) ? low : high) = middle;
+    std::vector<Open> open;
+    for (std::uint32_t i = 0; i < weights.size(); ++i)
+        if (weights[i] > 0)
+            open.push_back({i, rays_of(i, std::exp(low)), rays_of(i, std::exp(high))});
+    const double all = mean * static_cast<double>(open.size());
+    std::uint64_t settled = 0;
+    for (int k = 0; k < 50 && !open.empty(); ++k) {
+        const double middle = (low + high) / 2, per_weight = std::exp(middle);
+        std::uint64_t sum = settled;
+        for (Open& patch : open)
+            sum += patch.middle = rays_of(patch.index, per_weight);
+        const bool enough = static_cast<double>(sum) <= all;
+        (enough ? low : high) = middle;
+        std::erase_if(open, [&](Open& patch) {
+            (enough ? patch.low : patch.high) = patch.middle;
+            if (patch.low < patch.high)
+                return false;
+            settled += rays[patch.index] = patch.low;
+            return true;
+        });
     }
-    deal(std::exp(low));
+    for (const Open& patch : open)
+        rays[patch.index] = patch.low;
     return rays;
 }
 
