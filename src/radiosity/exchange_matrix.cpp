@@ -14,6 +14,8 @@ namespace {
 /// Each takes most of what is missing away. In open scenes no symmetric matrix may agree with all
 /// that was lost, and no number would be enough.
 constexpr int scalings = 6;
+/// Of the whole, from the mean of what its sets were scaled by.
+constexpr int scalings_of_all = 3;
 
 /// Fewer entries are read sooner than other threads would be called.
 constexpr std::size_t entries_for_one_thread = 60'000;
@@ -63,20 +65,24 @@ double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
 } // namespace
 
 ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& set)
-    : row_size_(mesh.patches().size()), lost_(mesh.patches().size()) {
+    : row_size_(mesh.patches().size()), scale_(mesh.patches().size(), 1.0),
+      lost_(mesh.patches().size()) {
     for (const Patch& patch : mesh.patches())
         area_.push_back(patch.area);
     find_lost(set);
     store(set);
-    close(Workers(1));
+    close(scalings, Workers(1));
 }
 
 ExchangeMatrix::ExchangeMatrix(std::span<const ExchangeMatrix> sets, const Workers& workers)
-    : row_size_(sets[0].row_size_.size()), area_(sets[0].area_), rays_(area_.size()),
-      lost_(area_.size()) {
+    : row_size_(sets[0].row_size_.size()), scale_(row_size_.size()), area_(sets[0].area_),
+      rays_(area_.size()), lost_(area_.size()) {
     find_lost(sets);
     merge(sets, workers);
-    close(workers);
+    for (const ExchangeMatrix& set : sets)
+        for (std::size_t i = 0; i < scale_.size(); ++i)
+            scale_[i] += set.scale_[i] / static_cast<double>(sets.size());
+    close(scalings_of_all, workers);
 }
 
 void ExchangeMatrix::find_lost(const RayCounts& set) {
@@ -175,11 +181,10 @@ std::vector<double> ExchangeMatrix::due() const {
 
 /// Rows are closed by c = due / (S r), then by r = due / (S c), and so on (Sinkhorn and Knopp
 /// 1967). As S is symmetric, r and c end as multiples of each other, and g is their geometric mean.
-void ExchangeMatrix::find_scale(std::span<const double> due, const Workers& workers) {
+void ExchangeMatrix::find_scale(std::span<const double> due, int times, const Workers& workers) {
     const std::size_t n = area_.size();
-    std::vector<double> before(n, 1.0), after(n);
-    scale_.assign(n, 1.0);
-    for (int k = 0; k < scalings; ++k) {
+    std::vector<double> before, after(n);
+    for (int k = 0; k < times; ++k) {
         for_rows(workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const double sum = row_sum(row(i), scale_);
@@ -194,9 +199,9 @@ void ExchangeMatrix::find_scale(std::span<const double> due, const Workers& work
         scale_[i] = std::sqrt(scale_[i] * before[i]);
 }
 
-void ExchangeMatrix::close(const Workers& workers) {
+void ExchangeMatrix::close(int times, const Workers& workers) {
     const std::vector<double> due = this->due();
-    find_scale(due, workers);
+    find_scale(due, times, workers);
     self_.assign(area_.size(), 0.0);
     per_area_.assign(area_.size(), 0.0);
     for_rows(workers, [&](std::size_t begin, std::size_t end) {

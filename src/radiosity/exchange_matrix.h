@@ -70,9 +70,9 @@ class ExchangeMatrix {
     void find_lost(std::span<const ExchangeMatrix> sets);
     void store(const RayCounts& set);
     void merge(std::span<const ExchangeMatrix> sets, const Workers& workers);
-    void close(const Workers& workers);
+    void close(int times, const Workers& workers);
     [[nodiscard]] std::vector<double> due() const;
-    void find_scale(std::span<const double> due, const Workers& workers);
+    void find_scale(std::span<const double> due, int times, const Workers& workers);
     [[nodiscard]] Workers readers(const Workers& workers) const;
 
     const MatrixKernels* kernels_ = &matrix_kernels();

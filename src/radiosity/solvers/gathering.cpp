@@ -35,6 +35,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -46,8 +47,13 @@ constexpr unsigned sets = 4;
 /// Bytes that are needed to put counts together, for each byte of them.
 constexpr double merging = 5;
 
-/// Residuals of the system; the sets alone tell no more than the error.
-constexpr double precisely = 1e-10, roughly = 1e-3;
+/// Of the standard error, what may be left where solving ends: of the sets, which tell no more than
+/// that error, and of the whole.
+constexpr double left_of_sets = .1, left_of_all = 1e-3;
+
+/// Residuals, relative to the light that comes straight from the emitters: never less, and of the
+/// sets as long as no error is known.
+constexpr double least_residual = 1e-10, first_residual = 1e-3;
 
 class GatheringSolver final : public Solver {
   public:
@@ -65,6 +71,8 @@ class GatheringSolver final : public Solver {
             area_.push_back(patches[i].area);
             reflectance_.push_back(material.reflectance);
             emission_.push_back(material.emission);
+            for (int c = 0; c < 3; ++c)
+                lost_at_least_ = std::min(lost_at_least_, 1 - material.reflectance[c]);
             seen_emission_.push_back(small[i] ? Vec3(0.0) : material.emission);
         }
         solution_.energy.emitted =
@@ -174,22 +182,43 @@ class GatheringSolver final : public Solver {
     ExchangeMatrix solve_all() {
         std::vector<ExchangeMatrix> parts(sets);
         std::vector<GatheredLight::Light> found = light_.solved();
+        const double residual =
+            solution_.steps == 0
+                ? first_residual
+                : std::clamp(left_of_sets * estimated_error(input_.mesh, solution_), least_residual,
+                             first_residual);
         workers_.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
             parts[set] = ExchangeMatrix(input_.mesh, counts_[set]);
-            solve(parts[set], set, found[set], Workers(1), roughly);
+            solve(parts[set], set, found[set], Workers(1), residual);
         });
         ExchangeMatrix all(parts, workers_);
         parts.clear();
-        for (std::size_t i = 0; i < area_.size(); ++i) {
-            Vec3 sum(0.0);
-            for (std::size_t set = 0; set < sets; ++set)
-                sum += found[set].incident[i];
-            found[sets].incident[i] = sum / double(sets);
-        }
-        solve(all, sets, found[sets], workers_, precisely);
+        // What a residual makes of the light is no larger than its sum over all reflections.
+        const double error = average(found);
+        solve(all, sets, found[sets], workers_,
+              std::max(left_of_all * error * lost_at_least_, least_residual));
         if (!input_.monitor.interrupted)
             light_.solved() = std::move(found);
         return all;
+    }
+
+    /// Makes the last the mean of the sets; returns its relative standard error, of what is
+    /// reflected.
+    double average(std::vector<GatheredLight::Light>& found) const {
+        double squares = 0, size = 0;
+        for (std::size_t i = 0; i < area_.size(); ++i) {
+            Vec3 mean(0.0), of_squares(0.0);
+            for (std::size_t set = 0; set < sets; ++set) {
+                const Vec3& light = found[set].incident[i];
+                mean += light / double(sets);
+                of_squares += light * light / double(sets);
+            }
+            found[sets].incident[i] = mean;
+            const Vec3 weight = area_[i] * reflectance_[i] * reflectance_[i];
+            squares += glm::dot(weight, of_squares - mean * mean) / double(sets - 1);
+            size += glm::dot(weight, mean * mean);
+        }
+        return squares > 0 ? std::sqrt(squares / size) : 0;
     }
 
     /// How many times as many rays may be stored.
@@ -296,6 +325,7 @@ class GatheringSolver final : public Solver {
     std::vector<double> area_;
     std::vector<Vec3> reflectance_, emission_;
     std::vector<Vec3> seen_emission_; ///< of those that rays at random are to find
+    double lost_at_least_ = 1;        ///< of what falls on a patch, in any channel
     std::vector<RayCounts> counts_;
     std::optional<DirectLight> direct_; ///< an estimate for each set
     bool planned_ = false; ///< rays of the present step, which may have been traced in part
