@@ -20,33 +20,6 @@ constexpr int scalings_of_all = 3;
 /// Fewer entries are read sooner than other threads would be called.
 constexpr std::size_t entries_for_one_thread = 60'000;
 
-/// Adds up what several sets tell of one row. The order of the columns is that in which they come.
-/// Some floats of similar size sum up to a double without rounding: the sums are symmetric too.
-class Accumulator {
-  public:
-    explicit Accumulator(std::size_t columns) : sum_(columns), touched_(columns + 1) {}
-
-    void add(const MatrixEntry& entry) {
-        double& sum = sum_[entry.column];
-        touched_[count_] = entry.column; // for good if it is a new one: no branch could be foreseen
-        count_ += !(sum > 0);
-        sum += static_cast<double>(entry.value);
-    }
-    /// Adds all sums, times a factor, to the entries; and is empty again.
-    void flush(double factor, std::vector<MatrixEntry>& entries) {
-        for (std::size_t k = 0; k < count_; ++k) {
-            const double sum = std::exchange(sum_[touched_[k]], 0.0);
-            entries.push_back({touched_[k], static_cast<float>(factor * sum)});
-        }
-        count_ = 0;
-    }
-
-  private:
-    std::vector<double> sum_;
-    std::vector<std::uint32_t> touched_;
-    std::size_t count_ = 0;
-};
-
 /// Sum of value times x[column], in four sums that do not wait for each other.
 double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
     const auto term = [&](const MatrixEntry& entry) {
@@ -65,8 +38,7 @@ double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
 } // namespace
 
 ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& set)
-    : row_size_(mesh.patches().size()), scale_(mesh.patches().size(), 1.0),
-      lost_(mesh.patches().size()) {
+    : scale_(mesh.patches().size(), 1.0), lost_(mesh.patches().size()) {
     for (const Patch& patch : mesh.patches())
         area_.push_back(patch.area);
     find_lost(set);
@@ -74,14 +46,18 @@ ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& set)
     close(scalings, Workers(1));
 }
 
-ExchangeMatrix::ExchangeMatrix(std::span<const ExchangeMatrix> sets, const Workers& workers)
-    : row_size_(sets[0].row_size_.size()), scale_(row_size_.size()), area_(sets[0].area_),
-      rays_(area_.size()), lost_(area_.size()) {
+ExchangeMatrix::ExchangeMatrix(std::vector<ExchangeMatrix> sets, const Workers& workers)
+    : scale_(sets[0].scale_.size()), area_(std::move(sets[0].area_)), rays_(area_.size()),
+      lost_(area_.size()) {
     find_lost(sets);
-    merge(sets, workers);
     for (const ExchangeMatrix& set : sets)
         for (std::size_t i = 0; i < scale_.size(); ++i)
             scale_[i] += set.scale_[i] / static_cast<double>(sets.size());
+    std::vector<SparseRows> rows;
+    for (ExchangeMatrix& set : sets)
+        rows.push_back(std::move(set.rows_));
+    sets.clear();
+    rows_ = SparseRows(std::move(rows), workers);
     close(scalings_of_all, workers);
 }
 
@@ -107,24 +83,19 @@ void ExchangeMatrix::find_lost(std::span<const ExchangeMatrix> sets) {
 void ExchangeMatrix::store(const RayCounts& set) {
     const auto n = static_cast<std::uint32_t>(area_.size());
     std::vector<double> rays_per_area(n);
+    std::vector<std::uint32_t> sizes(n);
     for (std::uint32_t i = 0; i < n; ++i) {
         rays_per_area[i] = area_[i] > 0 ? rays_[i] / area_[i] : 0;
-        row_size_[i] += static_cast<std::uint32_t>(set.row(i).size());
+        sizes[i] += static_cast<std::uint32_t>(set.row(i).size());
         for (const RayCounts::Count& count : set.row(i))
-            ++row_size_[count.patch];
+            ++sizes[count.patch];
     }
-    entries_ = std::accumulate(row_size_.begin(), row_size_.end(), std::size_t{0});
-    stored_.push_back(std::make_unique_for_overwrite<Entry[]>(entries_));
-    std::vector<Entry*> next(n);
-    Entry* begin = stored_[0].get();
+    rows_ = SparseRows(std::move(sizes));
+    std::vector<MatrixEntry*> next(n);
+    for (std::uint32_t i = 0; i < n; ++i)
+        next[i] = rows_.to_write(i) + set.row(i).size();
     for (std::uint32_t i = 0; i < n; ++i) {
-        row_begin_.push_back(begin);
-        next[i] = begin + set.row(i).size();
-        begin += row_size_[i];
-    }
-    begin = stored_[0].get();
-    for (std::uint32_t i = 0; i < n; begin += row_size_[i++]) {
-        Entry* seen = begin;
+        MatrixEntry* seen = rows_.to_write(i);
         for (const auto& [j, hits] : set.row(i)) {
             const auto value = static_cast<float>(hits / (rays_per_area[i] + rays_per_area[j]));
             *seen++ = {j, value};
@@ -133,41 +104,8 @@ void ExchangeMatrix::store(const RayCounts& set) {
     }
 }
 
-void ExchangeMatrix::merge(std::span<const ExchangeMatrix> sets, const Workers& workers) {
-    const std::size_t n = area_.size();
-    row_begin_.resize(n);
-    stored_.resize((n + rows_per_chunk - 1) / rows_per_chunk);
-    struct Scratch {
-        Accumulator sum;
-        std::vector<Entry> rows;
-    };
-    workers.for_chunks_with(
-        n, rows_per_chunk,
-        [&] {
-            return Scratch{Accumulator(n), {}};
-        },
-        [&](Scratch& scratch, std::size_t begin, std::size_t end) {
-            scratch.rows.clear();
-            for (std::size_t i = begin; i < end; ++i) {
-                for (const ExchangeMatrix& set : sets)
-                    for (const Entry& entry : set.row(i))
-                        scratch.sum.add(entry);
-                const std::size_t before = scratch.rows.size();
-                scratch.sum.flush(1 / static_cast<double>(sets.size()), scratch.rows);
-                row_size_[i] = static_cast<std::uint32_t>(scratch.rows.size() - before);
-            }
-            auto& stored = stored_[begin / rows_per_chunk];
-            stored = std::make_unique_for_overwrite<Entry[]>(scratch.rows.size());
-            std::ranges::copy(scratch.rows, stored.get());
-            const Entry* next = stored.get();
-            for (std::size_t i = begin; i < end; next += row_size_[i++])
-                row_begin_[i] = next;
-        });
-    entries_ = std::accumulate(row_size_.begin(), row_size_.end(), std::size_t{0});
-}
-
 Workers ExchangeMatrix::readers(const Workers& workers) const {
-    return entries_ < entries_for_one_thread ? Workers(1) : workers;
+    return rows_.entries() < entries_for_one_thread ? Workers(1) : workers;
 }
 
 /// What the rows are to sum to; less than 0: unknown, as the patch itself has not looked.
@@ -187,7 +125,7 @@ void ExchangeMatrix::find_scale(std::span<const double> due, int times, const Wo
     for (int k = 0; k < times; ++k) {
         for_rows(workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const double sum = row_sum(row(i), scale_);
+                const double sum = row_sum(rows_.row(i), scale_);
                 after[i] = 1; // where the patch itself has not looked, what others saw is all
                 if (due[i] >= 0)
                     after[i] = sum > 0 ? due[i] / sum : 0;
@@ -206,7 +144,7 @@ void ExchangeMatrix::close(int times, const Workers& workers) {
     per_area_.assign(area_.size(), 0.0);
     for_rows(workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const double sum = row_sum(row(i), scale_);
+            const double sum = row_sum(rows_.row(i), scale_);
             if (scale_[i] > 0 && due[i] >= 0)
                 self_[i] = (due[i] / scale_[i] - sum) / scale_[i];
             if (area_[i] > 0)

@@ -14,9 +14,9 @@
 #include "radiosity/matrix_kernels.h"
 #include "radiosity/ray_counts.h"
 #include "radiosity/sampled_form_factors.h"
+#include "radiosity/sparse_rows.h"
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -28,7 +28,7 @@ class ExchangeMatrix {
     /// Of the rays of one set.
     ExchangeMatrix(const Mesh& mesh, const RayCounts& set);
     /// Of the rays of several sets, where each patch shot as many in one as in the others.
-    ExchangeMatrix(std::span<const ExchangeMatrix> sets, const Workers& workers);
+    ExchangeMatrix(std::vector<ExchangeMatrix> sets, const Workers& workers);
 
     /// y_i = sum_j F_ij x_j
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
@@ -39,8 +39,9 @@ class ExchangeMatrix {
     }
     /// and its product with the row i.
     [[nodiscard]] Vec3 row_times(std::size_t i, std::span<const Lanes> scaled) const {
+        const std::span<const MatrixEntry> row = rows_.row(i);
         Lanes sum;
-        kernels_->row_times(row_begin_[i], row_size_[i], scaled.data(), &sum);
+        kernels_->row_times(row.data(), row.size(), scaled.data(), &sum);
         const auto channel = [&](int c) {
             return per_area_[i] * (sum.lane[c] + self_[i] * scaled[i].lane[c]);
         };
@@ -51,35 +52,27 @@ class ExchangeMatrix {
     void for_rows(const Workers& workers, const Body& body) const {
         readers(workers).for_chunks(area_.size(), rows_per_chunk, body);
     }
-    static constexpr std::size_t rows_per_chunk = 64;
+    static constexpr std::size_t rows_per_chunk = SparseRows::rows_per_chunk;
 
     /// By patch.
     [[nodiscard]] std::span<const LostShare> lost() const { return lost_; }
     /// Those that the patch shot itself.
     [[nodiscard]] std::span<const double> rays() const { return rays_; }
-    [[nodiscard]] std::uint64_t bytes() const { return entries_ * sizeof(Entry); }
+    [[nodiscard]] std::uint64_t bytes() const { return rows_.entries() * sizeof(MatrixEntry); }
 
   private:
-    /// A part of S_ij, the same number in both rows. A column may come twice in a row: as one patch
-    /// saw the other, and was seen by it.
-    using Entry = MatrixEntry;
-    [[nodiscard]] std::span<const Entry> row(std::size_t i) const {
-        return {row_begin_[i], row_size_[i]};
-    }
     void find_lost(const RayCounts& set);
     void find_lost(std::span<const ExchangeMatrix> sets);
     void store(const RayCounts& set);
-    void merge(std::span<const ExchangeMatrix> sets, const Workers& workers);
     void close(int times, const Workers& workers);
     [[nodiscard]] std::vector<double> due() const;
     void find_scale(std::span<const double> due, int times, const Workers& workers);
     [[nodiscard]] Workers readers(const Workers& workers) const;
 
     const MatrixKernels* kernels_ = &matrix_kernels();
-    std::vector<std::unique_ptr<Entry[]>> stored_; ///< some rows each, or all
-    std::vector<const Entry*> row_begin_;
-    std::vector<std::uint32_t> row_size_;
-    std::size_t entries_ = 0;
+    /// S_ij, the same number in both rows. A column may come twice in a row of a set: as one patch
+    /// saw the other, and was seen by it.
+    SparseRows rows_;
     std::vector<double> scale_;    ///< g_i
     std::vector<double> per_area_; ///< g_i / A_i
     std::vector<double> self_;     ///< S_ii, which closes the row, not scaled

@@ -6,12 +6,18 @@
 namespace hemilux {
 
 EnergyBalance GatheredLight::energy() const {
-    const EnergyBalance &now = solved_[sets_].energy, &sums = before_[sets_].energy;
-    return {now.emitted, (sums.absorbed + now.absorbed) / generations(),
-            (sums.escaped + now.escaped) / generations(), Vec3(0.0)};
+    const EnergyBalance& now = solved_[sets_].energy;
+    EnergyBalance sum = now;
+    if (!before_.empty()) {
+        sum.absorbed += before_[sets_].energy.absorbed;
+        sum.escaped += before_[sets_].energy.escaped;
+    }
+    return {now.emitted, sum.absorbed / generations(), sum.escaped / generations(), Vec3(0.0)};
 }
 
 void GatheredLight::begin_generation() {
+    if (before_.empty())
+        before_.resize(sets_ + 1, Light(solved_[0].incident.size()));
     for (std::size_t s = 0; s <= sets_; ++s) {
         for (std::size_t i = 0; i < solved_[s].incident.size(); ++i)
             before_[s].incident[i] += solved_[s].incident[i];
@@ -32,6 +38,7 @@ void GatheredLight::save(StateWriter& state) const {
 
 void GatheredLight::load(StateReader& state) {
     generation_ = state.whole();
+    before_.resize(generation_ > 0 ? sets_ + 1 : 0, Light(solved_[0].incident.size()));
     for (std::vector<Light>* lights : {&solved_, &before_})
         for (Light& light : *lights) {
             state.get(std::span(light.incident));

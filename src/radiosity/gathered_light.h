@@ -17,7 +17,7 @@ class StateWriter;
 class GatheredLight {
   public:
     GatheredLight(std::size_t sets, std::size_t patches)
-        : sets_(sets), solved_(sets + 1, Light(patches)), before_(sets + 1, Light(patches)) {}
+        : sets_(sets), solved_(sets + 1, Light(patches)) {}
 
     /// Of one set.
     struct Light {
@@ -30,7 +30,8 @@ class GatheredLight {
 
     /// Mean over the generations.
     [[nodiscard]] Vec3 incident(std::size_t set, std::size_t patch) const {
-        return (before_[set].incident[patch] + solved_[set].incident[patch]) / generations();
+        const Vec3& now = solved_[set].incident[patch];
+        return before_.empty() ? now : (before_[set].incident[patch] + now) / generations();
     }
     /// What each of the sets is off from their mean.
     template <std::size_t Sets>
@@ -59,7 +60,7 @@ class GatheredLight {
   private:
     std::size_t sets_;
     std::vector<Light> solved_;
-    std::vector<Light> before_; ///< sums over the generations that ended
+    std::vector<Light> before_; ///< sums over the generations that ended, if any
     std::uint64_t generation_ = 0;
 };
 

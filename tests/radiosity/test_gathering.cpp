@@ -50,9 +50,10 @@ TEST_CASE("Exchange between patches is symmetric, and each row closed") {
         const std::size_t n = model.mesh.patches().size();
         const std::vector<RayCounts> sets = traced(model, 2, 32);
         const Workers workers(2);
-        const std::array parts{ExchangeMatrix(model.mesh, sets[0]),
-                               ExchangeMatrix(model.mesh, sets[1])};
-        const ExchangeMatrix f(parts, workers);
+        std::vector<ExchangeMatrix> parts;
+        for (const RayCounts& set : sets)
+            parts.emplace_back(model.mesh, set);
+        const ExchangeMatrix f(std::move(parts), workers);
         std::vector<Vec3> x(n, Vec3(1.0)), y(n);
         f.multiply(x, y, workers);
         for (std::uint32_t i = 0; i < n; ++i) {

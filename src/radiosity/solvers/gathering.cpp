@@ -38,6 +38,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -191,8 +192,7 @@ class GatheringSolver final : public Solver {
             parts[set] = ExchangeMatrix(input_.mesh, counts_[set]);
             solve(parts[set], set, found[set], Workers(1), residual);
         });
-        ExchangeMatrix all(parts, workers_);
-        parts.clear();
+        ExchangeMatrix all(std::move(parts), workers_);
         // What a residual makes of the light is no larger than its sum over all reflections.
         const double error = average(found);
         solve(all, sets, found[sets], workers_,
