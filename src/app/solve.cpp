@@ -110,6 +110,7 @@ int solve(const SolveSettings& settings) {
     InterruptGuard guard;
     Statistics statistics;
 
+    Workers(settings.options.threads).start();
     const std::optional<Checkpoint> resumed = read_resumed(settings);
     const LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk);
     const Mesh& mesh = loaded.mesh;

@@ -27,6 +27,12 @@ class Workers {
 
     [[nodiscard]] unsigned threads() const { return threads_; }
 
+    /// Starts the helping threads, while there is something else to do: the first loop would have
+    /// to wait until the system finds a processor for each.
+    void start() const {
+        for_chunks(threads_, 1, [](std::size_t, std::size_t) {});
+    }
+
     /// Calls body(begin, end) for consecutive chunks of [0, count), each exactly once, on any
     /// thread. Rethrows the first exception of a body.
     template <class Body>

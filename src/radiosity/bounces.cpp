@@ -128,13 +128,17 @@ void Bounces::fire(const Share& share, std::uint64_t stream, Volley& volley) con
 
 void Bounces::order(const Piece& piece, std::vector<Burst>& bursts) const {
     thread_local DealtCells memory;
+    const auto deal = [&](std::size_t k) { return tools_.strategy->deal(senders_[k], memory); };
+    if (input_.options.literal) {
+        for (std::size_t k = piece.first; k < piece.last; ++k)
+            order_as_printed(senders_[k], deal(k), bursts);
+        return;
+    }
+    double last = whole_below(rays_before_[piece.first]);
     for (std::size_t k = piece.first; k < piece.last; ++k) {
-        const double first = std::max(whole_below(rays_before_[k]), piece.from);
-        const double last = std::min(whole_below(rays_before_[k + 1]), piece.to);
-        if (input_.options.literal)
-            order_as_printed(senders_[k], tools_.strategy->deal(senders_[k], memory), bursts);
-        else if (last > first)
-            order(k, piece, tools_.strategy->deal(senders_[k], memory), bursts);
+        const double first = std::exchange(last, whole_below(rays_before_[k + 1]));
+        if (std::min(last, piece.to) > std::max(first, piece.from))
+            order(k, piece, deal(k), bursts);
     }
 }
 

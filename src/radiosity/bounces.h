@@ -56,8 +56,8 @@ class Bounces {
         std::vector<std::uint16_t> arrivals;  ///< from which of its cells, if the strategy learns
     };
 
-    /// What a patch received in a bounce.
-    struct Arrived {
+    /// What a patch received in a bounce; in one cache line, as rays strike here and there.
+    struct alignas(64) Arrived {
         CompensatedSum<Vec3> power;
         std::uint32_t rays = 0;
     };
