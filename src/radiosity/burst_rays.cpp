@@ -78,14 +78,18 @@ void BurstRays::fill(const Run& run, std::size_t first) {
     const std::span<Ray> rays = std::span(rays_).subspan(first, run.rays);
     if (run.own != none)
         return fill_private(own_[run.own], start, first, rays);
+    const PolygonSampler points = start.points; // copies, as rays might be written to theirs
+    const Frame frame = start.frame;
     for (std::size_t k = first; Ray & ray : rays) {
         ray.from = start.facet;
-        const bool from_centre = source_.literal && batch_.cell[k] != whole_hemisphere;
-        ray.origin = from_centre ? source_.mesh.patches()[run.patch].centre
-                                 : start.points.sample({batch_.u[k], batch_.v[k]});
-        ray.direction = start.frame.to_world({batch_.x[k], batch_.y[k], batch_.z[k]});
+        ray.origin = points.sample({batch_.u[k], batch_.v[k]});
+        ray.direction = frame.to_world({batch_.x[k], batch_.y[k], batch_.z[k]});
         ++k;
     }
+    if (source_.literal)
+        for (std::size_t k = first; Ray & ray : rays)
+            if (batch_.cell[k++] != whole_hemisphere)
+                ray.origin = source_.mesh.patches()[run.patch].centre;
 }
 
 void BurstRays::fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
