@@ -77,16 +77,21 @@ std::vector<std::uint32_t> small_emitters(const Mesh& mesh) {
     return emitters;
 }
 
-/// Samples whose rays are not traced yet.
+/// Samples whose rays are not traced yet, the first `size` of each array.
 struct DirectLight::Volley {
     struct Sample {
         std::uint32_t patch, estimate;
         Vec3 light; ///< if the ray arrives
     };
-    std::vector<Sample> samples;
-    std::vector<Ray> rays;
-    std::vector<std::uint32_t> targets; ///< facets
+    std::size_t size = 0;
+    std::vector<Sample> samples = std::vector<Sample>(rays_at_a_time);
+    std::vector<Ray> rays = std::vector<Ray>(rays_at_a_time);
+    std::vector<std::uint32_t> targets = std::vector<std::uint32_t>(rays_at_a_time); ///< facets
+    std::vector<std::uint8_t> blocked = std::vector<std::uint8_t>(rays_at_a_time);
     std::uint64_t traced = 0;
+    EmitterChoice::Cut cut; ///< of the present patch
+
+    [[nodiscard]] bool full() const { return size == rays_at_a_time; }
 };
 
 DirectLight::Shape::Shape(const Patch& of) : patch(&of), points(of.shape), radius(radius_of(of)) {}
@@ -112,23 +117,22 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
                                         const Workers& workers, Monitor& monitor) {
     std::atomic<std::uint64_t> traced{0};
     if (!emitters_.empty())
-        workers.for_chunks(
-            hits_.size(), patches_per_chunk, [&](std::size_t begin, std::size_t end) {
-                EmitterChoice::Cut cut;
-                Volley volley;
+        workers.for_chunks_with(
+            hits_.size(), patches_per_chunk, [] { return Volley(); },
+            [&](Volley& volley, std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
                     if (samples[i] > samples_[i])
-                        sample(static_cast<std::uint32_t>(i), samples[i], cut, volley);
+                        sample(static_cast<std::uint32_t>(i), samples[i], volley);
                 send(volley);
                 traced += volley.traced;
-                monitor.rays += volley.traced;
+                monitor.rays += std::exchange(volley.traced, 0);
             });
     return traced;
 }
 
-void DirectLight::sample(std::uint32_t patch, std::uint32_t end, EmitterChoice::Cut& cut,
-                         Volley& volley) {
+void DirectLight::sample(std::uint32_t patch, std::uint32_t end, Volley& volley) {
     const std::uint32_t begin = std::exchange(samples_[patch], end);
+    EmitterChoice::Cut& cut = volley.cut;
     choice_.weigh(patch, cut);
     if (cut.dark())
         return;
@@ -143,7 +147,7 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, EmitterChoice::
                 choice_.choose(cut, points.coordinate(4), choices);
             }
             look(patch, s, receiver, points.point(k), choices[in_block], volley);
-            if (volley.rays.size() >= rays_at_a_time)
+            if (volley.full())
                 send(volley);
         }
     }
@@ -155,31 +159,33 @@ void DirectLight::look(std::uint32_t patch, std::uint32_t estimate, const Shape&
     const Emitter& emitter = lamps_[choice.emitter];
     const double near = receiver.radius + (1 + distant_radii) * emitter.radius;
     const Vec3 d = receiver.patch->centre - emitter.patch->centre;
-    Ray ray{};
-    const double factor = look_at(*receiver.patch, receiver.points, *emitter.patch, emitter.points,
-                                  {u[0], u[1], u[2], u[3]}, glm::dot(d, d) > near * near, ray);
+    const std::size_t next = volley.size;
+    const double factor =
+        look_at(*receiver.patch, receiver.points, *emitter.patch, emitter.points,
+                {u[0], u[1], u[2], u[3]}, glm::dot(d, d) > near * near, volley.rays[next]);
     if (!(factor > 0))
         return;
-    volley.samples.push_back({patch, estimate, factor / choice.chance * emitter.emission});
-    volley.rays.push_back(ray);
-    volley.targets.push_back(emitter.patch->facet);
+    volley.samples[next] = {patch, estimate, factor / choice.chance * emitter.emission};
+    volley.targets[next] = emitter.patch->facet;
+    ++volley.size;
 }
 
 void DirectLight::send(Volley& volley) {
-    std::vector<std::uint8_t> blocked(volley.rays.size());
+    const std::size_t size = std::exchange(volley.size, 0);
+    const std::span blocked = std::span(volley.blocked).first(size);
     if (needs_.visibility) {
-        tracer_.occluded_stream(volley.rays, volley.targets, blocked);
-        volley.traced += volley.rays.size();
+        tracer_.occluded_stream(std::span(volley.rays).first(size),
+                                std::span(volley.targets).first(size), blocked);
+        volley.traced += size;
+    } else {
+        std::ranges::fill(blocked, std::uint8_t{0});
     }
-    for (std::size_t k = 0; k < blocked.size(); ++k)
+    for (std::size_t k = 0; k < size; ++k)
         if (!blocked[k]) {
             const auto& [patch, estimate, light] = volley.samples[k];
             sum_[patch * seeds_.size() + estimate] += light;
             ++hits_[patch];
         }
-    volley.samples.clear();
-    volley.rays.clear();
-    volley.targets.clear();
 }
 
 void DirectLight::save(StateWriter& state) const {

@@ -75,7 +75,7 @@ class DirectLight {
         Vec3 emission;
     };
     struct Volley;
-    void sample(std::uint32_t patch, std::uint32_t end, EmitterChoice::Cut& cut, Volley& volley);
+    void sample(std::uint32_t patch, std::uint32_t end, Volley& volley);
     void look(std::uint32_t patch, std::uint32_t estimate, const Shape& receiver,
               const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
               Volley& volley) const;
