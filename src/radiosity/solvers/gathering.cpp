@@ -14,7 +14,7 @@
 // Consistent: the solution depends on what was counted in a non-linear way, so its bias falls as
 // one over the rays, and its error more slowly. Good nearly everywhere: it needs ten to fifty times
 // fewer rays than shooting, most where light is even and surfaces reflect much. Costs 8 bytes per
-// patch and patch that it saw, and up to four times as many to solve.
+// patch and patch that it saw, and twice as many more to solve.
 
 #include "radiosity/check_input.h"
 #include "radiosity/conjugate_gradients.h"
@@ -46,7 +46,7 @@ namespace {
 constexpr unsigned sets = 4;
 
 /// Bytes that are needed to put counts together, for each byte of them.
-constexpr double merging = 5;
+constexpr double merging = 3.5;
 
 /// Of the standard error, what may be left where solving ends: of the sets, which tell no more than
 /// that error, and of the whole.
