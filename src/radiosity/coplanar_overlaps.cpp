@@ -151,8 +151,8 @@ class Finder {
             begin = end;
         }
         std::ranges::sort(found_.pairs);
-        const auto again = std::ranges::unique(found_.pairs);
-        found_.pairs.erase(again.begin(), again.end());
+        found_.pairs.erase(std::unique(found_.pairs.begin(), found_.pairs.end()),
+                           found_.pairs.end());
         return std::move(found_);
     }
 

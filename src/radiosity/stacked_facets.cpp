@@ -18,7 +18,7 @@ class Graph {
         for (const auto& [a, b] : pairs)
             facets_.insert(facets_.end(), {a, b});
         std::ranges::sort(facets_);
-        facets_.erase(std::ranges::unique(facets_).begin(), facets_.end());
+        facets_.erase(std::unique(facets_.begin(), facets_.end()), facets_.end());
         first_.assign(facets_.size() + 1, 0);
         for (const auto& [a, b] : pairs)
             for (const std::uint32_t f : {a, b})

@@ -42,8 +42,8 @@ TEST_CASE("The parts of an error are found from the products of few samples") {
     CHECK(1 / mean_share_found(4) == Approx(4).epsilon(.25));
     CHECK(1 / mean_share_found(30) == Approx(30).epsilon(.25));
     CHECK(1 / mean_share_found(1000) > 500);
-    const std::vector<double> none(16, 0.0);
-    CHECK(error_parts(none, 4) == std::numeric_limits<double>::infinity());
+    const std::vector<double> nothing(16, 0.0);
+    CHECK(error_parts(nothing, 4) == std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("An error of many parts is well known, one of few is not") {

@@ -44,7 +44,7 @@ void add(const SparseRows& rows, double factor, std::vector<double>& dense) {
 } // namespace
 
 TEST_CASE("The mean of sparse matrices is that of dense ones, symmetric, each column once") {
-    for (const std::size_t n : {5, 64, 200}) { // a part of a chunk, a whole one, some
+    for (const std::size_t n : {5u, 64u, 200u}) { // a part of a chunk, a whole one, some
         std::vector<SparseRows> parts;
         std::vector<double> expected(n * n), found(n * n);
         for (std::uint64_t seed = 0; seed < 4; ++seed) {

@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -217,9 +218,13 @@ TEST_CASE("A chain of alike decals takes two levels; a pile takes one each") {
 TEST_CASE("Whatever overlaps is laid apart, each side to its front") {
     Rng rng(3);
     Scene scene = empty_scene();
-    for (int k = 0; k < 400; ++k)
-        add_square(scene, 4 * rng.uniform(), 4 * rng.uniform(), .1 + .9 * rng.uniform(),
-                   static_cast<std::uint32_t>(3 * rng.uniform()), rng.uniform() < .7);
+    for (int k = 0; k < 400; ++k) {
+        std::array<double, 5> u; // in this order, whatever the compiler
+        for (double& each : u)
+            each = rng.uniform();
+        add_square(scene, 4 * u[0], 4 * u[1], .1 + .9 * u[2], static_cast<std::uint32_t>(3 * u[3]),
+                   u[4] < .7);
+    }
     const std::vector<std::int32_t> lifts = lifts_of(scene);
     const auto is_up = [&](std::uint32_t f) {
         const auto& v = scene.facets[f].vertex;
@@ -235,7 +240,7 @@ TEST_CASE("Whatever overlaps is laid apart, each side to its front") {
             CHECK(lifts[a] != lifts[b]);
     }
     CHECK(*std::ranges::max_element(lifts) < 40);
-    CHECK(std::ranges::count(lifts, 0) > 20);
+    CHECK(std::ranges::count(lifts, 0) > 10); // what lies lowest, and what lies alone
 }
 
 TEST_CASE("More slivers over each other than can be compared are told of") {
