@@ -48,7 +48,6 @@ GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random
     }
     weights_ = prior_weights_;
     lamp_weights_ = prior_lamp_weights_;
-    some_without_ = to_lamps > 0 && std::ranges::count(lamp_weights_, 0.0) > 0;
 }
 
 void GatheringPlan::grow(const KnownError& known, double room) {

@@ -50,8 +50,6 @@ class GatheringPlan {
     /// In all until the next step ends.
     [[nodiscard]] const GatheringRays& rays() const { return now_.rays; }
     [[nodiscard]] bool at_most() const;
-    /// Whether there are patches that rays at random alone look from, where there are lamps.
-    [[nodiscard]] bool some_without_shadow_rays() const { return some_without_; }
 
     /// From now on more to patches to which light comes that is uneven. `light` leaves patches for
     /// random rays to find [W/m2].
@@ -83,7 +81,6 @@ class GatheringPlan {
     std::vector<double> weights_, lamp_weights_; ///< what a ray is worth
     std::vector<double> prior_weights_;          ///< of random rays, before anything is known
     std::vector<double> prior_lamp_weights_;     ///< likewise of shadow rays
-    bool some_without_ = false;
 };
 
 } // namespace hemilux

@@ -3,7 +3,7 @@
 // Each patch looks around along well-distributed rays and keeps which patches they struck, not what
 // light they brought (ray_counts.h). What two patches saw of each other is put together, all rows
 // are closed (exchange_matrix.h), and all bounces are solved on the result by conjugate gradients
-// (conjugate_gradients.h): no ray is traced twice for another bounce. Small lamps are reached by
+// (gathering_system.h): no ray is traced twice for another bounce. Small lamps are reached by
 // shadow rays with their exact factor (direct_light.h).
 //
 // Parameter: --rays, of the first step, half of them random, half to the lamps. Each step adds as
@@ -17,13 +17,13 @@
 // patch and patch that it saw, and twice as many more to solve.
 
 #include "radiosity/check_input.h"
-#include "radiosity/conjugate_gradients.h"
 #include "radiosity/direct_light.h"
 #include "radiosity/energy_closing.h"
 #include "radiosity/error_spread.h"
 #include "radiosity/exchange_matrix.h"
 #include "radiosity/gathered_light.h"
 #include "radiosity/gathering_plan.h"
+#include "radiosity/gathering_system.h"
 #include "radiosity/mesh.h"
 #include "radiosity/ray_counts.h"
 #include "radiosity/rng.h"
@@ -35,10 +35,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 namespace hemilux {
 namespace {
@@ -48,38 +46,19 @@ constexpr unsigned sets = 4;
 /// Bytes that are needed to put counts together, for each byte of them.
 constexpr double merging = 3.5;
 
-/// Of the standard error, what may be left where solving ends: of the sets, which tell no more than
-/// that error, and of the whole.
-constexpr double left_of_sets = .1, left_of_all = 1e-3;
-
-/// Residuals, relative to the light that comes straight from the emitters: never less, and of the
-/// sets as long as no error is known.
-constexpr double least_residual = 1e-10, first_residual = 1e-3;
-
 class GatheringSolver final : public Solver {
   public:
     explicit GatheringSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)),
-          plan_(first_plan(input, !emitters_.empty())), light_(sets, input.mesh.patches().size()) {
+          system_(input.mesh, emitters_), plan_(first_plan(input, !emitters_.empty())),
+          light_(sets, input.mesh.patches().size()) {
         check_input(input);
-        const auto patches = input.mesh.patches();
         renew();
-        std::vector<bool> small(patches.size());
-        for (const std::uint32_t e : emitters_)
-            small[e] = true;
-        for (std::uint32_t i = 0; i < patches.size(); ++i) {
-            const Material& material = input.mesh.material(i);
-            area_.push_back(patches[i].area);
-            reflectance_.push_back(material.reflectance);
-            emission_.push_back(material.emission);
-            for (int c = 0; c < 3; ++c)
-                lost_at_least_ = std::min(lost_at_least_, 1 - material.reflectance[c]);
-            seen_emission_.push_back(small[i] ? Vec3(0.0) : material.emission);
-        }
+        const auto patches = input.mesh.patches();
         solution_.energy.emitted =
             input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
         solution_.energy.unshot = solution_.energy.emitted;
-        solution_.radiosity = emission_;
+        solution_.radiosity.assign(system_.emission().begin(), system_.emission().end());
         solution_.standard_error.resize(patches.size());
         solution_.hits.resize(patches.size());
     }
@@ -94,7 +73,11 @@ class GatheringSolver final : public Solver {
         if (input_.monitor.interrupted)
             return false;
         input_.monitor.phase = "solving";
-        const ExchangeMatrix all = solve_all();
+        std::optional<double> error;
+        if (solution_.steps > 0)
+            error = estimated_error(input_.mesh, solution_);
+        const ExchangeMatrix all = system_.solve({counts_, *direct_}, error, light_.solved(),
+                                                 workers_, input_.monitor.interrupted);
         if (input_.monitor.interrupted)
             return false;
         planned_ = false;
@@ -178,49 +161,6 @@ class GatheringSolver final : public Solver {
         direct_.emplace(input_.mesh, input_.tracer, input_.needs, emitters_, std::move(seeds));
     }
 
-    /// Each set by a thread of its own; then the whole by all threads, from where their mean is.
-    /// Nothing is changed when it is interrupted.
-    ExchangeMatrix solve_all() {
-        std::vector<ExchangeMatrix> parts(sets);
-        std::vector<GatheredLight::Light> found = light_.solved();
-        const double residual =
-            solution_.steps == 0
-                ? first_residual
-                : std::clamp(left_of_sets * estimated_error(input_.mesh, solution_), least_residual,
-                             first_residual);
-        workers_.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
-            parts[set] = ExchangeMatrix(input_.mesh, counts_[set]);
-            solve(parts[set], set, found[set], Workers(1), residual);
-        });
-        ExchangeMatrix all(std::move(parts), workers_);
-        // What a residual makes of the light is no larger than its sum over all reflections.
-        const double error = average(found);
-        solve(all, sets, found[sets], workers_,
-              std::max(left_of_all * error * lost_at_least_, least_residual));
-        if (!input_.monitor.interrupted)
-            light_.solved() = std::move(found);
-        return all;
-    }
-
-    /// Makes the last the mean of the sets; returns its relative standard error, of what is
-    /// reflected.
-    double average(std::vector<GatheredLight::Light>& found) const {
-        double squares = 0, size = 0;
-        for (std::size_t i = 0; i < area_.size(); ++i) {
-            Vec3 mean(0.0), of_squares(0.0);
-            for (std::size_t set = 0; set < sets; ++set) {
-                const Vec3& light = found[set].incident[i];
-                mean += light / double(sets);
-                of_squares += light * light / double(sets);
-            }
-            found[sets].incident[i] = mean;
-            const Vec3 weight = area_[i] * reflectance_[i] * reflectance_[i];
-            squares += glm::dot(weight, of_squares - mean * mean) / double(sets - 1);
-            size += glm::dot(weight, mean * mean);
-        }
-        return squares > 0 ? std::sqrt(squares / size) : 0;
-    }
-
     /// How many times as many rays may be stored.
     [[nodiscard]] double room_to_grow() const {
         std::uint64_t stored = 0;
@@ -232,74 +172,39 @@ class GatheringSolver final : public Solver {
                          (merging * static_cast<double>(stored));
     }
 
-    /// What arrives at each patch in the end, by the factors of a set or (`set` == sets) of all;
-    /// from what `light` holds on.
-    void solve(const ExchangeMatrix& factors, std::size_t set, GatheredLight::Light& light,
-               const Workers& workers, double residual) const {
-        std::vector<Vec3> d = found_at_random(factors, workers);
-        for (std::uint32_t i = 0; i < d.size(); ++i)
-            d[i] += set == sets ? direct_->irradiance(i) : direct_->irradiance(i, set);
-        const Transport transport{area_, emission_, reflectance_, factors.lost(), factors.rays()};
-        scale_direct_light(transport, d);
-        solve_by_gradients(factors, area_, reflectance_, d, light.incident, workers,
-                           {.tolerance = residual, .interrupted = &input_.monitor.interrupted});
-        light.energy = close_energy(transport, light.incident);
-    }
-
-    /// The light straight from the emitters that shadow rays do not reach; where there are no
-    /// shadow rays, from all. Those patches are black: rays at random tell well enough what they
-    /// absorb.
-    [[nodiscard]] std::vector<Vec3> found_at_random(const ExchangeMatrix& factors,
-                                                    const Workers& workers) const {
-        const std::size_t n = area_.size();
-        std::vector<Vec3> found(n);
-        std::vector<Lanes> all(n), some(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            all[i] = factors.scaled(i, emission_[i]);
-            some[i] = factors.scaled(i, seen_emission_[i]);
-        }
-        const bool any =
-            std::ranges::any_of(seen_emission_, [](const Vec3& e) { return e != Vec3(0.0); });
-        factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                if (plan_.some_without_shadow_rays() && direct_->samples(std::uint32_t(i)) == 0)
-                    found[i] = factors.row_times(i, all);
-                else if (any)
-                    found[i] = factors.row_times(i, some);
-        });
-        return found;
-    }
-
     void combine(const ExchangeMatrix& all) {
+        const auto area = system_.area();
+        const auto reflectance = system_.reflectance();
+        const auto emission = system_.emission(), seen_emission = system_.seen_emission();
         variance_ = direct_variance_ = 0;
         std::array<double, sets * sets> products{};
-        std::vector<double> direct_variances(area_.size());
-        for (std::uint32_t i = 0; i < area_.size(); ++i) {
-            const Vec3 rho = reflectance_[i], direct_mean = direct_->irradiance(i);
+        std::vector<double> direct_variances(area.size());
+        for (std::uint32_t i = 0; i < area.size(); ++i) {
+            const Vec3 rho = reflectance[i], direct_mean = direct_->irradiance(i);
             const auto off = light_.deviations<sets>(i);
             Vec3 squares(0.0), direct_squares(0.0);
             for (std::size_t s = 0; s < sets; ++s) {
                 squares += off[s] * off[s];
                 for (std::size_t t = 0; t < sets; ++t)
-                    products[s * sets + t] += area_[i] * glm::dot(rho * off[s], rho * off[t]);
+                    products[s * sets + t] += area[i] * glm::dot(rho * off[s], rho * off[t]);
             }
             for (std::size_t s = 0; s < sets; ++s) {
                 const Vec3 direct_off = direct_->irradiance(i, s) - direct_mean;
                 direct_squares += direct_off * direct_off;
             }
-            solution_.radiosity[i] = emission_[i] + rho * light_.incident(sets, i);
+            solution_.radiosity[i] = emission[i] + rho * light_.incident(sets, i);
             solution_.standard_error[i] = rho * glm::sqrt(squares / double(sets * (sets - 1)));
             solution_.hits[i] = direct_->hits(i) + std::uint64_t{plan_.rays().random[i]} * sets;
-            variance_ += area_[i] * glm::dot(rho * rho, squares);
-            direct_variances[i] = area_[i] * glm::dot(rho * rho, direct_squares);
+            variance_ += area[i] * glm::dot(rho * rho, squares);
+            direct_variances[i] = area[i] * glm::dot(rho * rho, direct_squares);
             direct_variance_ += direct_variances[i] / light_.generations();
         }
         variance_ = std::max(variance_, direct_variance_);
         solution_.error_samples = sets;
         solution_.error_parts = error_parts(products, sets);
-        std::vector<Vec3> light(area_.size());
+        std::vector<Vec3> light(area.size());
         for (std::size_t i = 0; i < light.size(); ++i)
-            light[i] = solution_.radiosity[i] - emission_[i] + seen_emission_[i];
+            light[i] = solution_.radiosity[i] - emission[i] + seen_emission[i];
         plan_.weigh(all, light, workers_);
         plan_.weigh_lamps(direct_variances);
         account();
@@ -320,12 +225,9 @@ class GatheringSolver final : public Solver {
     SolverInput input_;
     Workers workers_;
     std::vector<std::uint32_t> emitters_; ///< those reached by shadow rays
+    GatheringSystem system_;
     GatheringPlan plan_;
     GatheredLight light_;
-    std::vector<double> area_;
-    std::vector<Vec3> reflectance_, emission_;
-    std::vector<Vec3> seen_emission_; ///< of those that rays at random are to find
-    double lost_at_least_ = 1;        ///< of what falls on a patch, in any channel
     std::vector<RayCounts> counts_;
     std::optional<DirectLight> direct_; ///< an estimate for each set
     bool planned_ = false; ///< rays of the present step, which may have been traced in part

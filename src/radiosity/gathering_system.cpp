@@ -1,0 +1,125 @@
+#include "radiosity/gathering_system.h"
+
+#include "radiosity/conjugate_gradients.h"
+#include "radiosity/energy_closing.h"
+#include "radiosity/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+/// Of the standard error, what may be left where solving ends: of the sets, which tell no more than
+/// that error, and of the whole.
+constexpr double left_of_sets = .1, left_of_all = 1e-3;
+
+/// Residuals, relative to the light that comes straight from the emitters: never less, and of the
+/// sets never more.
+constexpr double least_residual = 1e-10, first_residual = 1e-3;
+
+} // namespace
+
+GatheringSystem::GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps)
+    : mesh_(mesh) {
+    const auto patches = mesh.patches();
+    for (std::uint32_t i = 0; i < patches.size(); ++i) {
+        const Material& material = mesh.material(i);
+        area_.push_back(patches[i].area);
+        reflectance_.push_back(material.reflectance);
+        emission_.push_back(material.emission);
+        for (int c = 0; c < 3; ++c)
+            lost_at_least_ = std::min(lost_at_least_, 1 - material.reflectance[c]);
+    }
+    seen_emission_ = emission_;
+    for (const std::uint32_t lamp : lamps)
+        seen_emission_[lamp] = Vec3(0.0);
+}
+
+/// Each set by a thread of its own; then the whole by all threads, from where their mean is.
+ExchangeMatrix GatheringSystem::solve(const Rays& rays, std::optional<double> error,
+                                      std::vector<GatheredLight::Light>& light,
+                                      const Workers& workers,
+                                      const std::atomic<bool>& interrupted) const {
+    const std::size_t sets = rays.counts.size(), n = area_.size();
+    std::vector<ExchangeMatrix> parts(sets);
+    std::vector<GatheredLight::Light> found = light;
+    const double residual =
+        error ? std::clamp(left_of_sets * *error, least_residual, first_residual) : first_residual;
+    workers.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
+        const Workers alone(1);
+        parts[set] = ExchangeMatrix(mesh_, rays.counts[set]);
+        std::vector<Vec3> direct(n);
+        add_found_at_random(parts[set], rays.direct, direct, alone);
+        for (std::uint32_t i = 0; i < n; ++i)
+            direct[i] += rays.direct.irradiance(i, set);
+        solve(parts[set], std::move(direct), found[set], alone, residual, interrupted);
+    });
+    ExchangeMatrix all(std::move(parts), workers);
+    // What a residual makes of the light is no larger than its sum over all reflections.
+    const double worth = left_of_all * average(found) * lost_at_least_;
+    std::vector<Vec3> direct(n);
+    add_found_at_random(all, rays.direct, direct, workers);
+    for (std::uint32_t i = 0; i < n; ++i)
+        direct[i] += rays.direct.irradiance(i);
+    solve(all, std::move(direct), found[sets], workers, std::max(worth, least_residual),
+          interrupted);
+    if (!interrupted)
+        light = std::move(found);
+    return all;
+}
+
+/// What arrives at each patch in the end, from what `light` holds on; `direct` comes straight from
+/// the emitters.
+void GatheringSystem::solve(const ExchangeMatrix& factors, std::vector<Vec3> direct,
+                            GatheredLight::Light& light, const Workers& workers, double residual,
+                            const std::atomic<bool>& interrupted) const {
+    const Transport transport{area_, emission_, reflectance_, factors.lost(), factors.rays()};
+    scale_direct_light(transport, direct);
+    solve_by_gradients(factors, area_, reflectance_, direct, light.incident, workers,
+                       {.tolerance = residual, .interrupted = &interrupted});
+    light.energy = close_energy(transport, light.incident);
+}
+
+/// Makes the last the mean of the sets; returns its relative standard error, of what is reflected.
+double GatheringSystem::average(std::vector<GatheredLight::Light>& light) const {
+    const std::size_t sets = light.size() - 1;
+    double squares = 0, size = 0;
+    for (std::size_t i = 0; i < area_.size(); ++i) {
+        Vec3 mean(0.0), of_squares(0.0);
+        for (std::size_t set = 0; set < sets; ++set) {
+            const Vec3& incident = light[set].incident[i];
+            mean += incident / double(sets);
+            of_squares += incident * incident / double(sets);
+        }
+        light[sets].incident[i] = mean;
+        const Vec3 weight = area_[i] * reflectance_[i] * reflectance_[i];
+        squares += glm::dot(weight, of_squares - mean * mean) / double(sets - 1);
+        size += glm::dot(weight, mean * mean);
+    }
+    return squares > 0 ? std::sqrt(squares / size) : 0;
+}
+
+/// The light straight from the emitters that shadow rays do not reach; where there are no shadow
+/// rays, from all. Those patches are black: rays at random tell well enough what they absorb.
+void GatheringSystem::add_found_at_random(const ExchangeMatrix& factors, const DirectLight& direct,
+                                          std::vector<Vec3>& light, const Workers& workers) const {
+    const std::size_t n = area_.size();
+    std::vector<Lanes> all(n), some(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        all[i] = factors.scaled(i, emission_[i]);
+        some[i] = factors.scaled(i, seen_emission_[i]);
+    }
+    const bool any =
+        std::ranges::any_of(seen_emission_, [](const Vec3& e) { return e != Vec3(0.0); });
+    factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (direct.samples(static_cast<std::uint32_t>(i)) == 0)
+                light[i] += factors.row_times(i, all);
+            else if (any)
+                light[i] += factors.row_times(i, some);
+    });
+}
+
+} // namespace hemilux

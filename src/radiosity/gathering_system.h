@@ -1,0 +1,59 @@
+#pragma once
+// The linear system of gathering: what arrives at each patch in the end, from the rays that are
+// kept. Solved once for each of some independent sets of rays, whose spread is the error, and once
+// for all together.
+
+#include "radiosity/direct_light.h"
+#include "radiosity/exchange_matrix.h"
+#include "radiosity/gathered_light.h"
+#include "radiosity/workers.h"
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+class GatheringSystem {
+  public:
+    /// `lamps`: patches whose light comes by shadow rays, not by rays at random. The mesh outlives
+    /// this.
+    GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps);
+
+    /// By patch.
+    [[nodiscard]] std::span<const double> area() const { return area_; }
+    [[nodiscard]] std::span<const Vec3> reflectance() const { return reflectance_; }
+    [[nodiscard]] std::span<const Vec3> emission() const { return emission_; }
+    /// Of those that rays at random are to find.
+    [[nodiscard]] std::span<const Vec3> seen_emission() const { return seen_emission_; }
+
+    /// Rays at random of each set, and shadow rays with an estimate for each.
+    struct Rays {
+        std::span<const RayCounts> counts;
+        const DirectLight& direct;
+    };
+    /// `light`, of each set and at last of all: from what it holds, on to what the rays tell, as
+    /// exactly as that is worth. Returns the factors of all. `error`: the relative one of what is
+    /// known so far, if anything is. Where it is interrupted nothing is changed.
+    ExchangeMatrix solve(const Rays& rays, std::optional<double> error,
+                         std::vector<GatheredLight::Light>& light, const Workers& workers,
+                         const std::atomic<bool>& interrupted) const;
+
+  private:
+    void solve(const ExchangeMatrix& factors, std::vector<Vec3> direct, GatheredLight::Light& light,
+               const Workers& workers, double residual, const std::atomic<bool>& interrupted) const;
+    double average(std::vector<GatheredLight::Light>& light) const;
+    void add_found_at_random(const ExchangeMatrix& factors, const DirectLight& direct,
+                             std::vector<Vec3>& light, const Workers& workers) const;
+
+    const Mesh& mesh_;
+    std::vector<double> area_;
+    std::vector<Vec3> reflectance_, emission_, seen_emission_;
+    double lost_at_least_ = 1; ///< of what falls on a patch, in any channel
+};
+
+} // namespace hemilux
