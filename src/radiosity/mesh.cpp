@@ -122,10 +122,11 @@ Patch Mesh::whole_side(std::uint32_t facet, bool back) const {
 
 Patch Mesh::patch_from(const Polygon& shape, std::uint32_t facet, bool back) const {
     const double area = shape.area();
-    const Polygon whole = shape_of(facet);
-    const Vec3 normal = area > 0           ? shape.normal()
-                        : whole.area() > 0 ? whole.normal()
-                                           : Vec3(0, 0, 1);
+    Vec3 normal(0, 0, 1);
+    if (area > 0)
+        normal = shape.normal();
+    else if (const Polygon whole = shape_of(facet); whole.area() > 0)
+        normal = whole.normal();
     return {back ? shape.flipped() : shape,
             shape.centre(),
             back ? -normal : normal,
