@@ -120,7 +120,8 @@ WriteReport write_reference(const Contest& contest) {
     const std::string path = path_in(contest, "reference.csv");
     report.attempt(path, [&] {
         write_patch_table(path, contest.mesh, contest.reference.radiosity,
-                          contest.reference.standard_error);
+                          contest.reference.standard_error,
+                          Workers(contest.settings.options.threads));
     });
     return report;
 }

@@ -70,7 +70,7 @@ void write_output(const Output& output, const Results& results, SharedClasses& c
         return write_ply(output.path, results.mesh, solution.radiosity, classes.get());
     case OutputKind::csv:
         return write_patch_table(output.path, results.mesh, solution.radiosity,
-                                 solution.standard_error);
+                                 solution.standard_error, Workers(results.statistics.threads));
     case OutputKind::json:
         return write_statistics(output.path, results.statistics);
     }

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t buffer_size = 1 << 20;
+constexpr std::size_t buffer_size = 1 << 16;
 
 /// Once for each folder.
 void clean(const fs::path& folder) {

@@ -5,6 +5,7 @@
 #include "io/error.h"
 #include "radiosity/mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <charconv>
@@ -22,6 +23,9 @@ constexpr std::string_view patch_header =
     "stderr_b\n";
 constexpr std::string_view steps_header =
     "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,true_error_rest\n";
+
+/// Some rows are written to the file while others are put into words: so many at once, about 4 MB.
+constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64;
 
 /// Fields that follow a comma.
 void add(std::string& line, double value) {
@@ -42,51 +46,68 @@ void add_if_known(std::string& line, double value) {
         csv::append_number(line, value);
 }
 
-/// The texts that many rows share are made once.
-struct SharedFields {
-    std::vector<std::string> material, colours, group;
-
-    explicit SharedFields(const Scene& scene) {
-        for (const Material& m : scene.materials) {
-            csv::append_text(material.emplace_back(","), m.name);
-            std::string& text = colours.emplace_back();
+/// The rows of a patch table. The texts that many of them share are made once.
+class PatchRows {
+  public:
+    PatchRows(const Mesh& mesh, std::span<const Vec3> radiosity,
+              std::span<const Vec3> standard_error)
+        : mesh_(mesh), radiosity_(radiosity), standard_error_(standard_error) {
+        for (const Material& m : mesh.scene().materials) {
+            csv::append_text(material_.emplace_back(","), m.name);
+            std::string& text = colours_.emplace_back();
             add(text, m.reflectance);
             add(text, m.emission);
         }
-        for (const std::string& name : scene.groups)
-            csv::append_text(group.emplace_back(","), name);
+        for (const std::string& name : mesh.scene().groups)
+            csv::append_text(group_.emplace_back(","), name);
     }
+
+    void append(std::size_t i, std::string& text) const {
+        const Patch& patch = mesh_.patches()[i];
+        const Facet& facet = mesh_.scene().facets[patch.facet];
+        const LocalFrame& frame = mesh_.frame();
+        csv::append_number(text, std::uint64_t{i});
+        add(text, std::uint64_t{facet.face});
+        text += material_[patch.material];
+        text += facet.group < group_.size() ? group_[facet.group] : ",";
+        add(text, frame.area_to_world(patch.area));
+        add(text, frame.to_world(patch.centre));
+        add(text, patch.normal);
+        text += colours_[patch.material];
+        add(text, radiosity_[i]);
+        add(text, standard_error_.empty() ? Vec3(0.0) : standard_error_[i]);
+        text += '\n';
+    }
+
+  private:
+    const Mesh& mesh_;
+    std::span<const Vec3> radiosity_, standard_error_;
+    std::vector<std::string> material_, colours_, group_;
 };
 
 } // namespace
 
 void write_patch_table(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
-                       std::span<const Vec3> standard_error) {
-    const std::span<const Patch> patches = mesh.patches();
-    assert(radiosity.size() == patches.size());
-    assert(standard_error.empty() || standard_error.size() == patches.size());
-    const Scene& scene = mesh.scene();
-    const LocalFrame& frame = mesh.frame();
-    const SharedFields shared(scene);
+                       std::span<const Vec3> standard_error, const Workers& workers) {
+    const std::size_t rows = mesh.patches().size();
+    assert(radiosity.size() == rows);
+    assert(standard_error.empty() || standard_error.size() == rows);
+    const PatchRows table(mesh, radiosity, standard_error);
     AtomicFile file(path);
     file.write(patch_header);
-    std::string line;
-    for (std::size_t i = 0; i < patches.size(); ++i) {
-        const Patch& patch = patches[i];
-        const Facet& facet = scene.facets[patch.facet];
-        line.clear();
-        csv::append_number(line, std::uint64_t{i});
-        add(line, std::uint64_t{facet.face});
-        line += shared.material[patch.material];
-        line += facet.group < shared.group.size() ? shared.group[facet.group] : ",";
-        add(line, frame.area_to_world(patch.area));
-        add(line, frame.to_world(patch.centre));
-        add(line, patch.normal);
-        line += shared.colours[patch.material];
-        add(line, radiosity[i]);
-        add(line, standard_error.empty() ? Vec3(0.0) : standard_error[i]);
-        line += '\n';
-        file.write(line);
+    std::array<std::string, texts_at_a_time> texts;
+    for (std::size_t first = 0; first < rows; first += texts.size() * rows_per_text) {
+        const auto row = [&](std::size_t text) {
+            return std::min(first + text * rows_per_text, rows);
+        };
+        workers.for_each_in_order(
+            texts.size(),
+            [&](std::size_t k) {
+                texts[k].clear();
+                for (std::size_t i = row(k); i < row(k + 1); ++i)
+                    table.append(i, texts[k]);
+            },
+            [&](std::size_t k) { file.write(texts[k]); });
     }
     file.commit();
 }

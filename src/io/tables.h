@@ -5,6 +5,7 @@
 
 #include "radiosity/solution.h"
 #include "radiosity/solver.h"
+#include "radiosity/workers.h"
 
 #include <cstdint>
 #include <optional>
@@ -17,9 +18,9 @@ namespace hemilux {
 class Mesh;
 
 /// One row per patch in the mesh's order, in world units. An empty `standard_error` is written as
-/// zeros, a NaN as `nan`. Throws OutputError.
+/// zeros, a NaN as `nan`. The same bytes for any number of threads. Throws OutputError.
 void write_patch_table(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
-                       std::span<const Vec3> standard_error);
+                       std::span<const Vec3> standard_error, const Workers& workers = Workers(1));
 
 /// What `solve --reference` needs of a patch table; one entry per patch, world units.
 struct PatchTable {

@@ -101,6 +101,19 @@ TEST_CASE("what a patch table says is read back to the last bit") {
     CHECK(area == Approx(2 * (3 * 5 + 5 * 7 + 3 * 7)));
 }
 
+TEST_CASE("a long patch table has the same bytes for any number of threads") {
+    const TemporaryFolder folder;
+    const Mesh mesh(
+        box_room(Vec3(0), {2, 3, 5}, 60, {{"white", Vec3(0.5), Vec3(0)}}, {0, 0, 0, 0, 0, 0}));
+    const std::size_t n = mesh.patches().size();
+    REQUIRE(n == 6 * 60 * 60);
+    const std::vector<Vec3> b = random_values(n, 3), e = random_values(n, 4);
+    write_patch_table(folder.path("one.csv"), mesh, b, e);
+    write_patch_table(folder.path("three.csv"), mesh, b, e, Workers(3));
+    CHECK(content_of(folder.path("three.csv")) == content_of(folder.path("one.csv")));
+    CHECK(read_patch_table(folder.path("three.csv")).radiosity == b);
+}
+
 TEST_CASE("unknown standard errors survive the table") {
     const TemporaryFolder folder;
     const Mesh mesh = far_room();
