@@ -24,9 +24,8 @@ constexpr std::size_t patches_per_chunk = 16;
 /// Emitters that together are more than this share of all surface are found by rays at random.
 constexpr double largest_share = .3;
 
-/// An emitter is distant if a receiver keeps off by so many of its radii. Half or twice as many
-/// change the errors by less than a twentieth (measured).
-constexpr double distant_radii = 3;
+/// An emitter is near to points within so many of its radii, from its centre.
+constexpr double near_radii = 4;
 
 /// The emitters as they were before facets were divided: how finely the light is to be known is
 /// nothing to those who only receive it.
@@ -94,7 +93,7 @@ struct DirectLight::Volley {
     [[nodiscard]] bool full() const { return size == rays_at_a_time; }
 };
 
-DirectLight::Shape::Shape(const Patch& of) : patch(&of), points(of.shape), radius(radius_of(of)) {}
+DirectLight::Shape::Shape(const Patch& of) : patch(&of), points(of.shape) {}
 
 DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                          std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds)
@@ -103,7 +102,8 @@ DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& ne
       sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)), samples_(mesh.patches().size()),
       hits_(mesh.patches().size()) {
     for (const Patch& emitter : emitters_)
-        lamps_.push_back({Shape(emitter), mesh.material(emitter).emission});
+        lamps_.push_back(
+            {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});
 }
 
 Vec3 DirectLight::irradiance(std::uint32_t patch) const {
@@ -157,12 +157,9 @@ void DirectLight::look(std::uint32_t patch, std::uint32_t estimate, const Shape&
                        const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
                        Volley& volley) const {
     const Emitter& emitter = lamps_[choice.emitter];
-    const double near = receiver.radius + (1 + distant_radii) * emitter.radius;
-    const Vec3 d = receiver.patch->centre - emitter.patch->centre;
     const std::size_t next = volley.size;
-    const double factor =
-        look_at(*receiver.patch, receiver.points, *emitter.patch, emitter.points,
-                {u[0], u[1], u[2], u[3]}, glm::dot(d, d) > near * near, volley.rays[next]);
+    const double factor = look_at(*receiver.patch, receiver.points, *emitter.patch, emitter.points,
+                                  {u[0], u[1], u[2], u[3]}, emitter.near, volley.rays[next]);
     if (!(factor > 0))
         return;
     volley.samples[next] = {patch, estimate, factor / choice.chance * emitter.emission};

@@ -69,10 +69,10 @@ class DirectLight {
         explicit Shape(const Patch& of);
         const Patch* patch;
         PolygonSampler points;
-        double radius; ///< from the centre
     };
     struct Emitter : Shape {
         Vec3 emission;
+        double near; ///< from the centre, see look_at
     };
     struct Volley;
     void sample(std::uint32_t patch, std::uint32_t end, Volley& volley);

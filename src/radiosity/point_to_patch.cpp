@@ -5,6 +5,7 @@
 #include "radiosity/mesh.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace hemilux {
@@ -16,16 +17,17 @@ constexpr double short_of_target = 1 - 1e-10;
 } // namespace
 
 double look_at(const Patch& source, const PolygonSampler& origins, const Patch& target,
-               const PolygonSampler& targets, const std::array<double, 4>& u, bool distant,
+               const PolygonSampler& targets, const std::array<double, 4>& u, double near,
                Ray& ray) {
     if (target.facet == source.facet)
         return 0;
     ray.from = source.facet;
     ray.origin = origins.sample({u[0], u[1]});
-    const double height = glm::dot(target.normal, ray.origin - target.centre);
+    const Vec3 off = ray.origin - target.centre;
+    const double height = glm::dot(target.normal, off);
     if (!(height > 0)) // behind the target
         return 0;
-    if (distant) {
+    if (glm::dot(off, off) > near * near) {
         const Vec3 d = targets.sample({u[2], u[3]}) - ray.origin;
         const double rise = glm::dot(source.normal, d), r2 = glm::dot(d, d), r = std::sqrt(r2);
         ray.direction = d * (1 / r);
@@ -44,9 +46,10 @@ double look_at(const Patch& source, const PolygonSampler& origins, const Patch& 
 double point_to_patch(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
                       const std::array<double, 4>& u, std::uint64_t& rays, bool visibility) {
     const Patch &source = mesh.patches()[from], &target = mesh.patches()[to];
+    constexpr double everywhere = std::numeric_limits<double>::infinity();
     Ray ray{};
     const double factor = look_at(source, PolygonSampler(source.shape), target,
-                                  PolygonSampler(target.shape), u, false, ray);
+                                  PolygonSampler(target.shape), u, everywhere, ray);
     if (!(factor > 0) || !visibility)
         return factor;
     ++rays;

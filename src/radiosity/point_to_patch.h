@@ -16,13 +16,14 @@ struct Patch;
 
 /// The mean of the factors of all sights that nothing blocks, over u in [0,1)^4, is F_from,to. A
 /// factor of 0: the point does not face the patch. Near, the factor is that from a random point to
-/// the whole patch, so that only shadows make it noisy; `distant`, it is that to a random point of
-/// the patch, which is much sooner said and almost as good where the target looks small.
+/// the whole patch, so that only shadows make it noisy; from points further away from the target's
+/// centre than `near`, it is that to a random point of the patch, which is much sooner said and
+/// almost as good where the target looks small.
 /// Points come from samplers of both shapes. The ray ends short of the target; it is whole if the
 /// factor is not 0.
 [[nodiscard]] double look_at(const Patch& source, const PolygonSampler& origins,
                              const Patch& target, const PolygonSampler& targets,
-                             const std::array<double, 4>& u, bool distant, Ray& ray);
+                             const std::array<double, 4>& u, double near, Ray& ray);
 
 /// The same with its ray traced: the factor, or 0 if something stands between. Adds to `rays` if a
 /// ray had to be traced. `visibility`: false where nothing can stand between two patches.
