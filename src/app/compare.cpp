@@ -9,12 +9,10 @@
 #include "app/method_options.h"
 #include "app/progress.h"
 #include "app/signals.h"
-#include "app/stopwatch.h"
 #include "app/summary.h"
 #include "app/talk.h"
 #include "app/text.h"
 #include "io/error.h"
-#include "radiosity/make_tracer.h"
 #include "radiosity/rng.h"
 
 #include <atomic>
@@ -134,11 +132,11 @@ int run_comparison(const CompareSettings& settings) {
     std::optional<Reference> reference;
     if (!settings.reference.empty())
         reference = read_reference(settings.reference, mesh, {});
-    const Stopwatch building;
-    const Needs needs = needs_of(mesh, settings.options);
-    const auto [tracer, tree] = make_tracer(mesh, needs, settings.options.threads);
+    const Prepared prepared = prepare(mesh, settings.options);
+    const Needs& needs = prepared.needs;
+    const auto& [tracer, tree] = prepared.made;
     guard.watch(monitor.interrupted);
-    say(settings.talk, Talk::verbose, tracer_text(tree, building.seconds()));
+    say(settings.talk, Talk::verbose, tracer_text(tree, prepared.seconds));
     if (!reference)
         reference = compute_reference(settings, mesh, *tracer, needs, monitor);
     if (!reference) {

@@ -9,6 +9,7 @@
 #include "app/text.h"
 #include "io/error.h"
 #include "io/inspect.h"
+#include "radiosity/workers.h"
 
 #include <algorithm>
 #include <cctype>
@@ -93,8 +94,19 @@ Mesh divide_scene(Scene scene, const SceneSettings& settings) {
     }
 }
 
-Needs needs_of(const Mesh& mesh, const SolveOptions& options) {
-    return options.keep_all ? everything_needed : find_needs(mesh);
+/// Either by a thread of its own, where there are two.
+Prepared prepare(const Mesh& mesh, const SolveOptions& options) {
+    const Stopwatch preparing;
+    Prepared prepared{};
+    Workers(options.threads).for_chunks(2, 1, [&](std::size_t part, std::size_t) {
+        if (part == 0)
+            prepared.made =
+                make_tracer(mesh, options.keep_all || needs_tree(mesh), options.threads);
+        else if (!options.keep_all)
+            prepared.needs = find_needs(mesh);
+    });
+    prepared.seconds = preparing.seconds();
+    return prepared;
 }
 
 LoadedMesh load_mesh(const SceneSettings& settings, const SolveOptions& options,

@@ -4,6 +4,7 @@
 #include "app/settings.h"
 #include "io/error.h"
 #include "io/obj.h"
+#include "radiosity/make_tracer.h"
 #include "radiosity/solve_error.h"
 
 #include <span>
@@ -30,8 +31,13 @@ struct LoadedMesh {
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const SolveOptions& options,
                                    std::span<const Method* const> methods, Talk talk);
 
-/// What the scene needs, or everything with --keep-all.
-[[nodiscard]] Needs needs_of(const Mesh& mesh, const SolveOptions& options);
+struct Prepared {
+    Needs needs; ///< everything with --keep-all
+    MadeTracer made;
+    double seconds;
+};
+/// What solving needs besides the mesh, which must outlive it.
+[[nodiscard]] Prepared prepare(const Mesh& mesh, const SolveOptions& options);
 
 /// Divides the faces; throws UsageError where --max-edge would give too many patches.
 [[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings);

@@ -17,7 +17,6 @@
 #include "app/text.h"
 #include "radiosity/error_spread.h"
 #include "radiosity/hemisphere.h"
-#include "radiosity/make_tracer.h"
 #include "radiosity/workers.h"
 
 #include <algorithm>
@@ -120,10 +119,10 @@ int solve(const SolveSettings& settings) {
     std::optional<Reference> reference;
     if (!settings.reference.empty())
         reference = read_reference(settings.reference, mesh, std::move(detail));
-    const Stopwatch building;
-    const Needs needs = needs_of(mesh, settings.options);
-    const auto [tracer, tree] = make_tracer(mesh, needs, settings.options.threads);
-    statistics.seconds_bvh = building.seconds();
+    const Prepared prepared = prepare(mesh, settings.options);
+    const Needs& needs = prepared.needs;
+    const auto& [tracer, tree] = prepared.made;
+    statistics.seconds_bvh = prepared.seconds;
     guard.watch(monitor.interrupted);
     say(settings.talk, Talk::verbose, tracer_text(tree, statistics.seconds_bvh));
 

@@ -5,10 +5,10 @@
 
 namespace hemilux {
 
-MadeTracer make_tracer(const Mesh& mesh, const Needs& needs, unsigned threads) {
-    auto tracer = std::make_unique<WideBvh>(
-        mesh.soup(), WideBvhOptions{.threads = threads, .hierarchy = needs.tree});
-    const auto quality = needs.tree ? std::optional(tracer->quality()) : std::nullopt;
+MadeTracer make_tracer(const Mesh& mesh, bool tree, unsigned threads) {
+    auto tracer = std::make_unique<WideBvh>(mesh.soup(),
+                                            WideBvhOptions{.threads = threads, .hierarchy = tree});
+    const auto quality = tree ? std::optional(tracer->quality()) : std::nullopt;
     return {std::move(tracer), quality};
 }
 

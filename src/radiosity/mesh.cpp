@@ -98,6 +98,7 @@ Mesh::Mesh(Scene scene, const MeshOptions& options)
         corners_.push_back(facet.vertex);
     lay_apart();
     divisions_.reserve(scene_.facets.size());
+    patches_.reserve(scene_.facets.size() * (two_sided_ ? 2 : 1));
     for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
         divide(f, options);
 }

@@ -89,6 +89,10 @@ std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
 
 } // namespace
 
+bool needs_tree(const Mesh& mesh) {
+    return count_triangles(mesh.scene()) > most_triangles_without_tree;
+}
+
 Needs find_needs(const Mesh& mesh) {
     const Scene& scene = mesh.scene();
     const std::vector<bool> used = materials_in_use(scene);
@@ -101,7 +105,7 @@ Needs find_needs(const Mesh& mesh) {
             needs.bounces |= !is_black(material.reflectance);
         }
     needs.densities = needs.visibility = !is_convex_enclosure(mesh);
-    needs.tree = count_triangles(scene) > most_triangles_without_tree;
+    needs.tree = needs_tree(mesh);
     find_idle_patches(mesh, needs);
     return needs;
 }

@@ -44,6 +44,9 @@ inline const Needs everything_needed;
 /// cannot be told is needed.
 [[nodiscard]] Needs find_needs(const Mesh& mesh);
 
+/// Of all that, whether rays need a tree: known at once.
+[[nodiscard]] bool needs_tree(const Mesh& mesh);
+
 /// Something that a scene did not need and that was therefore not done.
 struct LeftOut {
     std::string what, why, saved;

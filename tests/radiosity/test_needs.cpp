@@ -45,7 +45,7 @@ SolveOptions with_rays(double rays, bool literal = false) {
 Solution solve_with(const Mesh& mesh, const Needs& needs, const Method& method,
                     const SolveOptions& options, std::uint32_t steps) {
     Monitor monitor;
-    const MadeTracer made = make_tracer(mesh, needs);
+    const MadeTracer made = make_tracer(mesh, needs.tree);
     const SolverInput input{mesh, *made.tracer, options, monitor, needs};
     const auto solver = method.make(input);
     run(*solver, input, test::steps(steps));
@@ -375,8 +375,8 @@ TEST_CASE("Few triangles are traced without a tree, with the same hits") {
     const Mesh few(test::sphere(0, 1, .5, 1)), many(test::cube_with_lit_floor(1, .5));
     CHECK_FALSE(find_needs(few).tree);
     CHECK(find_needs(many).tree);
-    const MadeTracer flat = make_tracer(few, find_needs(few));
-    const MadeTracer tree = make_tracer(few, everything_needed);
+    const MadeTracer flat = make_tracer(few, needs_tree(few));
+    const MadeTracer tree = make_tracer(few, true);
     CHECK_FALSE(flat.tree);
     REQUIRE(tree.tree);
     Rng rng(9);
