@@ -14,6 +14,8 @@ namespace {
 /// Rays per patch at which the run ends whatever the error.
 constexpr double most_rays = 1u << 20;
 
+constexpr std::size_t patches_per_chunk = 512;
+
 /// Errors of well-distributed points fall about as rays^-.7, their squares so:
 constexpr double fall = 1.4;
 
@@ -50,7 +52,7 @@ GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random
     lamp_weights_ = prior_lamp_weights_;
 }
 
-void GatheringPlan::grow(const KnownError& known, double room) {
+void GatheringPlan::grow(const KnownError& known, double room, const Workers& workers) {
     before_ = now_;
     if (now_.random > 0) {
         choose(known);
@@ -59,8 +61,12 @@ void GatheringPlan::grow(const KnownError& known, double room) {
         now_.random = first_.random;
         now_.to_lamps = first_.to_lamps;
     }
-    now_.rays.random = deal_rays(weights_, now_.random, before_.rays.random);
-    now_.rays.to_lamps = deal_rays(lamp_weights_, now_.to_lamps, before_.rays.to_lamps);
+    workers.for_chunks(2, 1, [&](std::size_t kind, std::size_t) {
+        if (kind == 0)
+            now_.rays.random = deal_rays(weights_, now_.random, before_.rays.random);
+        else
+            now_.rays.to_lamps = deal_rays(lamp_weights_, now_.to_lamps, before_.rays.to_lamps);
+    });
 }
 
 void GatheringPlan::choose(const KnownError& known) {
@@ -122,10 +128,12 @@ void GatheringPlan::weigh(const ExchangeMatrix& factors, std::span<const Vec3> l
                           const Workers& workers) {
     const std::size_t n = light.size();
     std::vector<Lanes> once(n), squared(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        once[i] = factors.scaled(i, light[i]);
-        squared[i] = factors.scaled(i, light[i] * light[i]);
-    }
+    workers.for_chunks(n, patches_per_chunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            once[i] = factors.scaled(i, light[i]);
+            squared[i] = factors.scaled(i, light[i] * light[i]);
+        }
+    });
     std::vector<double> known(n);
     factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -140,13 +148,17 @@ void GatheringPlan::weigh(const ExchangeMatrix& factors, std::span<const Vec3> l
 
 /// With a variance that falls as v n^-fall, the sum over patches is least for n as
 /// v^(1 / (1 + fall)), v being what one ray alone would leave.
-void GatheringPlan::weigh_lamps(std::span<const double> variance) {
+void GatheringPlan::weigh_lamps(std::span<const double> variance, const Workers& workers) {
     std::vector<double> known(variance.size());
-    for (std::size_t i = 0; i < known.size(); ++i)
-        known[i] =
-            prior_lamp_weights_[i] > 0
-                ? std::pow(variance[i] * std::pow(now_.rays.to_lamps[i], fall), 1 / (1 + fall))
-                : 0;
+    const auto weight = [&](std::size_t i) {
+        return prior_lamp_weights_[i] > 0
+                   ? std::pow(variance[i] * std::pow(now_.rays.to_lamps[i], fall), 1 / (1 + fall))
+                   : 0;
+    };
+    workers.for_chunks(known.size(), patches_per_chunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            known[i] = weight(i);
+    });
     mix(known, prior_lamp_weights_, lamp_weights_);
 }
 

@@ -43,7 +43,7 @@ class GatheringPlan {
 
     /// Plans more rays than before, at most `room` times as many random ones; `known` is not used
     /// for the first step.
-    void grow(const KnownError& known, double room);
+    void grow(const KnownError& known, double room, const Workers& workers);
     /// Less room than this is not worth a step.
     static constexpr double least_growth = 1.19;
 
@@ -57,7 +57,7 @@ class GatheringPlan {
 
     /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`:
     /// of each patch, times its area, in any unit.
-    void weigh_lamps(std::span<const double> variance);
+    void weigh_lamps(std::span<const double> variance, const Workers& workers);
 
     void save(StateWriter& state) const;
     /// Of a plan made with the same arguments. Throws StateError for what save() cannot have

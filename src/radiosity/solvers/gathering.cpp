@@ -43,6 +43,8 @@ namespace {
 
 constexpr unsigned sets = 4;
 
+constexpr std::size_t patches_per_chunk = 512;
+
 /// Bytes that are needed to put counts together, for each byte of them.
 constexpr double merging = 3.5;
 
@@ -141,7 +143,7 @@ class GatheringSolver final : public Solver {
                 std::max(1.0, error_spread(input_.mesh, solution_).bound() / StopRule::tolerance);
         const double room = room_to_grow();
         if (room >= GatheringPlan::least_growth) {
-            plan_.grow(known, room);
+            plan_.grow(known, room, workers_);
         } else { // as many rays as before, all anew
             light_.begin_generation();
             renew();
@@ -172,47 +174,65 @@ class GatheringSolver final : public Solver {
                          (merging * static_cast<double>(stored));
     }
 
+    /// How the sets differ, of some patches.
+    struct Spread {
+        std::array<double, sets * sets> products{}; ///< of deviations
+        double variance = 0, direct_variance = 0;
+    };
+
     void combine(const ExchangeMatrix& all) {
-        const auto area = system_.area();
-        const auto reflectance = system_.reflectance();
-        const auto emission = system_.emission(), seen_emission = system_.seen_emission();
-        variance_ = direct_variance_ = 0;
-        std::array<double, sets * sets> products{};
-        std::vector<double> direct_variances(area.size());
-        for (std::uint32_t i = 0; i < area.size(); ++i) {
-            const Vec3 rho = reflectance[i], direct_mean = direct_->irradiance(i);
-            const auto off = light_.deviations<sets>(i);
-            Vec3 squares(0.0), direct_squares(0.0);
-            for (std::size_t s = 0; s < sets; ++s) {
-                squares += off[s] * off[s];
-                for (std::size_t t = 0; t < sets; ++t)
-                    products[s * sets + t] += area[i] * glm::dot(rho * off[s], rho * off[t]);
-            }
-            for (std::size_t s = 0; s < sets; ++s) {
-                const Vec3 direct_off = direct_->irradiance(i, s) - direct_mean;
-                direct_squares += direct_off * direct_off;
-            }
-            solution_.radiosity[i] = emission[i] + rho * light_.incident(sets, i);
-            solution_.standard_error[i] = rho * glm::sqrt(squares / double(sets * (sets - 1)));
-            solution_.hits[i] = direct_->hits(i) + std::uint64_t{plan_.rays().random[i]} * sets;
-            variance_ += area[i] * glm::dot(rho * rho, squares);
-            direct_variances[i] = area[i] * glm::dot(rho * rho, direct_squares);
-            direct_variance_ += direct_variances[i] / light_.generations();
+        const std::size_t n = solution_.radiosity.size();
+        std::vector<Spread> parts((n + patches_per_chunk - 1) / patches_per_chunk);
+        std::vector<double> direct_variances(n);
+        std::vector<Vec3> light(n);
+        workers_.for_chunks(n, patches_per_chunk, [&](std::size_t begin, std::size_t end) {
+            Spread& part = parts[begin / patches_per_chunk];
+            for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+                combine(i, part, light[i], direct_variances[i]);
+        });
+        Spread spread;
+        for (const Spread& part : parts) {
+            for (std::size_t k = 0; k < spread.products.size(); ++k)
+                spread.products[k] += part.products[k];
+            spread.variance += part.variance;
+            spread.direct_variance += part.direct_variance;
         }
-        variance_ = std::max(variance_, direct_variance_);
+        direct_variance_ = spread.direct_variance;
+        variance_ = std::max(spread.variance, direct_variance_);
         solution_.error_samples = sets;
-        solution_.error_parts = error_parts(products, sets);
-        std::vector<Vec3> light(area.size());
-        for (std::size_t i = 0; i < light.size(); ++i)
-            light[i] = solution_.radiosity[i] - emission[i] + seen_emission[i];
+        solution_.error_parts = error_parts(spread.products, sets);
         plan_.weigh(all, light, workers_);
-        plan_.weigh_lamps(direct_variances);
+        plan_.weigh_lamps(direct_variances, workers_);
         account();
         solution_.rays_energy = traced_;
         solution_.bytes_transport = all.bytes() + direct_->bytes();
         for (const RayCounts& set : counts_)
             solution_.bytes_transport += set.bytes();
         ++solution_.steps;
+    }
+
+    /// Of one patch; `light`: what it sends that random rays are to find.
+    void combine(std::uint32_t i, Spread& spread, Vec3& light, double& direct_variance) {
+        const double area = system_.area()[i];
+        const Vec3 rho = system_.reflectance()[i], direct_mean = direct_->irradiance(i);
+        const auto off = light_.deviations<sets>(i);
+        Vec3 squares(0.0), direct_squares(0.0);
+        const Vec3 weight = area * rho * rho;
+        for (std::size_t s = 0; s < sets; ++s) {
+            squares += off[s] * off[s];
+            for (std::size_t t = 0; t < sets; ++t)
+                spread.products[s * sets + t] += glm::dot(weight * off[s], off[t]);
+            const Vec3 direct_off = direct_->irradiance(i, s) - direct_mean;
+            direct_squares += direct_off * direct_off;
+        }
+        const Vec3 reflected = rho * light_.incident(sets, i);
+        solution_.radiosity[i] = system_.emission()[i] + reflected;
+        solution_.standard_error[i] = rho * glm::sqrt(squares / double(sets * (sets - 1)));
+        solution_.hits[i] = direct_->hits(i) + std::uint64_t{plan_.rays().random[i]} * sets;
+        light = reflected + system_.seen_emission()[i];
+        spread.variance += area * glm::dot(rho * rho, squares);
+        direct_variance = area * glm::dot(rho * rho, direct_squares);
+        spread.direct_variance += direct_variance / light_.generations();
     }
 
     void account() {
