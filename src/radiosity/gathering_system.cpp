@@ -42,7 +42,7 @@ ExchangeMatrix GatheringSystem::solve(const Rays& rays, std::optional<double> er
                                       std::vector<GatheredLight::Light>& light,
                                       const Workers& workers,
                                       const std::atomic<bool>& interrupted) const {
-    const std::size_t sets = rays.counts.size(), n = area_.size();
+    const std::size_t sets = rays.counts.size();
     std::vector<ExchangeMatrix> parts(sets);
     std::vector<GatheredLight::Light> found = light;
     const double residual =
@@ -50,18 +50,16 @@ ExchangeMatrix GatheringSystem::solve(const Rays& rays, std::optional<double> er
     workers.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
         const Workers alone(1);
         parts[set] = ExchangeMatrix(mesh_, rays.counts[set]);
-        std::vector<Vec3> direct(n);
-        add_found_at_random(parts[set], rays.direct, direct, alone);
-        for (std::uint32_t i = 0; i < n; ++i)
+        std::vector<Vec3> direct = found_at_random(parts[set], rays.direct, alone);
+        for (std::uint32_t i = 0; i < direct.size(); ++i)
             direct[i] += rays.direct.irradiance(i, set);
         solve(parts[set], std::move(direct), found[set], alone, residual, interrupted);
     });
     ExchangeMatrix all(std::move(parts), workers);
     // What a residual makes of the light is no larger than its sum over all reflections.
     const double worth = left_of_all * average(found) * lost_at_least_;
-    std::vector<Vec3> direct(n);
-    add_found_at_random(all, rays.direct, direct, workers);
-    for (std::uint32_t i = 0; i < n; ++i)
+    std::vector<Vec3> direct = found_at_random(all, rays.direct, workers);
+    for (std::uint32_t i = 0; i < direct.size(); ++i)
         direct[i] += rays.direct.irradiance(i);
     solve(all, std::move(direct), found[sets], workers, std::max(worth, least_residual),
           interrupted);
@@ -103,9 +101,11 @@ double GatheringSystem::average(std::vector<GatheredLight::Light>& light) const 
 
 /// The light straight from the emitters that shadow rays do not reach; where there are no shadow
 /// rays, from all. Those patches are black: rays at random tell well enough what they absorb.
-void GatheringSystem::add_found_at_random(const ExchangeMatrix& factors, const DirectLight& direct,
-                                          std::vector<Vec3>& light, const Workers& workers) const {
+std::vector<Vec3> GatheringSystem::found_at_random(const ExchangeMatrix& factors,
+                                                   const DirectLight& direct,
+                                                   const Workers& workers) const {
     const std::size_t n = area_.size();
+    std::vector<Vec3> light(n);
     std::vector<Lanes> all(n), some(n);
     for (std::size_t i = 0; i < n; ++i) {
         all[i] = factors.scaled(i, emission_[i]);
@@ -116,10 +116,11 @@ void GatheringSystem::add_found_at_random(const ExchangeMatrix& factors, const D
     factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             if (direct.samples(static_cast<std::uint32_t>(i)) == 0)
-                light[i] += factors.row_times(i, all);
+                light[i] = factors.row_times(i, all);
             else if (any)
-                light[i] += factors.row_times(i, some);
+                light[i] = factors.row_times(i, some);
     });
+    return light;
 }
 
 } // namespace hemilux
