@@ -19,7 +19,7 @@
 namespace hemilux {
 namespace {
 
-constexpr std::size_t patches_per_chunk = 16;
+constexpr std::size_t patches_per_chunk = 8;
 
 /// Emitters that together are more than this share of all surface are found by rays at random.
 constexpr double largest_share = .3;

@@ -50,19 +50,14 @@ ExchangeMatrix GatheringSystem::solve(const Rays& rays, std::optional<double> er
     workers.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
         const Workers alone(1);
         parts[set] = ExchangeMatrix(mesh_, rays.counts[set]);
-        std::vector<Vec3> direct = found_at_random(parts[set], rays.direct, alone);
-        for (std::uint32_t i = 0; i < direct.size(); ++i)
-            direct[i] += rays.direct.irradiance(i, set);
-        solve(parts[set], std::move(direct), found[set], alone, residual, interrupted);
+        solve(parts[set], straight_light(parts[set], rays.direct, set, alone), found[set], alone,
+              residual, interrupted);
     });
     ExchangeMatrix all(std::move(parts), workers);
     // What a residual makes of the light is no larger than its sum over all reflections.
     const double worth = left_of_all * average(found) * lost_at_least_;
-    std::vector<Vec3> direct = found_at_random(all, rays.direct, workers);
-    for (std::uint32_t i = 0; i < direct.size(); ++i)
-        direct[i] += rays.direct.irradiance(i);
-    solve(all, std::move(direct), found[sets], workers, std::max(worth, least_residual),
-          interrupted);
+    solve(all, straight_light(all, rays.direct, std::nullopt, workers), found[sets], workers,
+          std::max(worth, least_residual), interrupted);
     if (!interrupted)
         light = std::move(found);
     return all;
@@ -99,11 +94,13 @@ double GatheringSystem::average(std::vector<GatheredLight::Light>& light) const 
     return squares > 0 ? std::sqrt(squares / size) : 0;
 }
 
-/// The light straight from the emitters that shadow rays do not reach; where there are no shadow
-/// rays, from all. Those patches are black: rays at random tell well enough what they absorb.
-std::vector<Vec3> GatheringSystem::found_at_random(const ExchangeMatrix& factors,
-                                                   const DirectLight& direct,
-                                                   const Workers& workers) const {
+/// The light straight from the emitters: by shadow rays, of one set or of all, and from those that
+/// shadow rays do not reach by rays at random. A patch without shadow rays is black: rays at random
+/// tell well enough what it absorbs.
+std::vector<Vec3> GatheringSystem::straight_light(const ExchangeMatrix& factors,
+                                                  const DirectLight& shadow_rays,
+                                                  std::optional<std::size_t> set,
+                                                  const Workers& workers) const {
     const std::size_t n = area_.size();
     std::vector<Vec3> light(n);
     std::vector<Lanes> all(n), some(n);
@@ -114,11 +111,13 @@ std::vector<Vec3> GatheringSystem::found_at_random(const ExchangeMatrix& factors
     const bool any =
         std::ranges::any_of(seen_emission_, [](const Vec3& e) { return e != Vec3(0.0); });
     factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (direct.samples(static_cast<std::uint32_t>(i)) == 0)
+        for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+            if (shadow_rays.samples(i) == 0)
                 light[i] = factors.row_times(i, all);
             else if (any)
                 light[i] = factors.row_times(i, some);
+            light[i] += set ? shadow_rays.irradiance(i, *set) : shadow_rays.irradiance(i);
+        }
     });
     return light;
 }

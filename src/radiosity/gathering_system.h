@@ -47,8 +47,8 @@ class GatheringSystem {
     void solve(const ExchangeMatrix& factors, std::vector<Vec3> direct, GatheredLight::Light& light,
                const Workers& workers, double residual, const std::atomic<bool>& interrupted) const;
     double average(std::vector<GatheredLight::Light>& light) const;
-    std::vector<Vec3> found_at_random(const ExchangeMatrix& factors, const DirectLight& direct,
-                                      const Workers& workers) const;
+    std::vector<Vec3> straight_light(const ExchangeMatrix& factors, const DirectLight& shadow_rays,
+                                     std::optional<std::size_t> set, const Workers& workers) const;
 
     const Mesh& mesh_;
     std::vector<double> area_;
