@@ -20,8 +20,9 @@ struct FacetSoup {
 };
 
 /// True, and the hit filled in, when facet `corners` is struck at a t in (ray.t_min, t_max].
-/// A ray through a quad's diagonal strikes the first half: by rounding t may differ between the
-/// two, and which is taken must not depend on what was struck before.
+/// A quad that is not quite planar may be struck twice: the nearer hit counts. A ray through the
+/// diagonal strikes the first half alone: by rounding t may differ between the two. So what is
+/// taken does not depend on what was struck before.
 template <EdgeRule rule>
 [[nodiscard]] inline bool hit_facet(std::span<const Vec3> vertices, const FacetCorners& corners,
                                     const ShearedRay& sheared, double t_min, double t_max,
@@ -31,17 +32,19 @@ template <EdgeRule rule>
     const Vec3 p0 = sheared.transform(vertices[corners[0]]);
     const Vec3 p1 = sheared.transform(vertices[corners[1]]);
     const Vec3 p2 = sheared.transform(vertices[corners[2]]);
-    TriangleHit found;
+    TriangleHit found, other;
     const bool pierced = hit_triangle<rule>(p0, p1, p2, -infinity, infinity, found);
-    const bool second_half = !(pierced && in_range(found.t));
+    const bool in_first = pierced && in_range(found.t);
+    const bool on_diagonal = pierced && found.u == 0;
+    bool second_half = corners[2] != corners[3] && !on_diagonal;
     if (second_half) {
-        const bool on_diagonal = pierced && found.u == 0;
-        if (corners[2] == corners[3] || on_diagonal)
-            return false;
         const Vec3 p3 = sheared.transform(vertices[corners[3]]);
-        if (!hit_triangle<rule>(p0, p2, p3, t_min, t_max, found))
-            return false;
+        second_half = hit_triangle<rule>(p0, p2, p3, t_min, in_first ? found.t : t_max, other);
     }
+    if (second_half)
+        found = other;
+    else if (!in_first)
+        return false;
     hit.t = found.t;
     hit.u = found.u;
     hit.v = found.v;

@@ -229,8 +229,12 @@ class Builder {
         leaf.slot[k] = slot;
     }
 
-    /// A quad whose halves a ray might both strike, because it is not planar and convex by more
-    /// than the sieve's errors; its hits are always decided in doubles.
+    /// A quad whose halves a ray might both strike: where it is not planar and convex, and the
+    /// sieve would not be unsure of such rays anyway. Its hits are always decided in doubles.
+    ///
+    /// A ray that strikes both halves meets one from the front and one from behind, so its sine to
+    /// either plane is at most the angle between the normals. The sieve is sure only where that
+    /// sine, times the length of e1 x e2, is more than twice its error bound.
     [[nodiscard]] bool is_doubtful(const FacetCorners& c) const {
         if (c[2] == c[3])
             return false;
@@ -240,9 +244,17 @@ class Builder {
         const Vec3 first = glm::cross(p[1] - p[0], p[2] - p[0]);
         const Vec3 second = glm::cross(p[2] - p[0], p[3] - p[0]);
         const double a = glm::length(first), b = glm::length(second);
-        const double turn = glm::length(glm::cross(first, second));
-        constexpr double warp = 4e-6; // below it grazing rays, which alone see it, are unsure
-        return !(glm::dot(first, second) > 0 && turn <= warp * a * b);
+        const double angle = glm::length(glm::cross(first, second)) / (a * b);
+        const auto least_error = [](const Vec3& e1, const Vec3& e2) { // over all origins
+            const Vec3 e = glm::max(glm::abs(e1), glm::abs(e2));
+            const double longest = std::max({e.x, e.y, e.z});
+            return 80 * 0x1p-24 * longest * (longest + .15);
+        };
+        constexpr double longest_direction = 1.75, small = .05;
+        const bool seen_by_unsure_rays_only =
+            longest_direction * angle * a <= 2 * least_error(p[1] - p[0], p[2] - p[0]) &&
+            longest_direction * angle * b <= 2 * least_error(p[2] - p[0], p[3] - p[0]);
+        return !(glm::dot(first, second) > 0 && angle < small && seen_by_unsure_rays_only);
     }
 
     [[nodiscard]] const Workers& workers_for(bool upper) const { return upper ? workers_ : alone_; }

@@ -72,6 +72,30 @@ struct Differences {
     }
 };
 
+/// Rays that meet both halves of quads which are not planar.
+std::vector<Ray> rays_through_both_halves(const Soup& soup, std::size_t each, std::uint64_t seed) {
+    Rng rng(seed);
+    const auto within = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        const double s = std::sqrt(rng.uniform()), t = rng.uniform();
+        return a + s * (b - a) + s * t * (c - b);
+    };
+    std::vector<Ray> rays;
+    for (const FacetCorners& corners : soup.facets)
+        for (std::size_t k = 0; k < each; ++k) {
+            const auto corner = [&](std::size_t i) { return soup.vertices[corners[i]]; };
+            Vec3 first = within(corner(0), corner(1), corner(2));
+            Vec3 second = within(corner(0), corner(2), corner(3));
+            if (k % 2 == 0)
+                std::swap(first, second);
+            const Vec3 way = second - first;
+            Ray ray{first - 3 * rng.uniform() * way, glm::normalize(way)};
+            if (k % 3 == 0) // just no longer both
+                ray.origin += 1e-7 * point_within(rng, glm::length(way));
+            rays.push_back(ray);
+        }
+    return rays;
+}
+
 bool same(const std::optional<Hit>& a, const Struck& b) {
     return a ? a->facet == b.facet && a->front == b.front : b.facet == none;
 }
@@ -179,6 +203,21 @@ TEST_CASE("The wide tree and what breaks tracers") {
             check_soup(test::thin_walls(8, gap, 4), 2000);
     }
     SECTION("odd quads") { check_soup(test::odd_quads(200, 1), 2000); }
+    SECTION("quads that are not planar") {
+        const Soup soup = test::warped_quads(300, 1);
+        check_soup(soup, 2000);
+        const BruteForce referee(soup.view());
+        const std::vector<Ray> rays = rays_through_both_halves(soup, 20, 2);
+        for (const wide::Kernels* kernels : wide::available_kernels()) {
+            const WideBvh wide_bvh(soup.view(), {.kernels = kernels->name});
+            check_streams(wide_bvh, rays);
+            const Differences found(wide_bvh, referee, rays);
+            CAPTURE(kernels->name);
+            CHECK(found.closest == 0);
+            CHECK(found.count == 0);
+            CHECK(found.occluded == 0);
+        }
+    }
     SECTION("deep trees") {
         for (const double shrink : {.99, .7, .3})
             check_soup(test::nested(300, shrink), 1000);

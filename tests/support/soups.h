@@ -99,6 +99,20 @@ struct Soup {
     return soup;
 }
 
+/// Quads of many sizes that are not quite planar, or not at all.
+[[nodiscard]] inline Soup warped_quads(std::size_t facets, std::uint64_t seed) {
+    Rng rng(seed);
+    Soup soup;
+    for (std::size_t f = 0; f < facets; ++f) {
+        const double size = std::pow(10.0, -4 * rng.uniform());
+        const double warp = std::pow(10.0, -1 - 7 * rng.uniform());
+        const Vec3 at = point_within(rng, 1);
+        const Vec3 e = point_within(rng, size), g = point_within(rng, size);
+        soup.quad(at, at + e, at + e + g, at + g + point_within(rng, warp * size));
+    }
+    return soup;
+}
+
 /// Each a little smaller and nearer to a corner than the one before: trees become deep.
 [[nodiscard]] inline Soup nested(std::size_t facets, double shrink) {
     Soup soup;
