@@ -136,6 +136,10 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, Volley& volley)
     choice_.weigh(patch, cut);
     if (cut.dark())
         return;
+    if (!cut.pays()) {
+        samples_[patch] = 0;
+        return;
+    }
     const Shape receiver(mesh_.patches()[patch]);
     EmitterChoice::Choices choices;
     for (std::uint32_t s = 0; s < seeds_.size(); ++s) {

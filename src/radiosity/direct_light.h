@@ -38,9 +38,9 @@ class DirectLight {
     DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                 std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds);
 
-    /// Goes on until each patch has so many samples in each estimate. Returns the number of rays
-    /// traced now. Where the monitor was interrupted meanwhile some patches have fewer, and another
-    /// call takes up the rest.
+    /// Goes on until each patch for which that pays has so many samples in each estimate. Returns
+    /// the number of rays traced now. Where the monitor was interrupted meanwhile some patches have
+    /// fewer, and another call takes up the rest.
     std::uint64_t sample_up_to(std::span<const std::uint32_t> samples, const Workers& workers,
                                Monitor& monitor);
 
@@ -52,7 +52,8 @@ class DirectLight {
     }
     /// Mean over all.
     [[nodiscard]] Vec3 irradiance(std::uint32_t patch) const;
-    /// Of this patch in each estimate.
+    /// Of this patch in each estimate; 0 also where rays at random are worth more
+    /// (EmitterChoice::Cut::pays).
     [[nodiscard]] std::uint32_t samples(std::uint32_t patch) const { return samples_[patch]; }
     /// Samples of this patch that brought light.
     [[nodiscard]] std::uint32_t hits(std::uint32_t patch) const { return hits_[patch]; }

@@ -46,7 +46,7 @@ void EmitterChoice::list_emitters() {
             add_point(corner);
         add(patch.area);
         add(std::sqrt(patch.area));
-        add(mean_of_channels(mesh_.material(emitters_[place]).emission));
+        add(light_of(place));
     }
 }
 
@@ -85,8 +85,12 @@ EmitterReceiver EmitterChoice::receiver_at(std::uint32_t patch) const {
 
 const Vec3& EmitterChoice::centre(std::uint32_t place) const { return emitters_[place].centre; }
 
+double EmitterChoice::light_of(std::uint32_t place) const {
+    return mean_of_channels(mesh_.material(emitters_[place]).emission);
+}
+
 double EmitterChoice::power_of(std::uint32_t place) const {
-    return emitters_[place].area * mean_of_channels(mesh_.material(emitters_[place]).emission);
+    return emitters_[place].area * light_of(place);
 }
 
 std::uint32_t EmitterChoice::add(std::uint32_t begin, std::uint32_t end) {
@@ -94,7 +98,10 @@ std::uint32_t EmitterChoice::add(std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t k = begin; k < end; ++k) {
         cluster.centre += centre(order_[k]) / double(end - begin);
         cluster.power += power_of(order_[k]);
+        cluster.area += emitters_[order_[k]].area / double(end - begin);
+        cluster.light += power_of(order_[k]) * light_of(order_[k]);
     }
+    cluster.light /= cluster.power;
     for (std::uint32_t k = begin; k < end; ++k)
         cluster.radius = std::max(cluster.radius, glm::distance(cluster.centre, centre(order_[k])) +
                                                       radius_of(emitters_[order_[k]]));
@@ -140,8 +147,9 @@ double EmitterChoice::nearness(std::uint32_t receiver, const Cluster& cluster) c
 void EmitterChoice::weigh(std::uint32_t receiver, Cut& cut) const {
     if (order_.size() <= most_emitters) {
         cut.sums.resize(order_.size() + 1);
+        cut.found.resize(order_.size());
         sampling_kernels().weigh_emitters(arrays_from(0), order_.size(), receiver_at(receiver),
-                                          cut.sums.data() + 1);
+                                          cut.sums.data() + 1, cut.found.data());
     } else {
         choose_clusters(receiver, cut);
         weigh_clusters(receiver, cut);
@@ -149,6 +157,7 @@ void EmitterChoice::weigh(std::uint32_t receiver, Cut& cut) const {
     cut.sum = cut.sums[0] = 0;
     for (std::size_t k = 1; k < cut.sums.size(); ++k)
         cut.sums[k] = cut.sum += cut.sums[k];
+    cut.square_found = std::accumulate(cut.found.begin(), cut.found.end(), 0.0);
     cut.sums.resize(std::bit_ceil(cut.sums.size()), std::numeric_limits<double>::infinity());
 }
 
@@ -178,7 +187,8 @@ void EmitterChoice::choose_clusters(std::uint32_t receiver, Cut& cut) const {
         const Cluster& cluster = clusters_[*c];
         const Vec3& centre = cluster.centre;
         auto array = cut.of_many.begin();
-        for (const double x : {centre.x, centre.y, centre.z, cluster.radius, cluster.power})
+        for (const double x : {centre.x, centre.y, centre.z, cluster.radius, cluster.power,
+                               cluster.area, cluster.light})
             (array++)->push_back(x);
     }
 }
@@ -186,14 +196,16 @@ void EmitterChoice::choose_clusters(std::uint32_t receiver, Cut& cut) const {
 /// Rather too large than too small, and 0 only where no light can come from.
 void EmitterChoice::weigh_clusters(std::uint32_t receiver, Cut& cut) const {
     const EmitterReceiver to = receiver_at(receiver);
-    const auto& [x, y, z, radius, power] = cut.of_many;
+    const auto& [x, y, z, radius, power, area, light] = cut.of_many;
     cut.sums.resize(cut.clusters.size() + 1);
-    double* weights = cut.sums.data() + 1;
-    sampling_kernels().weigh_clusters({{x.data(), y.data(), z.data()}, radius.data(), power.data()},
-                                      power.size(), to, weights);
+    cut.found.resize(cut.clusters.size());
+    double *weights = cut.sums.data() + 1, *found = cut.found.data();
+    sampling_kernels().weigh_clusters(
+        {{x.data(), y.data(), z.data()}, radius.data(), power.data(), area.data(), light.data()},
+        power.size(), to, weights, found);
     for (std::size_t k = power.size(); k < cut.clusters.size(); ++k)
         sampling_kernels().weigh_emitters(arrays_from(clusters_[cut.clusters[k]].begin), 1, to,
-                                          weights + k);
+                                          weights + k, found + k);
 }
 
 void EmitterChoice::choose(const Cut& cut, const double* u, Choices& choices) const {

@@ -33,13 +33,20 @@ class EmitterChoice {
     /// What a patch weighs: emitters or clusters, and running sums of their weights.
     struct Cut {
         std::vector<std::uint32_t> clusters; ///< empty: it is all emitters, in their order
-        /// Centre, radius and power of those that are not single emitters, which stand first.
-        std::array<std::vector<double>, 5> of_many;
+        /// Centre, radius, power, area and light of those that are not single emitters, which stand
+        /// first.
+        std::array<std::vector<double>, 7> of_many;
         /// One more than there are weights, from 0; then infinity, up to a power of two.
         std::vector<double> sums;
         double sum = 0;
+        std::vector<double> found; ///< by ray at random, of each: its mean square
+        double square_found = 0;   ///< sum of these
         /// No light can come from anywhere.
         [[nodiscard]] bool dark() const { return !(sum > 0); }
+        /// Whether a shadow ray is worth about as much as one at random, or more. Where many
+        /// emitters touch a surface each fills the view of a few points, but is seldom drawn for
+        /// just those: what such a ray brings varies more than what one finds by chance.
+        [[nodiscard]] bool pays() const { return sum * sum <= 4 * square_found; }
     };
     /// For choose().
     void weigh(std::uint32_t receiver, Cut& cut) const;
@@ -58,6 +65,8 @@ class EmitterChoice {
         Vec3 centre{0.0};
         double radius = 0; ///< of a sphere around all of them
         double power = 0;
+        double area = 0;                   ///< mean
+        double light = 0;                  ///< mean by power
         std::uint32_t left = 0, right = 0; ///< its halves; 0: it is one emitter
     };
     std::uint32_t add(std::uint32_t begin, std::uint32_t end);
@@ -68,6 +77,7 @@ class EmitterChoice {
     void choose_clusters(std::uint32_t receiver, Cut& cut) const;
     void weigh_clusters(std::uint32_t receiver, Cut& cut) const;
     [[nodiscard]] Choice choose_within(const Cluster& cluster, double share) const;
+    [[nodiscard]] double light_of(std::uint32_t place) const;
     [[nodiscard]] double power_of(std::uint32_t place) const;
     [[nodiscard]] double nearness(std::uint32_t receiver, const Cluster& cluster) const;
     [[nodiscard]] const Vec3& centre(std::uint32_t place) const;

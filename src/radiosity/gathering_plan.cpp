@@ -156,8 +156,11 @@ void GatheringPlan::weigh_lamps(std::span<const double> variance, const Workers&
                    : 0;
     };
     workers.for_chunks(known.size(), patches_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t i = begin; i < end; ++i) {
+            if (variance[i] < 0)
+                prior_lamp_weights_[i] = 0;
             known[i] = weight(i);
+        }
     });
     mix(known, prior_lamp_weights_, lamp_weights_);
 }

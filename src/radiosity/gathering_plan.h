@@ -56,7 +56,7 @@ class GatheringPlan {
     void weigh(const ExchangeMatrix& factors, std::span<const Vec3> light, const Workers& workers);
 
     /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`:
-    /// of each patch, times its area, in any unit.
+    /// of each patch, times its area, in any unit; negative: it takes none.
     void weigh_lamps(std::span<const double> variance, const Workers& workers);
 
     void save(StateWriter& state) const;

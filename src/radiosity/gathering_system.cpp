@@ -95,8 +95,8 @@ double GatheringSystem::average(std::vector<GatheredLight::Light>& light) const 
 }
 
 /// The light straight from the emitters: by shadow rays, of one set or of all, and from those that
-/// shadow rays do not reach by rays at random. A patch without shadow rays is black: rays at random
-/// tell well enough what it absorbs.
+/// shadow rays do not reach by rays at random. A patch without shadow rays has all from the latter:
+/// it is black, or they are better there.
 std::vector<Vec3> GatheringSystem::straight_light(const ExchangeMatrix& factors,
                                                   const DirectLight& shadow_rays,
                                                   std::optional<std::size_t> set,

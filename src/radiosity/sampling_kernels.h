@@ -35,6 +35,8 @@ struct EmitterArrays {
 /// Spheres that hold several of them.
 struct ClusterArrays {
     const double *centre[3], *radius, *power;
+    const double* area;  ///< mean of its emitters
+    const double* light; ///< mean emission, by power
 };
 struct EmitterReceiver {
     double centre[3], normal[3], corner[4][3], side, radius;
@@ -62,13 +64,13 @@ struct SamplingKernels {
     /// coordinates, lifted to the hemisphere.
     void (*cosine)(std::size_t count, const double* u, const double* v, double* x, double* y,
                    double* z);
-    /// The root of the mean square of what a shadow ray to each emitter may bring, about; 0 where
-    /// it surely brings nothing.
+    /// The root of the mean square of what a shadow ray to each emitter may bring, about, and the
+    /// mean square of what a ray at random brings from it; 0 where they surely bring nothing.
     void (*weigh_emitters)(const EmitterArrays&, std::size_t count, const EmitterReceiver&,
-                           double* weights);
+                           double* weights, double* found);
     /// The same for clusters of emitters: rather too large than too small.
     void (*weigh_clusters)(const ClusterArrays&, std::size_t count, const EmitterReceiver&,
-                           double* weights);
+                           double* weights, double* found);
     /// places[k]: the last place with sums[place] <= at[k], or 0. `size` is a power of two.
     void (*find_places)(const double* sums, std::size_t size, std::size_t count, const double* at,
                         std::uint64_t* places);

@@ -60,6 +60,14 @@ Vec3 power_of(const Model& model, std::span<const Vec3> light) {
     return model.mesh.frame().area_to_world(1.0) * power;
 }
 
+/// Of the centre and the corners of one over the plane of the other.
+double least_height(const Patch& of, const Patch& over) {
+    double least = glm::dot(over.normal, of.centre - over.centre);
+    for (const Vec3& corner : of.shape.corner)
+        least = std::min(least, glm::dot(over.normal, corner - over.centre));
+    return least;
+}
+
 /// With each patch as a facet.
 Scene made_of_patches(const Mesh& mesh) {
     Scene scene;
@@ -94,8 +102,9 @@ TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may brin
         double sum = 0;
         for (std::size_t e = 0; e < patches.size(); ++e) {
             const Patch &to = patches[i], &from = patches[e];
-            const double r = glm::distance(to.centre, from.centre);
-            const double nearest = std::max(r - radius_of(to), 0.0), pi = std::numbers::pi;
+            const double r = glm::distance(to.centre, from.centre), pi = std::numbers::pi;
+            const double nearest =
+                std::max({r - radius_of(to), least_height(from, to), least_height(to, from), 0.0});
             if (e != i && may_see(to, from))
                 expected[e] =
                     mean_of_channels(model.mesh.material(from).emission) * rough_factor(to, from) *
@@ -134,6 +143,40 @@ TEST_CASE("Direct light is unbiased where emitters are drawn by clusters") {
     const Vec3 of_many = power_of(fine, direct_light(fine, 64));
     for (int c = 0; c < 3; ++c)
         CHECK(of_many[c] == Approx(of_one[c]).epsilon(.01));
+}
+
+TEST_CASE("Shadow rays do not pay where many emitters touch a surface") {
+    for (const std::uint32_t strips : {12u, 40u}) { // 144 are weighed one by one, 1600 by clusters
+        const Model model(test::curtain_at_wall(strips));
+        const Model lamp(test::room_with_block());
+        std::vector<std::uint32_t> touched;
+        for (const Model* each : {&model, &lamp}) {
+            std::vector<Patch> emitters;
+            for (const std::uint32_t e : small_emitters(each->mesh))
+                emitters.push_back(each->mesh.patches()[e]);
+            const EmitterChoice choice(each->mesh, emitters);
+            EmitterChoice::Cut cut;
+            for (std::uint32_t i = 0; i < each->mesh.patches().size(); ++i) {
+                choice.weigh(i, cut);
+                if (!cut.pays()) {
+                    CHECK(each == &model);
+                    touched.push_back(i);
+                }
+            }
+        }
+        CAPTURE(strips, touched.size());
+        // Patches of the wall and the floor that the curtain stands on, and perhaps neighbours.
+        CHECK(std::ranges::count(touched, test::wall_behind_curtain) == 1);
+        CHECK(touched.size() < 24);
+        DirectLight light(model.mesh, model.bvh, everything_needed, small_emitters(model.mesh),
+                          {5});
+        Monitor monitor;
+        light.sample_up_to(std::vector<std::uint32_t>(model.mesh.patches().size(), 16), Workers(2),
+                           monitor);
+        for (const std::uint32_t i : touched)
+            CHECK(light.samples(i) == 0);
+        CHECK(light.samples(0) == 16);
+    }
 }
 
 TEST_CASE("A lamp is one emitter however finely its patches divide it") {

@@ -229,6 +229,25 @@ TEST_CASE("Gathering agrees with the matrix and knows its error", "[slow]") {
     }
 }
 
+TEST_CASE("Gathering finds the light of many emitters that touch a wall") {
+    const Model model(test::curtain_at_wall(12));
+    const Solution exact = test::reference(model, .003);
+    double squares = 0, told = 0;
+    constexpr int runs = 4;
+    for (int run = 0; run < runs; ++run) {
+        SolveOptions options;
+        options.seed = 80 + std::uint64_t(run);
+        const Solution s = test::solve(model, gathering(), options, test::steps(4));
+        const double off = true_error(model.mesh, s.radiosity, exact.radiosity).all;
+        squares += off * off / runs;
+        told += estimated_error(model.mesh, s) / runs;
+    }
+    CAPTURE(std::sqrt(squares), told);
+    CHECK(std::sqrt(squares) < .009);
+    CHECK(told / std::sqrt(squares) > .7);
+    CHECK(told / std::sqrt(squares) < 1.5);
+}
+
 TEST_CASE("Gathering closes the balance of energy of closed rooms") {
     for (const Scene& scene : {test::room_with_block(), test::cube_with_lit_floor(3, .99)}) {
         const Model model(scene);

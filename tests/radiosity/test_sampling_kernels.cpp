@@ -214,12 +214,13 @@ TEST_CASE("every instruction set weighs emitters and clusters alike") {
     emitters.side = more(0);
     emitters.light = more(0);
     to.side = to.radius = .1;
-    const ClusterArrays clusters{{more(-.5), more(-.5), more(-.5)}, more(0), more(0)};
+    const ClusterArrays clusters{
+        {more(-.5), more(-.5), more(-.5)}, more(0), more(0), more(0), more(0)};
     const auto weights = [&](InstructionSet set) {
-        std::array<std::vector<double>, 2> result;
+        std::array<std::vector<double>, 4> result;
         result.fill(std::vector<double>(n));
-        sampling_kernels(set).weigh_emitters(emitters, n, to, result[0].data());
-        sampling_kernels(set).weigh_clusters(clusters, n, to, result[1].data());
+        sampling_kernels(set).weigh_emitters(emitters, n, to, result[0].data(), result[1].data());
+        sampling_kernels(set).weigh_clusters(clusters, n, to, result[2].data(), result[3].data());
         return result;
     };
     const auto expected = weights(InstructionSet::baseline);

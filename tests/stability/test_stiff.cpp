@@ -30,18 +30,25 @@ TEST_CASE("Gathering needs no more rays for bright rooms than for dim ones") {
     for (const double rho : {.5, .9, .99, .999, .9999}) {
         const Model model(test::cube_with_lit_floor(6, rho));
         const Solution exact = exact_solution(model);
-        const Solution s = test::solve(model, *find_method("gathering"), {},
-                                       {.steps = {}, .seconds = {}, .error = .008});
-        const auto rays = static_cast<double>(s.rays_energy);
+        double rays = 0, squares = 0;
+        constexpr int runs = 3;
+        for (int run = 0; run < runs; ++run) {
+            SolveOptions options;
+            options.seed = 1 + std::uint64_t(run);
+            const Solution s = test::solve(model, *find_method("gathering"), options,
+                                           {.steps = {}, .seconds = {}, .error = .008});
+            rays += static_cast<double>(s.rays_energy) / runs;
+            squares += std::pow(relative_error(model, s, exact), 2) / runs;
+            for (int c = 0; c < 3; ++c)
+                CHECK(s.energy.absorbed[c] == Approx(s.energy.emitted[c]).epsilon(1e-4));
+        }
         CAPTURE(rho, rays, rays_when_dim);
-        CHECK(relative_error(model, s, exact) < .01);
+        CHECK(std::sqrt(squares) < .01);
         if (rho == .5)
             rays_when_dim = rays;
         CHECK(rays <= 3 * rays_when_dim);
-        for (int c = 0; c < 3; ++c) {
-            CHECK(s.energy.absorbed[c] == Approx(s.energy.emitted[c]).epsilon(1e-4));
+        for (int c = 0; c < 3; ++c)
             CHECK(exact.energy.absorbed[c] == Approx(exact.energy.emitted[c]).epsilon(1e-6));
-        }
     }
 }
 

@@ -142,6 +142,14 @@ Scene room_with_block() {
     return scene;
 }
 
+Scene curtain_at_wall(std::uint32_t n) {
+    Scene scene = box_room(Vec3(0.0), Vec3(1.0), 3,
+                           {{"white", Vec3(.5), Vec3(0.0)}, {"curtain", Vec3(.2), Vec3(10, 8, 5)}},
+                           {0, 0, 0, 0, 0, 0});
+    add_quad(scene, {.5, .35, 0}, {.5, .35, .2}, {.5, .65, .2}, {.5, .65, 0}, n, n, 1);
+    return scene;
+}
+
 Scene open_scene() {
     Scene scene = with_materials({{"ground", Vec3(.5, .5, .4), Vec3(0.0)},
                                   {"block", Vec3(.6, .2, .1), Vec3(0.0)},

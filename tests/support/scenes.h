@@ -31,6 +31,11 @@ void add_quad(Scene& scene, const Vec3& a, const Vec3& b, const Vec3& c, const V
 /// A small room with a lamp, a block and a low wall: occlusion, three different channels.
 [[nodiscard]] Scene room_with_block();
 
+/// A white cube whose back wall a curtain of n x n emitting facets touches: it stands edge-on, in
+/// the middle of the patch `wall_behind_curtain`.
+[[nodiscard]] Scene curtain_at_wall(std::uint32_t n);
+inline constexpr std::uint32_t wall_behind_curtain = 4 * 9 + 4;
+
 /// The same things under the open sky.
 [[nodiscard]] Scene open_scene();
 

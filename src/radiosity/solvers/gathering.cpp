@@ -233,6 +233,8 @@ class GatheringSolver final : public Solver {
         spread.variance += area * glm::dot(rho * rho, squares);
         direct_variance = area * glm::dot(rho * rho, direct_squares);
         spread.direct_variance += direct_variance / light_.generations();
+        if (direct_->samples(i) == 0)
+            direct_variance = -1;
     }
 
     void account() {
