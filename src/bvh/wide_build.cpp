@@ -248,7 +248,7 @@ class Builder {
         const auto least_error = [](const Vec3& e1, const Vec3& e2) { // over all origins
             const Vec3 e = glm::max(glm::abs(e1), glm::abs(e2));
             const double longest = std::max({e.x, e.y, e.z});
-            return 80 * 0x1p-24 * longest * (longest + .15);
+            return error_share * longest * (longest + error_offset);
         };
         constexpr double longest_direction = 1.75, small = .05;
         const bool seen_by_unsure_rays_only =

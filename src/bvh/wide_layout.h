@@ -11,6 +11,10 @@
 
 namespace hemilux::wide {
 
+/// The kernels' error bound (kernels/sieve.h) is the first times E (|A| + E + the second), with E
+/// the largest component of a triangle's edges and A where the ray's origin sees its corner.
+inline constexpr float error_share = 80 * 0x1p-24f, error_offset = 0.15f;
+
 inline constexpr unsigned width = 8;
 inline constexpr std::uint32_t no_facet = 0xffffffffu;
 inline constexpr std::uint32_t flag = 0x80000000u; ///< child: a leaf; slot: second half of a quad

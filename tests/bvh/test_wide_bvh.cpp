@@ -96,6 +96,14 @@ std::vector<Ray> rays_through_both_halves(const Soup& soup, std::size_t each, st
     return rays;
 }
 
+void check_answers(const WideBvh& wide_bvh, const Tracer& referee, const std::vector<Ray>& rays) {
+    const Differences found(wide_bvh, referee, rays);
+    CAPTURE(wide_bvh.kernels());
+    CHECK(found.closest == 0);
+    CHECK(found.count == 0);
+    CHECK(found.occluded == 0);
+}
+
 bool same(const std::optional<Hit>& a, const Struck& b) {
     return a ? a->facet == b.facet && a->front == b.front : b.facet == none;
 }
@@ -163,13 +171,10 @@ void check_soup(const Soup& soup, std::size_t rays, bool hierarchy = true) {
     for (const wide::Kernels* kernels : wide::available_kernels()) {
         const WideBvh wide_bvh(soup.view(), {.hierarchy = hierarchy, .kernels = kernels->name});
         CHECK(wide_bvh.kernels() == kernels->name);
-        const Differences found(wide_bvh, referee, rays_for(soup, rays, 99));
+        CAPTURE(kernels->name, soup.facets.size());
+        check_answers(wide_bvh, referee, rays_for(soup, rays, 99));
         check_streams(wide_bvh, rays_for(soup, rays / 2, 98));
         check_bundles(wide_bvh, soup, rays / 20);
-        CAPTURE(kernels->name, soup.facets.size());
-        CHECK(found.closest == 0);
-        CHECK(found.count == 0);
-        CHECK(found.occluded == 0);
     }
 }
 
@@ -189,10 +194,7 @@ TEST_CASE("Trees too large for the cache, where rays leave their packets, answer
         CAPTURE(kernels->name);
         check_streams(wide_bvh, rays_for(soup, 2000, 98));
         check_bundles(wide_bvh, soup, 300);
-        const Differences found(wide_bvh, referee, rays_for(soup, 100, 97));
-        CHECK(found.closest == 0);
-        CHECK(found.count == 0);
-        CHECK(found.occluded == 0);
+        check_answers(wide_bvh, referee, rays_for(soup, 100, 97));
     }
 }
 
@@ -211,11 +213,7 @@ TEST_CASE("The wide tree and what breaks tracers") {
         for (const wide::Kernels* kernels : wide::available_kernels()) {
             const WideBvh wide_bvh(soup.view(), {.kernels = kernels->name});
             check_streams(wide_bvh, rays);
-            const Differences found(wide_bvh, referee, rays);
-            CAPTURE(kernels->name);
-            CHECK(found.closest == 0);
-            CHECK(found.count == 0);
-            CHECK(found.occluded == 0);
+            check_answers(wide_bvh, referee, rays);
         }
     }
     SECTION("deep trees") {

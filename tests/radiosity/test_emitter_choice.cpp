@@ -40,6 +40,13 @@ struct Sweep {
     }
 };
 
+std::vector<Patch> small_emitting_patches(const Mesh& mesh) {
+    std::vector<Patch> emitters;
+    for (const std::uint32_t e : small_emitters(mesh))
+        emitters.push_back(mesh.patches()[e]);
+    return emitters;
+}
+
 /// What arrives straight from the emitters, by patch.
 std::vector<Vec3> direct_light(const Model& model, std::uint32_t samples) {
     const std::vector<std::uint32_t> emitters = small_emitters(model.mesh);
@@ -124,9 +131,7 @@ TEST_CASE("Direct light is unbiased where emitters are drawn by clusters") {
     const Model whole(scene), divided(scene, {.max_edge = .018});
     const Model fine(made_of_patches(divided.mesh)); // the lamp in 1156
     const std::size_t n = fine.mesh.patches().size();
-    std::vector<Patch> emitters;
-    for (const std::uint32_t e : small_emitters(fine.mesh))
-        emitters.push_back(fine.mesh.patches()[e]);
+    const std::vector<Patch> emitters = small_emitting_patches(fine.mesh);
     REQUIRE(emitters.size() > 1024);
     const EmitterChoice choice(fine.mesh, emitters);
     EmitterChoice::Cut cut;
@@ -146,14 +151,12 @@ TEST_CASE("Direct light is unbiased where emitters are drawn by clusters") {
 }
 
 TEST_CASE("Shadow rays do not pay where many emitters touch a surface") {
+    const Model lamp(test::room_with_block());
     for (const std::uint32_t strips : {12u, 40u}) { // 144 are weighed one by one, 1600 by clusters
         const Model model(test::curtain_at_wall(strips));
-        const Model lamp(test::room_with_block());
         std::vector<std::uint32_t> touched;
         for (const Model* each : {&model, &lamp}) {
-            std::vector<Patch> emitters;
-            for (const std::uint32_t e : small_emitters(each->mesh))
-                emitters.push_back(each->mesh.patches()[e]);
+            const std::vector<Patch> emitters = small_emitting_patches(each->mesh);
             const EmitterChoice choice(each->mesh, emitters);
             EmitterChoice::Cut cut;
             for (std::uint32_t i = 0; i < each->mesh.patches().size(); ++i) {
@@ -165,7 +168,7 @@ TEST_CASE("Shadow rays do not pay where many emitters touch a surface") {
             }
         }
         CAPTURE(strips, touched.size());
-        // Patches of the wall and the floor that the curtain stands on, and perhaps neighbours.
+        // The patch of the wall that the curtain touches, and perhaps neighbours.
         CHECK(std::ranges::count(touched, test::wall_behind_curtain) == 1);
         CHECK(touched.size() < 24);
         DirectLight light(model.mesh, model.bvh, everything_needed, small_emitters(model.mesh),

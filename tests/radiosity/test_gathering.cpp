@@ -40,6 +40,19 @@ std::vector<RayCounts> traced(const Model& model, std::size_t sets, std::uint32_
     return result;
 }
 
+/// Relative errors of one run: the true one, and as it is told.
+struct RunErrors {
+    double off, told;
+
+    RunErrors(const Model& model, const Solution& exact, std::uint64_t seed, std::uint32_t steps) {
+        SolveOptions options;
+        options.seed = seed;
+        const Solution s = test::solve(model, gathering(), options, test::steps(steps));
+        off = true_error(model.mesh, s.radiosity, exact.radiosity).all;
+        told = estimated_error(model.mesh, s);
+    }
+};
+
 } // namespace
 
 TEST_CASE("Exchange between patches is symmetric, and each row closed") {
@@ -215,14 +228,10 @@ TEST_CASE("Gathering agrees with the matrix and knows its error", "[slow]") {
         double log_ratio = 0;
         constexpr int runs = 6;
         for (int run = 0; run < runs; ++run) {
-            SolveOptions options;
-            options.seed = 70 + std::uint64_t(run);
-            const Solution s = test::solve(model, gathering(), options, test::steps(5));
-            const double off = true_error(model.mesh, s.radiosity, exact.radiosity).all;
-            CHECK(off < .02);
-            log_ratio += std::log(std::hypot(estimated_error(model.mesh, s), .0015) /
-                                  std::hypot(off, 1e-9)) /
-                         runs;
+            const RunErrors error(model, exact, 70 + std::uint64_t(run), 5);
+            CHECK(error.off < .02);
+            log_ratio +=
+                std::log(std::hypot(error.told, .0015) / std::hypot(error.off, 1e-9)) / runs;
         }
         CAPTURE(std::exp(log_ratio));
         CHECK(std::exp(log_ratio) > .8);
@@ -235,12 +244,9 @@ TEST_CASE("Gathering finds the light of many emitters that touch a wall") {
     double squares = 0, told = 0;
     constexpr int runs = 4;
     for (int run = 0; run < runs; ++run) {
-        SolveOptions options;
-        options.seed = 80 + std::uint64_t(run);
-        const Solution s = test::solve(model, gathering(), options, test::steps(4));
-        const double off = true_error(model.mesh, s.radiosity, exact.radiosity).all;
-        squares += off * off / runs;
-        told += estimated_error(model.mesh, s) / runs;
+        const RunErrors error(model, exact, 80 + std::uint64_t(run), 4);
+        squares += error.off * error.off / runs;
+        told += error.told / runs;
     }
     CAPTURE(std::sqrt(squares), told);
     CHECK(std::sqrt(squares) < .009);

@@ -220,8 +220,8 @@ TEST_CASE("Whatever overlaps is laid apart, each side to its front") {
     Scene scene = empty_scene();
     for (int k = 0; k < 400; ++k) {
         std::array<double, 5> u; // in this order, whatever the compiler
-        for (double& each : u)
-            each = rng.uniform();
+        for (std::size_t i = u.size(); i-- > 0;)
+            u[i] = rng.uniform();
         add_square(scene, 4 * u[0], 4 * u[1], .1 + .9 * u[2], static_cast<std::uint32_t>(3 * u[3]),
                    u[4] < .7);
     }
@@ -240,7 +240,7 @@ TEST_CASE("Whatever overlaps is laid apart, each side to its front") {
             CHECK(lifts[a] != lifts[b]);
     }
     CHECK(*std::ranges::max_element(lifts) < 40);
-    CHECK(std::ranges::count(lifts, 0) > 10); // what lies lowest, and what lies alone
+    CHECK(std::ranges::count(lifts, 0) > 20); // what lies lowest, and what lies alone
 }
 
 TEST_CASE("More slivers over each other than can be compared are told of") {

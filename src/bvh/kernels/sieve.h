@@ -42,7 +42,7 @@ inline V max_abs(V3<V> a) {
 /// 2^-24 E (78 |A| + 63 E + 11) with E the largest edge component and |A| the sum of components.
 template <class V>
 inline V error_bound(V3<V> a, V e) {
-    return V::splat(80 * 0x1p-24f) * e * (sum_abs(a) + e + V::splat(0.15f));
+    return V::splat(error_share) * e * (sum_abs(a) + e + V::splat(error_offset));
 }
 
 /// What is known of the lanes of one test.
