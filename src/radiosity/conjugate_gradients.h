@@ -14,7 +14,9 @@
 namespace hemilux {
 
 struct GradientOptions {
-    double tolerance = 1e-9; ///< of the residual relative to d, channel by channel
+    /// Of the residual relative to the light at the same patch, channel by channel: root mean square
+    /// over the area that is lit. So a faint room beside a bright one is solved to its own scale.
+    double tolerance = 1e-9;
     int most = 1000;         ///< iterations
     const std::atomic<bool>* interrupted = nullptr; ///< ends them; h is void then
 };

@@ -21,9 +21,6 @@ namespace {
 
 constexpr std::size_t patches_per_chunk = 8;
 
-/// Emitters that together are more than this share of all surface are found by rays at random.
-constexpr double largest_share = .3;
-
 /// An emitter is near to points within so many of its radii, from its centre.
 constexpr double near_radii = 4;
 
@@ -40,41 +37,7 @@ std::vector<Patch> whole_sides(const Mesh& mesh, std::span<const std::uint32_t> 
     return sides;
 }
 
-double power_of(const Mesh& mesh, std::uint32_t patch) {
-    return mesh.patches()[patch].area * mean_of_channels(mesh.material(patch).emission);
-}
-
 } // namespace
-
-std::vector<std::uint32_t> small_emitters(const Mesh& mesh) {
-    std::vector<std::uint32_t> emitters;
-    double total = 0;
-    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
-        total += mesh.patches()[i].area;
-        if (power_of(mesh, i) > 0)
-            emitters.push_back(i);
-    }
-    // The brightest are worth most as long as all stay small.
-    std::ranges::stable_sort(emitters, std::ranges::greater{}, [&](std::uint32_t i) {
-        return mean_of_channels(mesh.material(i).emission);
-    });
-    double area = 0;
-    std::size_t kept = 0;
-    while (kept < emitters.size() &&
-           (area += mesh.patches()[emitters[kept]].area) <= largest_share * total)
-        ++kept;
-    // Patches of one brightness are all in or all out, whatever their order.
-    if (kept < emitters.size()) {
-        const auto brightness = [&](std::size_t k) {
-            return mean_of_channels(mesh.material(emitters[k]).emission);
-        };
-        while (kept > 0 && brightness(kept - 1) == brightness(kept))
-            --kept;
-        emitters.resize(kept);
-    }
-    std::ranges::sort(emitters);
-    return emitters;
-}
 
 /// Samples whose rays are not traced yet, the first `size` of each array.
 struct DirectLight::Volley {
@@ -100,7 +63,7 @@ DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& ne
     : mesh_(mesh), tracer_(tracer), needs_(needs), emitters_(whole_sides(mesh, emitters)),
       choice_(mesh, emitters_), seeds_(std::move(seeds)),
       sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)), samples_(mesh.patches().size()),
-      hits_(mesh.patches().size()) {
+      hits_(mesh.patches().size()), blocked_(mesh.patches().size()) {
     for (const Patch& emitter : emitters_)
         lamps_.push_back(
             {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});
@@ -181,24 +144,29 @@ void DirectLight::send(Volley& volley) {
     } else {
         std::ranges::fill(blocked, std::uint8_t{0});
     }
-    for (std::size_t k = 0; k < size; ++k)
-        if (!blocked[k]) {
-            const auto& [patch, estimate, light] = volley.samples[k];
+    for (std::size_t k = 0; k < size; ++k) {
+        const auto& [patch, estimate, light] = volley.samples[k];
+        if (blocked[k]) {
+            blocked_[patch] += mean_of_channels(light);
+        } else {
             sum_[patch * seeds_.size() + estimate] += light;
             ++hits_[patch];
         }
+    }
 }
 
 void DirectLight::save(StateWriter& state) const {
     state.add(std::span<const Vec3>(sum_));
     state.add(std::span<const std::uint32_t>(samples_));
     state.add(std::span<const std::uint32_t>(hits_));
+    state.add(std::span<const double>(blocked_));
 }
 
 void DirectLight::load(StateReader& state) {
     state.get(std::span(sum_));
     state.get(std::span(samples_));
     state.get(std::span(hits_));
+    state.get(std::span(blocked_));
 }
 
 } // namespace hemilux

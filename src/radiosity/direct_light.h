@@ -26,10 +26,6 @@ class StateReader;
 class StateWriter;
 struct Monitor;
 
-/// Patches that emit and are better reached by shadow rays than by rays at random: those that are
-/// few or small, so that they fill little of what others see. The rest is left to rays at random.
-[[nodiscard]] std::vector<std::uint32_t> small_emitters(const Mesh& mesh);
-
 /// Several estimates at once, independent of each other.
 class DirectLight {
   public:
@@ -57,8 +53,15 @@ class DirectLight {
     [[nodiscard]] std::uint32_t samples(std::uint32_t patch) const { return samples_[patch]; }
     /// Samples of this patch that brought light.
     [[nodiscard]] std::uint32_t hits(std::uint32_t patch) const { return hits_[patch]; }
+    /// What the samples of this patch that were blocked would have brought, as if they made up the
+    /// irradiance together with the others [W/m2, mean of channels].
+    [[nodiscard]] double blocked(std::uint32_t patch) const {
+        const std::uint32_t n = samples_[patch];
+        return n > 0 ? blocked_[patch] / (static_cast<double>(n) * double(seeds_.size())) : 0;
+    }
     [[nodiscard]] std::uint64_t bytes() const {
-        return sum_.size() * sizeof(Vec3) + 2 * samples_.size() * sizeof(std::uint32_t);
+        return sum_.size() * sizeof(Vec3) +
+               samples_.size() * (2 * sizeof(std::uint32_t) + sizeof(double));
     }
 
     void save(StateWriter& state) const;
@@ -90,6 +93,7 @@ class DirectLight {
     std::vector<std::uint64_t> seeds_;
     std::vector<Vec3> sum_; ///< by patch and estimate
     std::vector<std::uint32_t> samples_, hits_;
+    std::vector<double> blocked_; ///< sum over the samples of a patch
     std::vector<Emitter> lamps_;
 };
 

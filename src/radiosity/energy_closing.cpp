@@ -9,13 +9,13 @@
 namespace hemilux {
 namespace {
 
-/// The share of the emitted power within which it must be known how much is lost.
+/// The share of the power that is used within which it must be known how much is lost.
 constexpr double surely_lost = 1e-3;
 
 using Sum = CompensatedSum<Vec3>;
 
 /// What becomes of some of the light, by rays.
-struct Fate {
+struct Ledger {
     Sum sent, escaped, left_behind; ///< left_behind: fell on backs of faces
 
     void add(const Vec3& power, const LostShare& lost) {
@@ -28,84 +28,128 @@ struct Fate {
 
 double lost_in_all(const LostShare& lost) { return lost.escaped + lost.absorbed; }
 
-/// Variance of what is lost of the light that leaves a patch.
-Vec3 uncertainty(const Vec3& leaving, const LostShare& share, double rays) {
-    const double lost = lost_in_all(share);
-    return leaving * leaving * (lost * (1 - lost) / rays);
+/// Of a share of which `count` of `rays` were counted, before which all shares were alike: that of
+/// the Beta distribution with count + 1 and rays - count + 1.
+double variance_of_share(double count, double rays) {
+    const double all = rays + 2;
+    return (count + 1) * (rays - count + 1) / (all * all * (all + 1));
+}
+
+/// The share of all rays that are lost, as if one more of them had been.
+double usual_loss(const Transport& t) {
+    double lost = 1, rays = 2;
+    for (std::size_t i = 0; i < t.rays.size(); ++i) {
+        lost += t.rays[i] * lost_in_all(t.lost[i]);
+        rays += t.rays[i];
+    }
+    return lost / rays;
 }
 
 /// Sums over all patches.
 struct Flows {
-    Fate emitted, reflected;
+    Ledger emitted, reflected;
     Sum absorbed;
-    Vec3 uncertain = Vec3(0.0); ///< variance of what is lost
 
     Flows(const Transport& t, std::span<const Vec3> incident) {
         for (std::size_t i = 0; i < incident.size(); ++i) {
             const Vec3 emission = t.area[i] * t.emission[i], here = t.area[i] * incident[i];
-            const Vec3 reflection = t.reflectance[i] * here;
             if (emission != Vec3(0.0))
                 emitted.add(emission, t.lost[i]);
-            reflected.add(reflection, t.lost[i]);
+            reflected.add(t.reflectance[i] * here, t.lost[i]);
             absorbed += (1.0 - t.reflectance[i]) * here;
-            if (t.rays[i] > 0)
-                uncertain += uncertainty(emission + reflection, t.lost[i], t.rays[i]);
         }
     }
 };
 
+/// Variance of the power that is lost, where each patch counted as if one ray more had met what
+/// rays meet on average.
+Vec3 variance_of_losses(const Transport& t, std::span<const Vec3> incident) {
+    const double usual = usual_loss(t);
+    Vec3 variance(0.0);
+    for (std::size_t i = 0; i < incident.size() && !t.closed; ++i) {
+        if (!(t.rays[i] > 0))
+            continue;
+        const Vec3 leaving = t.area[i] * (t.emission[i] + t.reflectance[i] * incident[i]);
+        const double share = (t.rays[i] * lost_in_all(t.lost[i]) + usual) / (t.rays[i] + 1);
+        variance += leaving * leaving * (share * (1 - share) / t.rays[i]);
+    }
+    return variance;
+}
+
 /// In one channel, that all which was emitted and not lost is absorbed, or reflected and lost.
-double scale_of(const Flows& flows, int c) {
+double scale_of(const Flows& flows, double variance, int c) {
     const double absorbed = flows.absorbed.value()[c], emitted = flows.emitted.sent.value()[c];
     const double used = absorbed + flows.reflected.lost(c);
     if (!(used > 0))
         return 1;
     // Nothing may arrive that was not sent.
-    const bool sure = std::sqrt(flows.uncertain[c]) < surely_lost * emitted;
+    const bool sure = std::sqrt(variance) < surely_lost * std::min(emitted, used);
     return sure || emitted < absorbed ? (emitted - flows.emitted.lost(c)) / used : 1;
 }
 
 } // namespace
 
-void scale_direct_light(const Transport& t, std::span<Vec3> direct) {
-    Fate emitted;
-    Sum arrived;
-    Vec3 uncertain(0.0);
+Vec3 power_arriving(const Transport& t, std::span<const Vec3> direct) {
+    Sum power;
+    for (std::size_t i = 0; i < direct.size(); ++i)
+        power += t.area[i] * direct[i];
+    return power.value();
+}
+
+void scale_direct_light(const Transport& t, const Vec3& variance, std::span<Vec3> direct) {
+    Ledger emitted;
+    Vec3 variance_of_lost(0.0);
     for (std::size_t i = 0; i < direct.size(); ++i) {
-        arrived += t.area[i] * direct[i];
         const Vec3 power = t.area[i] * t.emission[i];
         if (power == Vec3(0.0))
             continue;
         emitted.add(power, t.lost[i]);
-        uncertain += uncertainty(power, t.lost[i], std::max(t.rays[i], 1.0));
+        if (!t.closed)
+            variance_of_lost +=
+                power * power * variance_of_share(t.rays[i] * lost_in_all(t.lost[i]), t.rays[i]);
     }
+    const Vec3 arriving = power_arriving(t, direct);
+    Vec3 scale(1.0);
     for (int c = 0; c < 3; ++c) {
-        const double sent = emitted.sent.value()[c], there = arrived.value()[c];
-        if (there > 0 && std::sqrt(uncertain[c]) < surely_lost * sent)
-            for (Vec3& incident : direct)
-                incident[c] *= (sent - emitted.lost(c)) / there;
+        const double both = variance[c] + variance_of_lost[c];
+        if (!(arriving[c] > 0))
+            continue;
+        const double sent = emitted.sent.value()[c];
+        const double share = both > 0 ? variance[c] / both : 0;
+        const double known = sent - emitted.lost(c);
+        const double power = arriving[c] + share * (known - arriving[c]);
+        scale[c] = std::min(power, sent) / arriving[c];
     }
+    for (Vec3& incident : direct)
+        incident *= scale;
+}
+
+EnergyBalance balance_energy(const Transport& transport, std::span<const Vec3> incident) {
+    const Flows flows(transport, incident);
+    EnergyBalance energy;
+    energy.emitted = flows.emitted.sent.value();
+    energy.absorbed = flows.absorbed.value();
+    for (int c = 0; c < 3; ++c) {
+        const double escaped = flows.emitted.escaped.value()[c] + flows.reflected.escaped.value()[c];
+        const double by_rays = flows.emitted.lost(c) + flows.reflected.lost(c);
+        // Where light finds no end the balance stays open, see is_drained.
+        const bool ends = by_rays > 0 || energy.absorbed[c] > energy.emitted[c] / 2;
+        const double lost = ends ? energy.emitted[c] - energy.absorbed[c] : 0;
+        energy.escaped[c] = by_rays > 0 ? escaped / by_rays * lost : 0;
+        energy.absorbed[c] += lost - energy.escaped[c];
+    }
+    return energy;
 }
 
 EnergyBalance close_energy(const Transport& transport, std::span<Vec3> incident) {
     const Flows flows(transport, incident);
-    const Vec3 scale(scale_of(flows, 0), scale_of(flows, 1), scale_of(flows, 2));
+    const Vec3 variance = variance_of_losses(transport, incident);
+    Vec3 scale;
+    for (int c = 0; c < 3; ++c)
+        scale[c] = scale_of(flows, variance[c], c);
     for (Vec3& arriving : incident)
         arriving *= scale;
-    EnergyBalance energy;
-    energy.emitted = flows.emitted.sent.value();
-    energy.absorbed = scale * flows.absorbed.value();
-    energy.escaped = flows.emitted.escaped.value() + scale * flows.reflected.escaped.value();
-    for (int c = 0; c < 3; ++c) {
-        const double by_rays = flows.emitted.lost(c) + scale[c] * flows.reflected.lost(c);
-        // What is emitted is absorbed in the end or lost on the way.
-        const double lost =
-            scale[c] == 1 && by_rays > 0 ? energy.emitted[c] - energy.absorbed[c] : by_rays;
-        const double share = by_rays > 0 ? energy.escaped[c] / by_rays : 0;
-        energy.escaped[c] = share * lost;
-        energy.absorbed[c] += (1 - share) * lost;
-    }
-    return energy;
+    return balance_energy(transport, incident);
 }
 
 void require_more_rays(bool may_have_more) {

@@ -1,11 +1,9 @@
 #pragma once
-// The balance of energy of a solution by stored or explicit transport, and its closing.
+// The energy ledger of a solution by stored or explicit transport: emitted = absorbed + escaped.
 //
-// The factors of such a solution come from counts, so that patches may receive a little more or
-// less than was sent. Where it is well known how much is lost, all light that arrives is scaled by
-// the one number that makes emitted = absorbed + escaped: in bright rooms an error of the whole is
-// nearly all of the error. Else the light as it is tells more than the count of rays that were
-// lost: what left and did not arrive was lost.
+// Counts of rays tell how much of the light of a patch is lost: leaves the scene, or falls on backs
+// of faces. A share that was counted as none or as all is not known for certain; its variance is
+// that of a Beta distribution that has seen the counts (Laplace's rule of succession), never 0.
 
 #include "radiosity/ray_counts.h"
 #include "radiosity/sampled_form_factors.h"
@@ -21,15 +19,27 @@ struct Transport {
     std::span<const Vec3> emission, reflectance;
     std::span<const LostShare> lost;
     std::span<const double> rays; ///< that the lost share was found with; 0 where there were none
+    bool closed = false;          ///< no ray can be lost, as the geometry proves
 };
 
-/// `direct` [W/m2 arriving] comes straight from emitters. All of it is what they sent less what was
-/// lost; it is scaled to that where it is well known. In bright rooms an error of it would be the
-/// error of the whole solution.
-void scale_direct_light(const Transport& transport, std::span<Vec3> direct);
+/// `direct` [W/m2 arriving] comes straight from emitters. Its sum over all patches is known twice:
+/// from `direct` itself, whose power has the `variance` [power^2, by channel], and as what the
+/// emitters sent less what was lost of it. The light is scaled to the mean of both, each weighted
+/// by the inverse of its variance, and never to more than was sent. So light that arrived is not
+/// discarded because the few rays of an emitter all missed.
+void scale_direct_light(const Transport& transport, const Vec3& variance, std::span<Vec3> direct);
 
-/// `incident` [W/m2 arriving] is what was solved for, B = E + rho incident; it may be scaled.
-/// Powers in units of area times incident.
+/// Power of `direct` over all patches [area times W/m2].
+[[nodiscard]] Vec3 power_arriving(const Transport& transport, std::span<const Vec3> direct);
+
+/// What becomes of `incident` [W/m2 arriving], B = E + rho incident: what was emitted and not
+/// absorbed was lost. Powers in units of area times incident.
+[[nodiscard]] EnergyBalance balance_energy(const Transport& transport,
+                                           std::span<const Vec3> incident);
+
+/// The same for factors that may make or lose energy, as those of `matrix`: where it is well known
+/// how much is lost, compared with what is absorbed, `incident` is first scaled so that emitted =
+/// absorbed + escaped.
 [[nodiscard]] EnergyBalance close_energy(const Transport& transport, std::span<Vec3> incident);
 
 /// Whether light comes to an end at all. Where reflectances are 1 few rays may have found no way

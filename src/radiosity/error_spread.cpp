@@ -35,6 +35,11 @@ double ErrorSpread::bound() const {
     return 1 + quantile_95 * std::sqrt((1 + 1 / freedom) / (2 * parts));
 }
 
+double ErrorSpread::reported() const {
+    constexpr double tolerance = 1.5;
+    return std::max(1.0, bound() / tolerance);
+}
+
 ErrorSpread error_spread(const Mesh& mesh, const Solution& solution) {
     const double samples = solution.error_samples > 0 ? solution.error_samples : solution.steps;
     if (!(samples > 1)) {

@@ -54,6 +54,8 @@ class ExchangeMatrix {
     }
     static constexpr std::size_t rows_per_chunk = SparseRows::rows_per_chunk;
 
+    /// What patch i exchanges with others; a value is S before it is scaled.
+    [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const { return rows_.row(i); }
     /// By patch.
     [[nodiscard]] std::span<const LostShare> lost() const { return lost_; }
     /// Those that the patch shot itself.

@@ -19,6 +19,8 @@ class GatheredLight {
     GatheredLight(std::size_t sets, std::size_t patches)
         : sets_(sets), solved_(sets + 1, Light(patches)) {}
 
+    [[nodiscard]] std::size_t sets() const { return sets_; }
+
     /// Of one set.
     struct Light {
         explicit Light(std::size_t patches) : incident(patches, Vec3(0.0)) {}

@@ -1,5 +1,6 @@
 #include "radiosity/gathering_plan.h"
 
+#include "radiosity/alike_neighbours.h"
 #include "radiosity/mesh.h"
 #include "radiosity/ray_deal.h"
 #include "radiosity/state.h"
@@ -14,16 +15,14 @@ namespace {
 /// Rays per patch at which the run ends whatever the error.
 constexpr double most_rays = 1u << 20;
 
-constexpr std::size_t patches_per_chunk = 512;
-
 /// Errors of well-distributed points fall about as rays^-.7, their squares so:
-constexpr double fall = 1.4;
+constexpr double fall = 1.5;
 
 /// Of all rays in a step towards an error: more at once would trust the first few rays too much.
 constexpr double most_growth = 4;
 
 /// The part of an error asked for that a step is to reach, so that the run seldom takes one more.
-constexpr double aim_below = .95;
+constexpr double aim_below = 1;
 
 /// The share of the weights that is measured; and what a patch's area counts.
 constexpr double trust = .5, area_exponent = .42;
@@ -35,7 +34,7 @@ constexpr double least_reflectance = .1;
 
 GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps,
                              const Pace& pace)
-    : pace_(pace) {
+    : mesh_(mesh), pace_(pace) {
     const auto patches = mesh.patches();
     first_.random = std::clamp(random, 1.0, most_rays);
     first_.to_lamps = to_lamps > 0 ? first_.random : 0;
@@ -110,13 +109,25 @@ double GatheringPlan::predicted(const KnownError& known) const {
 
 bool GatheringPlan::at_most() const { return std::max(now_.random, now_.to_lamps) >= most_rays; }
 
+/// The mean over its neighbours; of the patch itself where it has none.
+double GatheringPlan::of_neighbours(std::uint32_t patch, std::span<const double> known) const {
+    double sum = 0, count = 0;
+    for_alike_neighbours(mesh_, patch, [&](std::uint32_t j) {
+        sum += known[j];
+        ++count;
+    });
+    return count > 0 ? sum / count : known[patch];
+}
+
 /// What is known counts as much as what was thought before; both have the same sum.
 void GatheringPlan::mix(std::span<const double> known, std::span<const double> prior,
                         std::vector<double>& weights) {
     const double sum = std::accumulate(known.begin(), known.end(), 0.0);
     const double prior_sum = std::accumulate(prior.begin(), prior.end(), 0.0);
-    if (!(sum > 0))
+    if (!(sum > 0)) {
+        weights.assign(prior.begin(), prior.end());
         return;
+    }
     for (std::size_t i = 0; i < weights.size(); ++i)
         weights[i] = trust * known[i] * prior_sum / sum + (1 - trust) * prior[i];
 }
@@ -124,44 +135,31 @@ void GatheringPlan::mix(std::span<const double> known, std::span<const double> p
 /// A ray is worth most where it takes most from the error. A patch counts by its area and its
 /// reflectance, and the variance of random rays is the spread of the light that comes from all
 /// sides, as far as it is known; half of the weight does not trust that.
-void GatheringPlan::weigh(const ExchangeMatrix& factors, std::span<const Vec3> light,
-                          const Workers& workers) {
-    const std::size_t n = light.size();
-    std::vector<Lanes> once(n), squared(n);
-    workers.for_chunks(n, patches_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            once[i] = factors.scaled(i, light[i]);
-            squared[i] = factors.scaled(i, light[i] * light[i]);
-        }
-    });
-    std::vector<double> known(n);
-    factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const Vec3 mean = factors.row_times(i, once);
-            const Vec3 variance = glm::max(factors.row_times(i, squared) - mean * mean, 0.0);
-            known[i] = prior_weights_[i] *
-                       std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance));
-        }
-    });
-    mix(known, prior_weights_, weights_);
+void GatheringPlan::weigh(std::span<const Vec3> variance, const std::vector<bool>& lit) {
+    std::vector<double> known(variance.size()), prior = prior_weights_;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        if (!lit[i])
+            prior[i] = 0;
+        known[i] =
+            prior[i] * std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance[i]));
+    }
+    std::vector<double> smooth(known.size());
+    for (std::uint32_t i = 0; i < known.size(); ++i)
+        smooth[i] = prior[i] > 0 ? of_neighbours(i, known) : 0;
+    mix(smooth, prior, weights_);
 }
 
 /// With a variance that falls as v n^-fall, the sum over patches is least for n as
 /// v^(1 / (1 + fall)), v being what one ray alone would leave.
-void GatheringPlan::weigh_lamps(std::span<const double> variance, const Workers& workers) {
+void GatheringPlan::weigh_lamps(std::span<const double> variance) {
     std::vector<double> known(variance.size());
-    const auto weight = [&](std::size_t i) {
-        return prior_lamp_weights_[i] > 0
-                   ? std::pow(variance[i] * std::pow(now_.rays.to_lamps[i], fall), 1 / (1 + fall))
-                   : 0;
-    };
-    workers.for_chunks(known.size(), patches_per_chunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            if (variance[i] < 0)
-                prior_lamp_weights_[i] = 0;
-            known[i] = weight(i);
-        }
-    });
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        if (variance[i] < 0)
+            prior_lamp_weights_[i] = 0;
+        if (prior_lamp_weights_[i] > 0)
+            known[i] =
+                std::pow(variance[i] * std::pow(now_.rays.to_lamps[i], fall), 1 / (1 + fall));
+    }
     mix(known, prior_lamp_weights_, lamp_weights_);
 }
 

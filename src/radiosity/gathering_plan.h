@@ -1,8 +1,9 @@
 #pragma once
 // How many rays gathering is to trace next, of which kind, and from which patches.
 
-#include "radiosity/exchange_matrix.h"
+#include "geometry/vector.h"
 #include "radiosity/needs.h"
+#include "radiosity/workers.h"
 
 #include <cstdint>
 #include <span>
@@ -37,7 +38,8 @@ struct KnownError {
 
 class GatheringPlan {
   public:
-    /// The first step's means, of one set; no `to_lamps`: there are no lamps to be reached.
+    /// The first step's means, of one set; no `to_lamps`: there are no lamps to be reached. The mesh
+    /// outlives this.
     GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps,
                   const Pace& pace);
 
@@ -51,13 +53,17 @@ class GatheringPlan {
     [[nodiscard]] const GatheringRays& rays() const { return now_.rays; }
     [[nodiscard]] bool at_most() const;
 
-    /// From now on more to patches to which light comes that is uneven. `light` leaves patches for
-    /// random rays to find [W/m2].
-    void weigh(const ExchangeMatrix& factors, std::span<const Vec3> light, const Workers& workers);
+    /// From now on more to patches to which light comes that is uneven; none to those that no light
+    /// reaches (`lit`), as far as all rays know. `variance`: of the light over the directions of
+    /// each patch, by channel.
+    ///
+    /// How many rays a patch gets must not depend on what its own rays have found: where they missed
+    /// something rare, their variance is too small, fewer rays would follow, and the mean of all
+    /// would stay wrong. So a patch is judged by its neighbours.
+    void weigh(std::span<const Vec3> variance, const std::vector<bool>& lit);
 
-    /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`:
-    /// of each patch, times its area, in any unit; negative: it takes none.
-    void weigh_lamps(std::span<const double> variance, const Workers& workers);
+    /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`: of each patch, times its area, in any unit; negative: it takes none.
+    void weigh_lamps(std::span<const double> variance);
 
     void save(StateWriter& state) const;
     /// Of a plan made with the same arguments. Throws StateError for what save() cannot have
@@ -69,12 +75,14 @@ class GatheringPlan {
         double random = 0, to_lamps = 0; ///< means
         GatheringRays rays;
     };
+    [[nodiscard]] double of_neighbours(std::uint32_t patch, std::span<const double> known) const;
     static void mix(std::span<const double> known, std::span<const double> prior,
                     std::vector<double>& weights);
     void choose(const KnownError& known);
     void split(double rays, const KnownError& known);
     [[nodiscard]] double predicted(const KnownError& known) const;
 
+    const Mesh& mesh_;
     Pace pace_;
     Stage first_, before_, now_;
     std::vector<Vec3> reflectance_;

@@ -1,7 +1,6 @@
 #include "radiosity/gathering_system.h"
 
 #include "radiosity/conjugate_gradients.h"
-#include "radiosity/energy_closing.h"
 #include "radiosity/mesh.h"
 
 #include <algorithm>
@@ -19,10 +18,22 @@ constexpr double left_of_sets = .1, left_of_all = 1e-3;
 /// sets never more.
 constexpr double least_residual = 1e-10, first_residual = 1e-3;
 
+/// Of one of them.
+Vec3 sample_variance(std::span<const Vec3> values) {
+    const auto n = static_cast<double>(values.size());
+    Vec3 mean(0.0), squares(0.0);
+    for (const Vec3& value : values)
+        mean += value / n;
+    for (const Vec3& value : values)
+        squares += (value - mean) * (value - mean);
+    return squares / (n - 1);
+}
+
 } // namespace
 
-GatheringSystem::GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps)
-    : mesh_(mesh) {
+GatheringSystem::GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps,
+                                 bool closed)
+    : mesh_(mesh), closed_(closed) {
     const auto patches = mesh.patches();
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
         const Material& material = mesh.material(i);
@@ -44,35 +55,45 @@ ExchangeMatrix GatheringSystem::solve(const Rays& rays, std::optional<double> er
                                       const std::atomic<bool>& interrupted) const {
     const std::size_t sets = rays.counts.size();
     std::vector<ExchangeMatrix> parts(sets);
+    std::vector<Direct> direct(sets);
+    std::vector<Vec3> power(sets);
+    const Workers alone(1);
+    workers.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
+        parts[set] = ExchangeMatrix(mesh_, rays.counts[set]);
+        direct[set].light = straight_light(parts[set], rays.direct, set, alone);
+        power[set] = power_arriving(transport(parts[set]), direct[set].light);
+    });
+    const Vec3 variance = sample_variance(power);
     std::vector<GatheredLight::Light> found = light;
     const double residual =
         error ? std::clamp(left_of_sets * *error, least_residual, first_residual) : first_residual;
     workers.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
-        const Workers alone(1);
-        parts[set] = ExchangeMatrix(mesh_, rays.counts[set]);
-        solve(parts[set], straight_light(parts[set], rays.direct, set, alone), found[set], alone,
-              residual, interrupted);
+        direct[set].variance = variance;
+        solve(parts[set], std::move(direct[set]), found[set], alone, residual, interrupted);
     });
     ExchangeMatrix all(std::move(parts), workers);
     // What a residual makes of the light is no larger than its sum over all reflections.
     const double worth = left_of_all * average(found) * lost_at_least_;
-    solve(all, straight_light(all, rays.direct, std::nullopt, workers), found[sets], workers,
-          std::max(worth, least_residual), interrupted);
+    solve(all,
+          {straight_light(all, rays.direct, std::nullopt, workers), variance / double(sets)},
+          found[sets], workers, std::max(worth, least_residual), interrupted);
     if (!interrupted)
         light = std::move(found);
     return all;
 }
 
-/// What arrives at each patch in the end, from what `light` holds on; `direct` comes straight from
-/// the emitters.
-void GatheringSystem::solve(const ExchangeMatrix& factors, std::vector<Vec3> direct,
+Transport GatheringSystem::transport(const ExchangeMatrix& factors) const {
+    return {area_, emission_, reflectance_, factors.lost(), factors.rays(), closed_};
+}
+
+/// What arrives at each patch in the end, from what `light` holds on.
+void GatheringSystem::solve(const ExchangeMatrix& factors, Direct direct,
                             GatheredLight::Light& light, const Workers& workers, double residual,
                             const std::atomic<bool>& interrupted) const {
-    const Transport transport{area_, emission_, reflectance_, factors.lost(), factors.rays()};
-    scale_direct_light(transport, direct);
-    solve_by_gradients(factors, area_, reflectance_, direct, light.incident, workers,
+    scale_direct_light(transport(factors), direct.variance, direct.light);
+    solve_by_gradients(factors, area_, reflectance_, direct.light, light.incident, workers,
                        {.tolerance = residual, .interrupted = &interrupted});
-    light.energy = close_energy(transport, light.incident);
+    light.energy = balance_energy(transport(factors), light.incident);
 }
 
 /// Makes the last the mean of the sets; returns its relative standard error, of what is reflected.

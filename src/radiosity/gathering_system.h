@@ -4,6 +4,7 @@
 // for all together.
 
 #include "radiosity/direct_light.h"
+#include "radiosity/energy_closing.h"
 #include "radiosity/exchange_matrix.h"
 #include "radiosity/gathered_light.h"
 #include "radiosity/workers.h"
@@ -20,9 +21,9 @@ class Mesh;
 
 class GatheringSystem {
   public:
-    /// `lamps`: patches whose light comes by shadow rays, not by rays at random. The mesh outlives
-    /// this.
-    GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps);
+    /// `lamps`: patches whose light comes by shadow rays, not by rays at random. `closed`: no ray can
+    /// leave the scene or meet the back of a face, as its geometry proves. The mesh outlives this.
+    GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps, bool closed);
 
     /// By patch.
     [[nodiscard]] std::span<const double> area() const { return area_; }
@@ -30,6 +31,8 @@ class GatheringSystem {
     [[nodiscard]] std::span<const Vec3> emission() const { return emission_; }
     /// Of those that rays at random are to find.
     [[nodiscard]] std::span<const Vec3> seen_emission() const { return seen_emission_; }
+    /// Whether the geometry proves that no ray is lost.
+    [[nodiscard]] bool closed() const { return closed_; }
 
     /// Rays at random of each set, and shadow rays with an estimate for each.
     struct Rays {
@@ -44,8 +47,14 @@ class GatheringSystem {
                          const std::atomic<bool>& interrupted) const;
 
   private:
-    void solve(const ExchangeMatrix& factors, std::vector<Vec3> direct, GatheredLight::Light& light,
+    /// Light that comes straight from the emitters, and the variance of its power by channel.
+    struct Direct {
+        std::vector<Vec3> light;
+        Vec3 variance{0.0};
+    };
+    void solve(const ExchangeMatrix& factors, Direct direct, GatheredLight::Light& light,
                const Workers& workers, double residual, const std::atomic<bool>& interrupted) const;
+    [[nodiscard]] Transport transport(const ExchangeMatrix& factors) const;
     double average(std::vector<GatheredLight::Light>& light) const;
     std::vector<Vec3> straight_light(const ExchangeMatrix& factors, const DirectLight& shadow_rays,
                                      std::optional<std::size_t> set, const Workers& workers) const;
@@ -54,6 +63,7 @@ class GatheringSystem {
     std::vector<double> area_;
     std::vector<Vec3> reflectance_, emission_, seen_emission_;
     double lost_at_least_ = 1; ///< of what falls on a patch, in any channel
+    bool closed_;
 };
 
 } // namespace hemilux

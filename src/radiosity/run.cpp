@@ -1,4 +1,3 @@
-#include "radiosity/error_spread.h"
 #include "radiosity/mesh.h"
 #include "radiosity/solver.h"
 
@@ -29,14 +28,9 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
         return solver.solution().seconds_density + before.seconds + d.count();
     };
     double last = elapsed(), longest = 0, growth = 1;
-    const auto reached = [&](double error) {
-        return error <= *stop.error &&
-               !(error * error_spread(input.mesh, solver.solution()).bound() >
-                 StopRule::tolerance * *stop.error);
-    };
     const auto done = [&](std::uint32_t step, double seconds, double error) {
         return solver.finished() || (stop.steps && step >= *stop.steps) ||
-               (stop.error && reached(error)) ||
+               (stop.error && error <= *stop.error) ||
                // A step that would end too late is not begun.
                (stop.seconds && seconds + growth * longest > *stop.seconds);
     };

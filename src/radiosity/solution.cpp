@@ -1,6 +1,7 @@
 #include "radiosity/solution.h"
 
 #include "geometry/compensated_sum.h"
+#include "radiosity/error_spread.h"
 #include "radiosity/mesh.h"
 
 #include <algorithm>
@@ -66,7 +67,12 @@ double estimated_error(const Mesh& mesh, const Solution& solution) {
     if (solution.variance)
         all.error = *solution.variance;
     all.value -= all.error; // the square of an estimate is too large by its variance
-    return all.error == 0 ? 0 : all.root();
+    if (all.error > 0) {
+        const double more = error_spread(mesh, solution).reported();
+        all.error *= more * more;
+    }
+    all.error += solution.unseen;
+    return !solution.may_find_light && all.error == 0 ? 0 : all.root();
 }
 
 ZScores z_scores(const Mesh& mesh, const Solution& solution, std::span<const Vec3> reference,

@@ -28,11 +28,17 @@ struct EnergyBalance {
 
 struct Solution {
     std::vector<Vec3> radiosity;      ///< B per patch [W/m2 leaving], own emission included
-    std::vector<Vec3> standard_error; ///< of B, from the spread of the steps; NaN before two steps
+    std::vector<Vec3> standard_error; ///< of B [W/m2]; NaN before two steps
     std::vector<std::uint64_t> hits;  ///< energy rays that struck each patch
     /// Sum over patches and channels of area times the variance of B, where that is known better
     /// than from standard_error, which is on the safe side where few rays arrive.
     std::optional<double> variance;
+    /// The same sum for what no ray may have seen so far: the squared error by the rule of three,
+    /// which counts besides the variance.
+    double unseen = 0;
+    /// False where no light can reach anything that reflects, as the scene itself tells: then
+    /// finding none is no lack of knowledge.
+    bool may_find_light = true;
     /// Independent solutions whose spread the standard errors are; 0: the steps.
     double error_samples = 0;
     /// Independent parts of the error (error_spread.h), where they are known better than from
@@ -61,7 +67,9 @@ struct RelativeError {
                                        std::span<const Vec3> reference,
                                        const std::vector<bool>& detail = {});
 
-/// The same from the solution's own variance; NaN before two steps.
+/// The same as the solution knows it itself: from its variance, more where that is known badly
+/// (ErrorSpread::reported), and what may not have been seen. NaN where it is not known: before two
+/// steps, and where no light was found that is more than its own error.
 [[nodiscard]] double estimated_error(const Mesh& mesh, const Solution& solution);
 
 /// Standardised differences z = (B - B*) / sigma over patches with at least `min_hits` and all

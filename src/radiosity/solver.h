@@ -72,10 +72,7 @@ struct SolveOptions {
 struct StopRule {
     std::optional<std::uint32_t> steps;
     std::optional<double> seconds;
-    /// Estimated relative error, e.g. .01; where that is known badly (error_spread.h), so far below
-    /// that the true one is less than `tolerance` times this in 95 of 100 runs.
-    std::optional<double> error;
-    static constexpr double tolerance = 1.2;
+    std::optional<double> error; ///< estimated relative error, e.g. .01
     static constexpr std::uint32_t default_steps = 16;
 };
 

@@ -8,7 +8,7 @@
 //
 // Parameter: --rays, of the first step, half of them random, half to the lamps. Each step adds as
 // many, or as many as there are, or as many as an error asked for will take (gathering_plan.h), of
-// the kind that the error comes from. Four independent sets of both give four solutions, whose
+// the kind that the error comes from. Eight independent sets of both give eight solutions, whose
 // spread is the standard error; the result is the solution of all rays together.
 //
 // Consistent: the solution depends on what was counted in a non-linear way, so its bias falls as
@@ -22,12 +22,15 @@
 #include "radiosity/error_spread.h"
 #include "radiosity/exchange_matrix.h"
 #include "radiosity/gathered_light.h"
+#include "radiosity/gathering_errors.h"
 #include "radiosity/gathering_plan.h"
 #include "radiosity/gathering_system.h"
 #include "radiosity/mesh.h"
 #include "radiosity/ray_counts.h"
 #include "radiosity/rng.h"
+#include "radiosity/row_spread.h"
 #include "radiosity/shot.h"
+#include "radiosity/small_emitters.h"
 #include "radiosity/solution_state.h"
 #include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
@@ -41,7 +44,7 @@
 namespace hemilux {
 namespace {
 
-constexpr unsigned sets = 4;
+constexpr unsigned sets = 8;
 
 constexpr std::size_t patches_per_chunk = 512;
 
@@ -52,7 +55,7 @@ class GatheringSolver final : public Solver {
   public:
     explicit GatheringSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)),
-          system_(input.mesh, emitters_), plan_(first_plan(input, !emitters_.empty())),
+          system_(input.mesh, emitters_, !input.needs.visibility), plan_(first_plan(input, !emitters_.empty())),
           light_(sets, input.mesh.patches().size()) {
         check_input(input);
         renew();
@@ -137,10 +140,8 @@ class GatheringSolver final : public Solver {
         if (planned_)
             return;
         KnownError known{0, variance_, direct_variance_};
-        if (solution_.steps > 0) // as far below an error asked for as the run is to come
-            known.relative =
-                estimated_error(input_.mesh, solution_) *
-                std::max(1.0, error_spread(input_.mesh, solution_).bound() / StopRule::tolerance);
+        if (solution_.steps > 0)
+            known.relative = estimated_error(input_.mesh, solution_);
         const double room = room_to_grow();
         if (room >= GatheringPlan::least_growth) {
             plan_.grow(known, room, workers_);
@@ -177,7 +178,7 @@ class GatheringSolver final : public Solver {
     /// How the sets differ, of some patches.
     struct Spread {
         std::array<double, sets * sets> products{}; ///< of deviations
-        double variance = 0, direct_variance = 0;
+        double direct_variance = 0;
     };
 
     void combine(const ExchangeMatrix& all) {
@@ -194,15 +195,22 @@ class GatheringSolver final : public Solver {
         for (const Spread& part : parts) {
             for (std::size_t k = 0; k < spread.products.size(); ++k)
                 spread.products[k] += part.products[k];
-            spread.variance += part.variance;
             spread.direct_variance += part.direct_variance;
         }
+        const RowSpread rows = spread_of_rows(all, light, workers_);
+        GatheringErrors errors =
+            errors_of<sets>({input_.mesh, system_, light_, all, rows, *direct_});
         direct_variance_ = spread.direct_variance;
-        variance_ = std::max(spread.variance, direct_variance_);
+        variance_ = std::max(errors.variance, direct_variance_);
+        solution_.standard_error = std::move(errors.standard_error);
+        solution_.variance = errors.variance;
+        solution_.unseen = errors.unseen;
         solution_.error_samples = sets;
         solution_.error_parts = error_parts(spread.products, sets);
-        plan_.weigh(all, light, workers_);
-        plan_.weigh_lamps(direct_variances, workers_);
+        if (errors.unlit == n) // nothing is known yet
+            errors.lit.assign(n, true);
+        plan_.weigh(rows.variance, errors.lit);
+        plan_.weigh_lamps(direct_variances);
         account();
         solution_.rays_energy = traced_;
         solution_.bytes_transport = all.bytes() + direct_->bytes();
@@ -216,10 +224,9 @@ class GatheringSolver final : public Solver {
         const double area = system_.area()[i];
         const Vec3 rho = system_.reflectance()[i], direct_mean = direct_->irradiance(i);
         const auto off = light_.deviations<sets>(i);
-        Vec3 squares(0.0), direct_squares(0.0);
+        Vec3 direct_squares(0.0);
         const Vec3 weight = area * rho * rho;
         for (std::size_t s = 0; s < sets; ++s) {
-            squares += off[s] * off[s];
             for (std::size_t t = 0; t < sets; ++t)
                 spread.products[s * sets + t] += glm::dot(weight * off[s], off[t]);
             const Vec3 direct_off = direct_->irradiance(i, s) - direct_mean;
@@ -227,11 +234,9 @@ class GatheringSolver final : public Solver {
         }
         const Vec3 reflected = rho * light_.incident(sets, i);
         solution_.radiosity[i] = system_.emission()[i] + reflected;
-        solution_.standard_error[i] = rho * glm::sqrt(squares / double(sets * (sets - 1)));
         solution_.hits[i] = direct_->hits(i) + std::uint64_t{plan_.rays().random[i]} * sets;
         light = reflected + system_.seen_emission()[i];
-        spread.variance += area * glm::dot(rho * rho, squares);
-        direct_variance = area * glm::dot(rho * rho, direct_squares);
+        direct_variance = area * glm::dot(rho * rho, direct_squares) / double(sets * (sets - 1));
         spread.direct_variance += direct_variance / light_.generations();
         if (direct_->samples(i) == 0)
             direct_variance = -1;

@@ -1,0 +1,188 @@
+#include "radiosity/gathering_errors.h"
+
+#include "radiosity/alike_neighbours.h"
+#include "radiosity/direct_light.h"
+#include "radiosity/exchange_matrix.h"
+#include "radiosity/gathered_light.h"
+#include "radiosity/gathering_system.h"
+#include "radiosity/linked_parts.h"
+#include "radiosity/mesh.h"
+#include "radiosity/row_spread.h"
+#include "radiosity/shot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+/// Of N rays none of which met something, as many as this might have.
+constexpr double rule_of_three = 3;
+
+bool any(const Vec3& v) { return v != Vec3(0.0); }
+Vec3 ratio(const Vec3& a, const Vec3& b) {
+    const auto one = [](double x, double y) { return y > 0 ? x / y : 0.0; };
+    return {one(a.x, b.x), one(a.y, b.y), one(a.z, b.z)};
+}
+
+/// One error of many patches, known badly from each of them alone: the mean over alike neighbours,
+/// or half of the patch's own, whatever is more.
+std::vector<Vec3> pooled(const Mesh& mesh, std::span<const Vec3> variance) {
+    std::vector<Vec3> result(variance.size());
+    for (std::uint32_t i = 0; i < result.size(); ++i) {
+        Vec3 sum = variance[i];
+        double count = 1;
+        for_alike_neighbours(mesh, i, [&](std::uint32_t j) {
+            sum += variance[j];
+            ++count;
+        });
+        result[i] = glm::max(sum / count, 0.5 * (sum / count + variance[i]));
+    }
+    return result;
+}
+
+/// Sums over the patches of a linked part, by channel.
+struct PartLedger {
+    Vec3 used{0.0};        ///< power that ends there: absorbed, or lost
+    Vec3 leaving{0.0};     ///< power that rays at random stand for
+    Vec3 one_ray{0.0};     ///< its mean per ray, weighted by itself
+    Vec3 appetite{0.0};    ///< area times absorptance
+    double area = 0, rays = 0;
+    bool lit = false;
+};
+
+class Account {
+  public:
+    explicit Account(const GatheringResult& result)
+        : result_(result), area_(result.system.area()), rho_(result.system.reflectance()),
+          rays_(result.factors.rays()), parts_(find_linked_parts(result.factors)),
+          ledgers_(parts_.count) {
+        const std::size_t n = area_.size();
+        lit_.resize(n);
+        incident_.resize(n);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            incident_[i] = result.light.incident(result.light.sets(), i);
+            lit_[i] = any(incident_[i]) || any(result.system.emission()[i]);
+            enter(i);
+        }
+        for (PartLedger& part : ledgers_) {
+            part.one_ray = ratio(part.one_ray, part.leaving);
+            if (part.lit)
+                lit_one_ray_ = glm::max(lit_one_ray_, part.one_ray);
+        }
+        for (std::uint32_t i = 0; i < n; ++i)
+            if (lit_[i])
+                lit_radiosity_ += leaving(i) * area_[i];
+        double lit_area = 0;
+        for (std::uint32_t i = 0; i < n; ++i)
+            lit_area += lit_[i] ? area_[i] : 0;
+        lit_radiosity_ = lit_area > 0 ? lit_radiosity_ / lit_area : Vec3(0.0);
+    }
+
+    void add_unseen(GatheringErrors& errors) const {
+        double shadow = 0, shadow_weight = 0;
+        for (std::uint32_t i = 0; i < area_.size(); ++i) {
+            const Vec3 level = lit_[i] ? unseen_loss(i) : unseen_light(i);
+            errors.unseen += area_[i] * glm::dot(level, level);
+            const Vec3 one = glm::max(one_ray(i), one_shadow_ray(i));
+            Vec3& sigma = errors.standard_error[i];
+            sigma = glm::sqrt(glm::max(sigma * sigma, one * one) + level * level);
+            const double blocked = area_[i] * result_.direct.blocked(i);
+            const Vec3 sample = one_shadow_ray(i);
+            shadow += blocked * area_[i] * glm::dot(sample, sample);
+            shadow_weight += blocked;
+        }
+        if (shadow_weight > 0)
+            errors.unseen += rule_of_three * rule_of_three * shadow / shadow_weight;
+        errors.lit = lit_;
+        errors.unlit = static_cast<std::size_t>(std::ranges::count(lit_, false));
+    }
+
+  private:
+    /// What rays at random of a patch stand for [W/m2].
+    [[nodiscard]] Vec3 leaving(std::uint32_t i) const {
+        return rho_[i] * incident_[i] + result_.system.seen_emission()[i];
+    }
+    void enter(std::uint32_t i) {
+        PartLedger& part = ledgers_[parts_.of[i]];
+        const auto& [escaped, absorbed] = result_.factors.lost()[i];
+        const Vec3 power = area_[i] * leaving(i);
+        part.area += area_[i];
+        part.rays += rays_[i];
+        part.lit = part.lit || lit_[i];
+        part.appetite += area_[i] * (1.0 - rho_[i]);
+        part.used += area_[i] * (1.0 - rho_[i]) * incident_[i] + (escaped + absorbed) * power;
+        if (rays_[i] > 0) {
+            part.leaving += power;
+            part.one_ray += power * power / rays_[i];
+        }
+    }
+    [[nodiscard]] const PartLedger& ledger(std::uint32_t i) const { return ledgers_[parts_.of[i]]; }
+
+    /// If rays of the part had been lost that were not: less light in all of it, in proportion to
+    /// what else takes light away.
+    [[nodiscard]] Vec3 unseen_loss(std::uint32_t i) const {
+        if (result_.system.closed())
+            return Vec3(0.0);
+        const PartLedger& part = ledger(i);
+        const Vec3 share = rule_of_three * ratio(part.one_ray, part.used);
+        return share * rho_[i] * incident_[i];
+    }
+
+    /// If rays had passed between a dark part and a lit one: what the part would hold then. Neither
+    /// the rays of the lit parts nor its own have.
+    [[nodiscard]] Vec3 unseen_light(std::uint32_t i) const {
+        const PartLedger& part = ledger(i);
+        if (!(part.rays > 0))
+            return Vec3(0.0); // no light can reach it, by geometry
+        const Vec3 by_own = rule_of_three * lit_radiosity_ * (part.area / part.rays);
+        const Vec3 by_lit = rule_of_three * lit_one_ray_;
+        const Vec3 power = ratio(by_own * by_lit, by_own + by_lit);
+        return rho_[i] * ratio(power, part.appetite);
+    }
+
+    /// What a single ray at random stands for, where light comes from.
+    [[nodiscard]] Vec3 one_ray(std::uint32_t i) const {
+        return rays_[i] > 0 ? rho_[i] * result_.rows.typical[i] / rays_[i] : Vec3(0.0);
+    }
+    /// The light that one of the shadow rays that were blocked would have brought.
+    [[nodiscard]] Vec3 one_shadow_ray(std::uint32_t i) const {
+        const double samples = double(result_.direct.samples(i)) * double(result_.direct.estimates());
+        return samples > 0 ? rho_[i] * (result_.direct.blocked(i) / samples) : Vec3(0.0);
+    }
+
+    const GatheringResult& result_;
+    std::span<const double> area_;
+    std::span<const Vec3> rho_;
+    std::span<const double> rays_;
+    LinkedParts parts_;
+    std::vector<PartLedger> ledgers_;
+    std::vector<Vec3> incident_;
+    std::vector<bool> lit_;
+    Vec3 lit_one_ray_{0.0}, lit_radiosity_{0.0};
+};
+
+} // namespace
+
+template <std::size_t Sets> GatheringErrors errors_of(const GatheringResult& result) {
+    const std::size_t n = result.system.area().size();
+    GatheringErrors errors;
+    std::vector<Vec3> variance(n);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const Vec3 rho = result.system.reflectance()[i];
+        Vec3 squares(0.0);
+        for (const Vec3& off : result.light.deviations<Sets>(i))
+            squares += off * off;
+        variance[i] = rho * rho * squares / double(Sets * (Sets - 1));
+        errors.variance += result.system.area()[i] * (variance[i].x + variance[i].y + variance[i].z);
+    }
+    errors.standard_error = pooled(result.mesh, variance);
+    for (Vec3& sigma : errors.standard_error)
+        sigma = glm::sqrt(sigma);
+    Account(result).add_unseen(errors);
+    return errors;
+}
+
+template GatheringErrors errors_of<8>(const GatheringResult& result);
+
+} // namespace hemilux

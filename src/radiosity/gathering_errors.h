@@ -1,0 +1,48 @@
+#pragma once
+// How far off the light of gathering may be: what its independent sets of rays show, and what none
+// of their rays has shown.
+//
+// The sets differ by the noise of what they found. Nothing differs where none of them found
+// anything: a window that no ray has left through, a lit room that no ray has reached through a
+// hole. There the rule of three holds: of N rays none of which met something, the share that would
+// meet it is below 3 / N in 95 of 100 cases (Hanley and Lippman-Hand 1983). The errors below follow
+// from that share by the balance of energy of each part of the scene. docs/numerics.md has the
+// whole account and its assumptions.
+
+#include "geometry/vector.h"
+
+#include <vector>
+
+namespace hemilux {
+
+class DirectLight;
+class ExchangeMatrix;
+class GatheredLight;
+class GatheringSystem;
+class Mesh;
+struct RowSpread;
+
+struct GatheringErrors {
+    std::vector<Vec3> standard_error; ///< of the radiosity by patch [W/m2]
+    double variance = 0; ///< by the sets: sum over patches and channels of area times variance
+    double unseen = 0;   ///< the same, of what was not seen
+    std::vector<bool> lit; ///< by patch: whether light reaches it on any stored path, or it emits
+    std::size_t unlit = 0; ///< patches that are not
+};
+
+/// What is known of a solution; all of it outlives the call.
+struct GatheringResult {
+    const Mesh& mesh;
+    const GatheringSystem& system;
+    const GatheredLight& light;
+    const ExchangeMatrix& factors; ///< of all sets
+    const RowSpread& rows;
+    const DirectLight& direct;
+};
+
+/// `Sets`: of light.
+template <std::size_t Sets> [[nodiscard]] GatheringErrors errors_of(const GatheringResult& result);
+
+extern template GatheringErrors errors_of<8>(const GatheringResult& result);
+
+} // namespace hemilux

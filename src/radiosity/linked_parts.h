@@ -1,0 +1,21 @@
+#pragma once
+// Which patches exchange light with each other, directly or through others, as far as the stored
+// rays know.
+
+#include <cstdint>
+#include <vector>
+
+namespace hemilux {
+
+class ExchangeMatrix;
+
+struct LinkedParts {
+    std::vector<std::uint32_t> of; ///< part of each patch
+    std::uint32_t count = 0;
+};
+
+/// Two patches are of one part if a ray has passed between them, or between each of them and a
+/// third. Parts are numbered in the order of their first patches. O(entries).
+[[nodiscard]] LinkedParts find_linked_parts(const ExchangeMatrix& factors);
+
+} // namespace hemilux
