@@ -119,9 +119,9 @@ std::vector<double> lost_through(const DenseSystem& system, Range range,
     return lost;
 }
 
-double add_convex(DenseSystem& system, const BuiltBox& box, ExchangeTable& table) {
+void add_convex(DenseSystem& system, const BuiltBox& box, ExchangeTable& table) {
     system.add_open_pairs(box.patches, table);
-    return system.close_rows(box.patches, lost_through(system, box.patches, box.openings));
+    system.close_rows(box.patches, lost_through(system, box.patches, box.openings));
 }
 
 void weld(Scene& scene) {
@@ -152,6 +152,13 @@ HardScene solved(Scene scene, std::vector<Vec3> reference, double relative_error
         hard.reference_error.push_back(relative_error * glm::abs(reference[i] - emission[i]));
     hard.reference = std::move(reference);
     hard.parts = std::move(parts);
+    return hard;
+}
+
+HardScene solved(Scene scene, const DenseSystem& system, double relative_error,
+                 std::vector<std::vector<std::uint32_t>> parts) {
+    HardScene hard = solved(std::move(scene), system.solve(), relative_error, std::move(parts));
+    hard.row_error = system.row_error();
     return hard;
 }
 

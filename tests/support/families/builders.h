@@ -51,14 +51,17 @@ BuiltBox add_box(Scene& scene, const Vec3& low, const Vec3& high, std::uint32_t 
 /// Sum of the form factors from each patch of a range to some openings.
 [[nodiscard]] std::vector<double> lost_through(const DenseSystem& system, Range range,
                                                const std::vector<Polygon>& openings);
-/// A closed or opened convex range: all pairs and the rows closed. Returns the largest correction.
-double add_convex(DenseSystem& system, const BuiltBox& box, ExchangeTable& table);
+/// A convex box, with what is open in it: all pairs, and the rows closed.
+void add_convex(DenseSystem& system, const BuiltBox& box, ExchangeTable& table);
 
 /// One vertex in place of all within 1e-10 m of each other, as in a modelled scene.
 void weld(Scene& scene);
 
 /// A welded scene with its reference, whose relative error is bounded.
 [[nodiscard]] HardScene solved(Scene scene, std::vector<Vec3> reference, double relative_error,
+                               std::vector<std::vector<std::uint32_t>> parts);
+/// The same with the solution of a system.
+[[nodiscard]] HardScene solved(Scene scene, const DenseSystem& system, double relative_error,
                                std::vector<std::vector<std::uint32_t>> parts);
 [[nodiscard]] std::vector<Vec3> emission_of(const Scene& scene);
 

@@ -108,7 +108,7 @@ HardScene corridor(std::uint32_t count, double reflectance) {
         for (std::uint32_t b = a + 1; b < count; ++b)
             join(system, rooms[a], rooms[b], b - a);
     system.close_rows({0, facets_of(scene)});
-    return solved(std::move(scene), system.solve(), 3e-3, std::move(parts));
+    return solved(std::move(scene), system, 3e-3, std::move(parts));
 }
 
 } // namespace

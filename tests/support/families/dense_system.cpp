@@ -74,16 +74,14 @@ void DenseSystem::add_open_pairs(Range from, Range to) {
             set(i, j, exchange_in_the_open(shapes_[i], shapes_[j]));
 }
 
-double DenseSystem::close_rows(Range range, const std::vector<double>& lost) {
-    double most = 0;
+void DenseSystem::close_rows(Range range, const std::vector<double>& lost) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
         const auto row = exchange_.begin() + static_cast<std::ptrdiff_t>(i * size());
         const double sum = std::accumulate(row, row + static_cast<std::ptrdiff_t>(size()), 0.0);
         const double wanted = areas_[i] * (1 - (lost.empty() ? 0 : lost[i - range.begin]));
         exchange(i, i) += wanted - sum;
-        most = std::max(most, std::abs(wanted - sum) / areas_[i]);
+        row_error_ = std::max(row_error_, std::abs(wanted - sum) / areas_[i]);
     }
-    return most;
 }
 
 std::vector<double> DenseSystem::matrix(int channel) const {

@@ -19,6 +19,9 @@ struct HardScene {
     std::vector<Vec3> reference_error = {}; ///< one standard error of it, or a bound
     /// Groups of patches whose mean a method should know: each room, the ground.
     std::vector<std::vector<std::uint32_t>> parts = {};
+    /// How far the worst row of form factors of the reference was from its known sum before it was
+    /// closed; 0 where rows are not known.
+    double row_error = 0;
 };
 
 /// A scene of a family, made when it is asked for.

@@ -23,7 +23,7 @@ HardScene lamp_over_ground(double height, double width) {
     DenseSystem system(scene);
     const std::uint32_t n = facets_of(scene);
     system.add_open_pairs({0, n - 1}, {n - 1, n});
-    return solved(std::move(scene), system.solve(), 1e-8, {Range{0, n - 1}.indices()});
+    return solved(std::move(scene), system, 1e-8, {Range{0, n - 1}.indices()});
 }
 
 } // namespace

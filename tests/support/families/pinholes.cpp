@@ -33,7 +33,7 @@ HardScene joined(Scene scene, const BuiltBox& lit, const BuiltBox& dark, int poi
     add_convex(system, dark, table);
     join(system, lit, dark, points);
     system.close_rows({0, facets_of(scene)});
-    return solved(std::move(scene), system.solve(), relative_error,
+    return solved(std::move(scene), system, relative_error,
                   {lit.patches.indices(), dark.patches.indices()});
 }
 

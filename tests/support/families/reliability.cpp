@@ -1,7 +1,6 @@
 #include "support/families/reliability.h"
 
 #include "geometry/compensated_sum.h"
-#include "radiosity/make_tracer.h"
 #include "radiosity/solve_error.h"
 #include "support/families/watchdog.h"
 
@@ -85,15 +84,9 @@ double median(std::vector<double> values) {
 
 } // namespace
 
-struct PreparedScene::Made {
-    MadeTracer tracer;
-};
-
 PreparedScene::PreparedScene(const HardScene& hard)
     : hard_(hard), mesh_(hard.scene, hard.options), needs_(find_needs(mesh_)),
-      made_(std::make_unique<Made>(Made{make_tracer(mesh_, needs_.tree)})) {}
-PreparedScene::~PreparedScene() = default;
-const Tracer& PreparedScene::tracer() const { return *made_->tracer.tracer; }
+      made_(make_tracer(mesh_, needs_.tree)) {}
 
 void Coverage::add(double score) {
     ++count;

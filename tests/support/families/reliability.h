@@ -2,12 +2,11 @@
 // How well the errors that a method reports fit the true ones: many runs of a hard scene, judged
 // one by one and together.
 
+#include "radiosity/make_tracer.h"
 #include "radiosity/solver.h"
 #include "support/families/hard_scene.h"
 
-#include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -23,18 +22,16 @@ struct RunLimits {
 class PreparedScene {
   public:
     explicit PreparedScene(const HardScene& hard);
-    ~PreparedScene();
     [[nodiscard]] const HardScene& hard() const { return hard_; }
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
-    [[nodiscard]] const Tracer& tracer() const;
+    [[nodiscard]] const Tracer& tracer() const { return *made_.tracer; }
     [[nodiscard]] const Needs& needs() const { return needs_; }
 
   private:
     const HardScene& hard_;
     Mesh mesh_;
     Needs needs_;
-    struct Made;
-    std::unique_ptr<Made> made_;
+    MadeTracer made_;
 };
 
 /// Of values whose standard error is above 0, how many there are and how many lie within it.

@@ -30,7 +30,7 @@ HardScene rooms_with_lamps(const std::vector<double>& emissions, double reflecta
         add_convex(system, room, table);
         parts.push_back(room.patches.indices());
     }
-    return solved(std::move(scene), system.solve(), 1e-6, std::move(parts));
+    return solved(std::move(scene), system, 1e-6, std::move(parts));
 }
 
 /// A lamp for each channel, in different cells of the ceiling and the left wall.
@@ -46,7 +46,7 @@ HardScene coloured_lamps(const Vec3& emission, double reflectance) {
     DenseSystem system(scene);
     ExchangeTable table;
     add_convex(system, room, table);
-    return solved(std::move(scene), system.solve(), 1e-6, {room.patches.indices()});
+    return solved(std::move(scene), system, 1e-6, {room.patches.indices()});
 }
 
 } // namespace

@@ -52,7 +52,7 @@ HardScene sun_over_ground(const GroundOptions& options) {
     add_polygon(scene, the_sun.shape, sun);
     DenseSystem system(scene);
     system.add_open_pairs(on_ground, {on_ground.end, facets_of(scene)});
-    return solved(std::move(scene), system.solve(), 1e-7, {on_ground.indices()});
+    return solved(std::move(scene), system, 1e-7, {on_ground.indices()});
 }
 
 /// A room of 4 x 4 m, 3 m high, one of whose 5 x 5 roof cells is missing: the sun shines in from
@@ -75,7 +75,7 @@ HardScene sun_in_room(double distance, const Vec3& toward, double reflectance) {
         const double area_factor = exchange_through(the_sun.shape, room.openings[0], patch, points);
         system.add_irradiance(i, Vec3(the_sun.emission * area_factor / system.area(i)));
     }
-    return solved(std::move(scene), system.solve(), 1e-3, {room.patches.indices()});
+    return solved(std::move(scene), system, 1e-3, {room.patches.indices()});
 }
 
 } // namespace

@@ -21,7 +21,7 @@ HardScene room_with_window(double reflectance, std::uint32_t missing) {
     DenseSystem system(scene);
     static ExchangeTable table; // for all rooms of the family
     add_convex(system, room, table);
-    return solved(std::move(scene), system.solve(), 1e-6, {room.patches.indices()});
+    return solved(std::move(scene), system, 1e-6, {room.patches.indices()});
 }
 
 } // namespace
