@@ -1,0 +1,133 @@
+// How far the errors that methods report can be trusted: a row for each hard scene
+// (tests/support/families) and method, over many seeds.
+//
+//     hemilux_reliability --family lamp --method gathering --seeds 40
+
+#include "support/families/reliability.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+using namespace hemilux;
+using namespace hemilux::test;
+
+namespace {
+
+struct Settings {
+    std::string family, scene;
+    std::vector<std::string> methods{"gathering"};
+    std::size_t seeds = 40;
+    std::uint64_t first_seed = 1;
+    std::optional<double> error;
+    RunLimits limits;
+    unsigned threads = 0;
+    bool list = false, every_run = false;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+double percent(std::size_t part, std::size_t all) {
+    return all > 0 ? 100 * double(part) / double(all) : 0;
+}
+
+constexpr const char* explanation =
+    "runs   how many, of which were ended by the limits (lim) or refused (ref)\n"
+    "wrong  true error more than 1.5 times the reported one; unkn: the reported one is NaN or "
+    "infinite\n"
+    "part   runs in which the mean of a part is off by more than 3 standard errors; unkn: NaN\n"
+    "in2 in3  % of values within 2 and 3 standard errors, patches with 30 hits; few2: those with "
+    "fewer, within 2\n"
+    "true, rep.  median errors [%], ratio: of their RMS; bias: of the reflected power [%]\n";
+
+void print_head() {
+    std::printf("%-52s %-11s %4s %3s %3s %5s %4s %5s %4s %6s %6s %6s %8s %8s %7s %8s %9s %7s\n",
+                "scene", "method", "runs", "lim", "ref", "wrong", "unkn", "part", "unkn", "in2",
+                "in3", "few2", "true", "rep.", "ratio", "bias", "rays", "s");
+}
+
+void print_row(const HardSceneEntry& entry, const Method& method, const Reliability& r) {
+    std::printf(
+        "%-52s %-11s %4zu %3zu %3zu %5zu %4zu %5zu %4zu %6.1f %6.1f %6.1f %8.3g %8.3g %7.3g "
+        "%+8.2g %9.3g %7.2g\n",
+        (entry.family + ": " + entry.name).c_str(), std::string(method.name).c_str(), r.runs,
+        r.stopped, r.refused, r.wrong, r.unknown, r.parts_wrong, r.parts_unknown,
+        percent(r.often.within_2, r.often.count), percent(r.often.within_3, r.often.count),
+        percent(r.seldom.within_2, r.seldom.count), 100 * r.median_true, 100 * r.median_reported,
+        r.rms_ratio, 100 * r.bias, r.median_rays, r.median_seconds);
+    std::fflush(stdout);
+}
+
+void print_run(std::uint64_t seed, const JudgedRun& run) {
+    std::printf(
+        "  seed %llu: true %.4g %%, reported %.4g %%, bias %+.3g %%, %.3g rays, %.2g s%s%s%s%s\n",
+        static_cast<unsigned long long>(seed), 100 * run.true_error, 100 * run.reported,
+        100 * run.bias, double(run.rays), run.seconds, run.wrong ? ", wrong" : "",
+        run.part_wrong ? ", part wrong" : "", run.stopped ? ", limited" : "",
+        run.refused ? ", refused" : "");
+}
+
+void judge_scene(const HardSceneEntry& entry, const Settings& settings) {
+    const PreparedScene scene(hard_scene(entry));
+    for (const std::string& name : settings.methods) {
+        const Method& method = *find_method(name);
+        std::vector<JudgedRun> runs;
+        for (std::size_t k = 0; k < settings.seeds; ++k) {
+            runs.push_back(judge_run(scene, method, stop_rule(method, settings.error),
+                                     settings.first_seed + k, settings.threads, settings.limits));
+            if (settings.every_run)
+                print_run(settings.first_seed + k, runs.back());
+        }
+        print_row(entry, method, summary(runs));
+    }
+}
+
+void add_options(CLI::App& app, Settings& settings) {
+    app.add_option("--family", settings.family, "only families whose name contains this");
+    app.add_option("--scene", settings.scene, "only scenes whose name contains this");
+    app.add_option("--method", settings.methods, "one or several; all: all of them")
+        ->delimiter(',');
+    app.add_option("--seeds", settings.seeds, "runs of each scene and method");
+    app.add_option("--first-seed", settings.first_seed, "the others follow it");
+    app.add_option("--error", settings.error,
+                   "reported error to stop at; else the method's own stop");
+    app.add_option("--most-rays", settings.limits.rays, "of a run");
+    app.add_option("--seconds", settings.limits.seconds, "of a run, at most");
+    app.add_option("--threads", settings.threads, "0: all cores");
+    app.add_flag("--list", settings.list, "only names the scenes");
+    app.add_flag("--every-run", settings.every_run, "a line for each run too");
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    Settings settings;
+    CLI::App app("Compares the errors that methods report with the true ones.");
+    add_options(app, settings);
+    app.footer(explanation);
+    CLI11_PARSE(app, count, arguments);
+    if (settings.methods == std::vector<std::string>{"all"}) {
+        settings.methods.clear();
+        for (const Method* const method : methods())
+            settings.methods.emplace_back(method->name);
+    }
+    for (const std::string& name : settings.methods)
+        if (!find_method(name)) {
+            std::fprintf(stderr, "there is no method '%s'\n", name.c_str());
+            return 1;
+        }
+    if (!settings.list)
+        print_head();
+    for (const HardSceneEntry& entry : hard_scenes())
+        if (contains(entry.family, settings.family) && contains(entry.name, settings.scene)) {
+            if (settings.list)
+                std::printf("%s: %s\n", entry.family.c_str(), entry.name.c_str());
+            else
+                judge_scene(entry, settings);
+        }
+    return 0;
+}
