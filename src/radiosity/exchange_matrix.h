@@ -47,6 +47,10 @@ class ExchangeMatrix {
         };
         return {channel(0), channel(1), channel(2)};
     }
+    /// F_ii, which closes the row i: what chance has left, of either sign.
+    [[nodiscard]] double self_factor(std::size_t i) const {
+        return per_area_[i] * self_[i] * scale_[i];
+    }
     /// Calls body(begin, end) for chunks of the rows, by as many threads as that is worth.
     template <class Body>
     void for_rows(const Workers& workers, const Body& body) const {

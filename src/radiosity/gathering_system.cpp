@@ -133,8 +133,9 @@ std::vector<Vec3> GatheringSystem::straight_light(const ExchangeMatrix& factors,
         std::ranges::any_of(seen_emission_, [](const Vec3& e) { return e != Vec3(0.0); });
     factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
-            if (shadow_rays.samples(i) == 0)
-                light[i] = factors.row_times(i, all);
+            if (shadow_rays.samples(i) == 0) // a lamp does not light itself
+                light[i] = factors.row_times(i, all) -
+                           factors.self_factor(i) * (emission_[i] - seen_emission_[i]);
             else if (any)
                 light[i] = factors.row_times(i, some);
             light[i] += set ? shadow_rays.irradiance(i, *set) : shadow_rays.irradiance(i);
