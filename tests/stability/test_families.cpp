@@ -8,7 +8,7 @@
 // A method may be wrong in one run of 40. Then the number of wrong ones among n runs is binomial,
 // and a test fails where so many or more of them have a probability below the significance, shared
 // out among the scenes, the families and their total. Of 8 runs of a scene 5 wrong ones are too
-// many, of 72 of a family 11, of 640 in all 36.
+// many, of 72 of a family 11, of 632 in all 36.
 #include "support/families/reliability.h"
 #include "support/statistics.h"
 
