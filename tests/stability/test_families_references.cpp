@@ -30,19 +30,29 @@ const HardScene& scene_of(const std::string& family, const std::string& name) {
 }
 
 /// Mean reflected radiosity of a group of patches, channel 0.
-double mean_reflected(const HardScene& hard, const std::vector<std::uint32_t>& group) {
+double mean_reflected(const Scene& scene, const std::vector<Vec3>& radiosity,
+                      const std::vector<std::uint32_t>& group) {
     double sum = 0, area = 0;
     for (const std::uint32_t i : group) {
-        const double a = polygon_of(hard.scene, i).area();
-        const Material& material = hard.scene.materials[hard.scene.facets[i].material];
-        sum += a * (hard.reference[i].x - material.emission.x);
+        const double a = polygon_of(scene, i).area();
+        sum += a * (radiosity[i].x - scene.materials[scene.facets[i].material].emission.x);
         area += a;
     }
     return sum / area;
 }
+double mean_reflected(const HardScene& hard, const std::vector<std::uint32_t>& group) {
+    return mean_reflected(hard.scene, hard.reference, group);
+}
 
-Polygon square(const Vec3& corner, const Vec3& first, const Vec3& second) {
-    return parallelogram(corner, first, second);
+/// By so many rays as it takes by itself.
+Solution shot(const PreparedScene& scene, const Method& method, std::uint64_t seed) {
+    SolveOptions options;
+    options.seed = seed;
+    Monitor monitor;
+    const SolverInput input{scene.mesh(), scene.tracer(), options, monitor, scene.needs()};
+    const auto solver = method.make(input);
+    run(*solver, input, stop_rule(method, {}));
+    return solver->solution();
 }
 
 /// The controls' references take seconds, and are made by the library.
@@ -64,14 +74,14 @@ TEST_CASE("A Gauss rule integrates polynomials exactly") {
 
 TEST_CASE("Exchange in the open has the closed forms, near and far") {
     for (const double distance : {.5, 1., 5., 20., 100.}) {
-        const Polygon low = square({0, 0, 0}, {0, 0, 1}, {1, 0, 0});
-        const Polygon high = square({0, distance, 0}, {1, 0, 0}, {0, 0, 1});
+        const Polygon low = parallelogram({0, 0, 0}, {0, 0, 1}, {1, 0, 0});
+        const Polygon high = parallelogram({0, distance, 0}, {1, 0, 0}, {0, 0, 1});
         CAPTURE(distance);
         CHECK(exchange_in_the_open(low, high) ==
               Approx(opposed_rectangles(1 / distance, 1 / distance)).epsilon(1e-7));
     }
-    const Polygon floor = square({0, 0, 0}, {0, 0, 1}, {1, 0, 0});
-    const Polygon wall = square({0, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    const Polygon floor = parallelogram({0, 0, 0}, {0, 0, 1}, {1, 0, 0});
+    const Polygon wall = parallelogram({0, 0, 0}, {0, 1, 0}, {0, 0, 1});
     CHECK(exchange_in_the_open(floor, wall) == Approx(.20004378).epsilon(1e-7));
     ExchangeTable table;
     CHECK(table(floor, wall) == exchange_in_the_open(floor, wall));
@@ -80,14 +90,15 @@ TEST_CASE("Exchange in the open has the closed forms, near and far") {
 
 TEST_CASE("The exchange through a hole that hides nothing is that in the open") {
     // Unit cubes side by side without their common wall.
-    const Polygon hole = square({1, 0, 0}, {0, 0, 1}, {0, 1, 0});
-    const Polygon far_left = square({0, 0, 0}, {0, 1, 0}, {0, 0, 1});
-    const Polygon far_right = square({2, 0, 0}, {0, 0, 1}, {0, 1, 0});
-    const Polygon floor_right = square({1, 0, 0}, {0, 0, 1}, {1, 0, 0});
+    const Polygon hole = parallelogram({1, 0, 0}, {0, 0, 1}, {0, 1, 0});
+    const Polygon far_left = parallelogram({0, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    const Polygon far_right = parallelogram({2, 0, 0}, {0, 0, 1}, {0, 1, 0});
+    const Polygon floor_right = parallelogram({1, 0, 0}, {0, 0, 1}, {1, 0, 0});
     for (const Polygon& to : {far_right, floor_right}) {
         const std::array<Aperture, 1> behind{{{far_left, Side::opposite}}};
+        // As functions of the point of the hole, these have kinks.
         CHECK(exchange_through(hole, to, behind, 24) ==
-              Approx(exchange_in_the_open(far_left, to)).epsilon(1e-3));
+              Approx(exchange_in_the_open(far_left, to)).epsilon(3e-3));
         // From points of the far wall instead: what it sees of `to` through the hole is all of it.
         const std::array<Aperture, 1> through{{{hole, Side::same}}};
         CHECK(exchange_through(far_left, to, through, 24) ==
@@ -98,9 +109,10 @@ TEST_CASE("The exchange through a hole that hides nothing is that in the open") 
 TEST_CASE("Through a pinhole opposite walls exchange what one of them sees of it") {
     // Seen from the hole the walls cover each other.
     constexpr double edge = 1e-4;
-    const Polygon hole = square({1, .5 - edge / 2, .5 - edge / 2}, {0, 0, edge}, {0, edge, 0});
-    const Polygon left_wall = square({0, 0, 0}, {0, 1, 0}, {0, 0, 1});
-    const Polygon right_wall = square({2, 0, 0}, {0, 0, 1}, {0, 1, 0});
+    const Polygon hole =
+        parallelogram({1, .5 - edge / 2, .5 - edge / 2}, {0, 0, edge}, {0, edge, 0});
+    const Polygon left_wall = parallelogram({0, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    const Polygon right_wall = parallelogram({2, 0, 0}, {0, 0, 1}, {0, 1, 0});
     const std::array<Aperture, 1> behind{{{left_wall, Side::opposite}}};
     const double exchange = exchange_through(hole, right_wall, behind, 4);
     CHECK(exchange == Approx(edge * edge * .23945647).epsilon(1e-3));
@@ -160,10 +172,10 @@ TEST_CASE("Through the roof comes the sunlight that falls on the opening") {
     // gets out again, which is not known in closed form: so by walks.
     const PreparedScene scene(scene_of("sun", "room with roof opening"));
     const HardScene& hard = scene.hard();
-    const WalkResult walks = walk(scene.mesh(), scene.tracer(), hard.parts[0], 200'000, 1);
+    const WalkResult walks = walk(scene.mesh(), scene.tracer(), hard.parts[0], 100'000, 1);
     const double right = mean_reflected(hard, hard.parts[0]);
     CAPTURE(right, walks.mean, walks.standard_error);
-    CHECK(walks.standard_error < .02 * right);
+    CHECK(walks.standard_error < .03 * right);
     CHECK(normal_p_value((walks.mean - right) / walks.standard_error) > significance);
 }
 
@@ -176,27 +188,62 @@ TEST_CASE("Walks find the mean radiosity of rooms with windows, stars, slits, do
     const std::vector<Case> cases{
         {"window", "reflectance 0.8, 5 cells open", 0, .02},
         {"window", "reflectance 0.95, 20 cells open", 0, .02},
-        {"tiny", "900 equal lamps", 0, .02},
+        {"tiny", "900 equal lamps", 0, .04},
         {"shade", "0.1, reflectance 0.5", 0, .02},
-        {"shade", "0.1, reflectance 0.5", 1, .1},
+        {"shade", "0.1, reflectance 0.5", 1, .25},
         {"corridor", "5 bright rooms", 0, .02},
-        {"corridor", "5 bright rooms", 1, .05},
-        {"corridor", "5 bright rooms", 2, .2},
+        {"corridor", "5 bright rooms", 1, .08},
+        {"corridor", "5 bright rooms", 2, .3},
         {"sealed", "two bright rooms, 1 and 1e-06", 0, .02},
         {"channel", "1, 1, 1", 0, .02},
         {"sun", "ground and panel", 0, .02},
         {"sphere", "reflectance 0.9, port 1 of a triangle's edge, one emits", 0, .02}};
+    constexpr std::uint64_t walks_each = 40'000;
     const double one = sidak(significance, cases.size());
     for (const Case& c : cases) {
         const PreparedScene scene(scene_of(c.family, c.name));
         const HardScene& hard = scene.hard();
         const std::vector<std::uint32_t>& part = hard.parts[c.part];
-        const WalkResult walks = walk(scene.mesh(), scene.tracer(), part, 100'000, 2);
+        const WalkResult walks = walk(scene.mesh(), scene.tracer(), part, walks_each, 2);
         const double right = mean_reflected(hard, part);
         CAPTURE(c.family, c.name, c.part, right, walks.mean, walks.standard_error);
         CHECK(walks.standard_error < c.accuracy * right);
         CHECK(normal_p_value((walks.mean - right) / walks.standard_error) > one);
     }
+}
+
+// Stratified shooting is unbiased, and its rays are not those of the references.
+TEST_CASE("Shooting agrees with the references wherever its light gets", "[slow]") {
+    const Method& method = *find_method("stratified");
+    constexpr std::uint64_t runs = 8;
+    constexpr double accuracy =
+        .03; // of the mean of the runs; elsewhere too few rays arrive, or none
+    std::size_t parts = 0;
+    for (const HardSceneEntry& e : hard_scenes())
+        parts += is_control(e) ? 0 : hard_scene(e).parts.size();
+    std::size_t compared = 0;
+    for (const HardSceneEntry& e : hard_scenes()) {
+        if (is_control(e))
+            continue;
+        const PreparedScene scene(hard_scene(e));
+        std::vector<MeanTest> means(scene.hard().parts.size());
+        for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+            const Solution solution = shot(scene, method, seed);
+            for (std::size_t p = 0; p < means.size(); ++p)
+                means[p].add(
+                    mean_reflected(scene.hard().scene, solution.radiosity, scene.hard().parts[p]));
+        }
+        for (std::size_t p = 0; p < means.size(); ++p) {
+            const double right = mean_reflected(scene.hard(), scene.hard().parts[p]);
+            const double error = means[p].standard_error();
+            if (!(error > 0 && error < accuracy * right))
+                continue;
+            ++compared;
+            CAPTURE(e.family, e.name, p, right, means[p].mean(), means[p].standard_error());
+            CHECK(means[p].p_value(right) > sidak(significance, parts));
+        }
+    }
+    CHECK(compared > 60);
 }
 
 TEST_CASE("The dark room behind a pinhole is as bright as the pinhole is large") {
@@ -208,19 +255,16 @@ TEST_CASE("The dark room behind a pinhole is as bright as the pinhole is large")
           Approx(100).epsilon(1e-3));
     CHECK(dark("0.0001, reflectance 0.5") / dark("1e-05, reflectance 0.5") ==
           Approx(100).epsilon(1e-3));
-    // All light that comes in is absorbed there: A B / rho (1 - rho) = power through the hole,
-    // which is the area of the hole times what the middle of the wall receives.
+    // All light that comes in is absorbed there: sum A B (1 - rho) / rho is the power that falls on
+    // the hole, which the factors from the hole to the lit room give.
+    constexpr double edge = 1e-4;
     const HardScene& hard = scene_of("pinhole", "0.0001, reflectance 0.5");
-    const double walls = 6 * mean_reflected(hard, hard.parts[1]);
-    double received = 0, area = 0;
-    for (const std::uint32_t i : hard.parts[0]) {
-        const Polygon shape = polygon_of(hard.scene, i);
-        if (shape.normal().x > -.5 || glm::distance(shape.centre(), Vec3(1, .5, .5)) > .2)
-            continue; // the trapezoids about the hole
-        received += shape.area() * hard.reference[i].x / .5;
-        area += shape.area();
-    }
-    CHECK(walls == Approx(1e-8 * received / area).epsilon(.02));
+    const Polygon hole =
+        parallelogram({1, .5 - edge / 2, .5 - edge / 2}, {0, 0, edge}, {0, edge, 0});
+    double through = 0;
+    for (const std::uint32_t i : hard.parts[0])
+        through += hard.reference[i].x * exchange_in_the_open(polygon_of(hard.scene, i), hole);
+    CHECK(6 * mean_reflected(hard, hard.parts[1]) == Approx(through).epsilon(1e-4));
 }
 
 TEST_CASE("A sphere with a port has the closed form of the spherical cavity") {

@@ -56,8 +56,8 @@ HardSceneEntry example(const char* name) {
 } // namespace
 
 Entries controls() {
-    return {{"control", "room with block", [] { return with_long_runs(room_with_block(), .002); }},
-            {"control", "open scene", [] { return with_long_runs(open_scene(), .002); }},
+    return {{"control", "room with block", [] { return with_long_runs(room_with_block(), .004); }},
+            {"control", "open scene", [] { return with_long_runs(open_scene(), .004); }},
             example("cornell_box"),
             example("room_1002")};
 }

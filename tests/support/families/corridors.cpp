@@ -15,7 +15,6 @@ namespace {
 // doors are the middle cells of the walls left and right.
 constexpr std::uint32_t cells = 3, places = 6 * cells * cells;
 constexpr std::uint32_t middle = 4, left_door = 9 * left + middle, right_door = 9 * right + middle;
-constexpr std::uint32_t lamp_place = 9 * ceiling + middle;
 
 /// All cells of the room that begins at x = 0.
 const std::array<Polygon, places>& cells_of_room() {

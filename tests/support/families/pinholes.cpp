@@ -1,8 +1,10 @@
-// Two boxes joined by a small hole in their common wall, light in one of them: the pinhole, and a
-// lamp in a shade with a slit, where the box with the lamp is small and stands on the other.
+// Two boxes joined by a small hole in their common wall, light in one of them: the pinhole. And a
+// lamp in a shade with a slit: a small box with the lamp stands on a room, or hangs over open
+// ground.
 
 #include "support/families/builders.h"
 #include "support/families/families.h"
+#include "support/scenes.h"
 
 #include <array>
 #include <sstream>
@@ -62,10 +64,31 @@ HardScene shaded_lamp(double width, double shade_reflectance) {
     return joined(std::move(scene), lit, dark, 16, 1e-3);
 }
 
+/// A box of 0.4 m with a lamp at its top, 3 m over open ground, with a slit in its floor. Outside
+/// it is black, as it consists of the backs of its inner sides; the ground sees nothing but the
+/// slit.
+HardScene shade_over_ground(double width, double shade_reflectance) {
+    Scene scene = with_materials(
+        {grey("ground", .5, 0), grey("shade", shade_reflectance, 0), grey("lamp", .5, 1e4)});
+    const BuiltBox lit = add_box(
+        scene, {-.2, 3, -.2}, {.2, 3.4, .2}, 1, shade,
+        {{floor_side, 0, 0, {{.5, width}, std::nullopt}}, {ceiling, 0, 0, {Vec2(.5), lamp}}});
+    BuiltBox ground{{lit.patches.end, lit.patches.end}, {}};
+    add_quad(scene, {-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {5, 0, -5}, 10, 10, 0);
+    ground.patches.end = facets_of(scene);
+    DenseSystem system(scene);
+    ExchangeTable table;
+    add_convex(system, lit, table);
+    join(system, lit, ground, 16);
+    return solved(std::move(scene), system, 1e-3,
+                  {lit.patches.indices(), ground.patches.indices()});
+}
+
 template <class Make>
-HardSceneEntry entry(const char* family, double size, double reflectance, const Make& make) {
+HardSceneEntry entry(const char* family, const char* what, double size, double reflectance,
+                     const Make& make) {
     std::ostringstream name;
-    name << size << ", reflectance " << reflectance;
+    name << what << size << ", reflectance " << reflectance;
     return {family, name.str(), [=] { return make(size, reflectance); }};
 }
 
@@ -74,11 +97,13 @@ HardSceneEntry entry(const char* family, double size, double reflectance, const 
 Entries pinholes() {
     Entries entries;
     for (const double edge : {1e-2, 1e-3, 1e-4, 1e-5})
-        entries.push_back(entry("pinhole", edge, .5, pinhole));
-    entries.push_back(entry("pinhole", 1e-3, .9, pinhole));
+        entries.push_back(entry("pinhole", "", edge, .5, pinhole));
+    entries.push_back(entry("pinhole", "", 1e-3, .9, pinhole));
     for (const double width : {.1, .01, .001})
-        entries.push_back(entry("shade", width, .5, shaded_lamp));
-    entries.push_back(entry("shade", .01, .9, shaded_lamp));
+        entries.push_back(entry("shade", "", width, .5, shaded_lamp));
+    entries.push_back(entry("shade", "", .01, .9, shaded_lamp));
+    for (const double width : {.1, .01, .001})
+        entries.push_back(entry("shade", "over ground, ", width, .8, shade_over_ground));
     return entries;
 }
 

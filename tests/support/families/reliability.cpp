@@ -41,7 +41,7 @@ void judge_part(const PreparedScene& scene, const Solution& solution,
             of_reference += area * scene.hard().reference_error[i][c];
             value += area * (right - scene.mesh().material(i).emission[c]);
         }
-        if (!std::isfinite(sigma))
+        if (solution.steps == 0 || !std::isfinite(sigma))
             run.part_unknown = true;
         else if (std::abs(off.value()) >
                  part_errors * sigma + part_errors * of_reference + rounding * value)
@@ -113,7 +113,8 @@ JudgedRun judge(const PreparedScene& scene, const Solution& solution) {
     JudgedRun run;
     run.true_error = true_error(scene.mesh(), solution.radiosity, scene.hard().reference).all;
     run.reported = estimated_error(scene.mesh(), solution);
-    run.unknown = !std::isfinite(run.reported);
+    // Before the first step a solution holds emission alone and claims nothing.
+    run.unknown = solution.steps == 0 || !std::isfinite(run.reported);
     constexpr double rounding = 1e-7; // of tracing and of references that are closed forms
     run.wrong = !run.unknown &&
                 !(run.true_error <=

@@ -49,7 +49,7 @@ inline constexpr double part_errors = 3;
 struct JudgedRun {
     double true_error = 0;     ///< true_error() of solution.h
     double reported = 0;       ///< estimated_error()
-    bool unknown = false;      ///< the reported one is NaN or infinite
+    bool unknown = false;      ///< the reported one is NaN or infinite, or there was no step
     bool wrong = false;        ///< the true error is more than wrong_factor times the reported one
     bool part_wrong = false;   ///< a part's mean is off by more than part_errors
     bool part_unknown = false; ///< a standard error in a part is NaN

@@ -39,7 +39,7 @@ HardScene sphere_with_port(const SphereOptions& options) {
     DenseSystem system(scene);
     static ExchangeTable table; // for all spheres
     add_convex(system, box, table);
-    return solved(std::move(scene), system, 1e-5, {box.patches.indices()});
+    return solved(std::move(scene), system, 1e-6, {box.patches.indices()});
 }
 
 } // namespace

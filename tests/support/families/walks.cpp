@@ -25,7 +25,6 @@ class Choice {
         const auto at = std::ranges::upper_bound(sums_, rng.uniform() * sums_.back());
         return patches_[std::min(static_cast<std::size_t>(at - sums_.begin()), sums_.size() - 1)];
     }
-    [[nodiscard]] double total() const { return sums_.back(); }
 
   private:
     std::vector<std::uint32_t> patches_;
@@ -39,21 +38,18 @@ Choice by_area(const Mesh& mesh, std::span<const std::uint32_t> group) {
     return {{group.begin(), group.end()}, areas};
 }
 
-Choice emitters_by_power(const Mesh& mesh) {
+std::vector<std::uint32_t> emitters_of(const Mesh& mesh) {
     std::vector<std::uint32_t> emitters;
-    std::vector<double> powers;
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
-        if (mesh.material(i).emission.x > 0) {
+        if (mesh.material(i).emission.x > 0)
             emitters.push_back(i);
-            powers.push_back(mesh.patches()[i].area * mesh.material(i).emission.x);
-        }
-    return {emitters, powers};
+    return emitters;
 }
 
 class Walker {
   public:
     Walker(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed)
-        : mesh_(mesh), tracer_(tracer), rng_(seed), emitters_(emitters_by_power(mesh)) {}
+        : mesh_(mesh), tracer_(tracer), rng_(seed), emitters_(emitters_of(mesh)) {}
 
     Rng& rng() { return rng_; }
 
@@ -77,10 +73,12 @@ class Walker {
     }
     Vec3 point_on(std::uint32_t patch) { return mesh_.patches()[patch].shape.sample(pair()); }
 
-    /// The power of all emitters times the kernel cos cos / (pi r^2) to a point of one of them.
+    /// The power of an emitter times the kernel cos cos / (pi r^2) to a point of it, times their
+    /// number. All are chosen alike: a sun has nearly all power, and gives little light.
     double direct_light(std::uint32_t patch, const Vec3& point) {
         const Patch& from = mesh_.patches()[patch];
-        const std::uint32_t emitter = emitters_.draw(rng_);
+        const auto count = static_cast<double>(emitters_.size());
+        const std::uint32_t emitter = emitters_[static_cast<std::size_t>(rng_.uniform() * count)];
         const Patch& to = mesh_.patches()[emitter];
         const Vec3 d = point_on(emitter) - point;
         const double cosines = -glm::dot(d, from.normal) * glm::dot(d, to.normal);
@@ -92,7 +90,8 @@ class Walker {
         if (tracer_.occluded(ray, to.facet))
             return 0;
         const double square = glm::dot(d, d);
-        return emitters_.total() * cosines / (std::numbers::pi * square * square);
+        const double power = to.area * mesh_.material(emitter).emission.x;
+        return count * power * cosines / (std::numbers::pi * square * square);
     }
 
     /// The patch that a ray strikes; none outside of the scene and on the back of a facet.
@@ -112,7 +111,7 @@ class Walker {
     const Mesh& mesh_;
     const Tracer& tracer_;
     Rng rng_;
-    Choice emitters_;
+    std::vector<std::uint32_t> emitters_;
 };
 
 } // namespace

@@ -18,7 +18,7 @@ struct WalkResult {
 /// Each walk starts on a patch of the group, chosen by its area. A vertex of it is a random point
 /// of a patch; the next one is a point of the patch that a cosine-distributed ray strikes, anywhere
 /// on it, as the patch has one radiosity. The direct light of a vertex comes by one shadow ray to
-/// one emitter, chosen by its power; emission that a ray strikes does not count again.
+/// one emitter, each as likely as any other; emission that a ray strikes does not count again.
 [[nodiscard]] WalkResult walk(const Mesh& mesh, const Tracer& tracer,
                               std::span<const std::uint32_t> group, std::uint64_t walks,
                               std::uint64_t seed);
