@@ -24,16 +24,24 @@ constexpr std::size_t patches_per_chunk = 8;
 /// An emitter is near to points within so many of its radii, from its centre.
 constexpr double near_radii = 4;
 
-/// The emitters as they were before facets were divided: how finely the light is to be known is
-/// nothing to those who only receive it.
-std::vector<Patch> whole_sides(const Mesh& mesh, std::span<const std::uint32_t> emitters) {
-    std::vector<Patch> sides;
+/// One patch of each emitter as it was before facets were divided: how finely the light is to be
+/// known is nothing to those who only receive it.
+std::vector<std::uint32_t> one_of_each_side(const Mesh& mesh,
+                                            std::span<const std::uint32_t> emitters) {
+    std::vector<std::uint32_t> patches;
     std::array<std::uint32_t, 2> last{none, none};
     for (const std::uint32_t e : emitters) {
         const Patch& patch = mesh.patches()[e];
         if (std::exchange(last[patch.back ? 1 : 0], patch.facet) != patch.facet)
-            sides.push_back(mesh.whole_side(patch.facet, patch.back));
+            patches.push_back(e);
     }
+    return patches;
+}
+
+std::vector<Patch> whole_sides(const Mesh& mesh, std::span<const std::uint32_t> patches) {
+    std::vector<Patch> sides;
+    for (const std::uint32_t p : patches)
+        sides.push_back(mesh.whole_side(mesh.patches()[p].facet, mesh.patches()[p].back));
     return sides;
 }
 
@@ -60,13 +68,18 @@ DirectLight::Shape::Shape(const Patch& of) : patch(&of), points(of.shape) {}
 
 DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                          std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds)
-    : mesh_(mesh), tracer_(tracer), needs_(needs), emitters_(whole_sides(mesh, emitters)),
-      choice_(mesh, emitters_), seeds_(std::move(seeds)),
+    : mesh_(mesh), tracer_(tracer), needs_(needs), patch_of_emitter_(one_of_each_side(mesh, emitters)),
+      emitters_(whole_sides(mesh, patch_of_emitter_)), choice_(mesh, emitters_), seeds_(std::move(seeds)),
       sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)), samples_(mesh.patches().size()),
       hits_(mesh.patches().size()), blocked_(mesh.patches().size()) {
     for (const Patch& emitter : emitters_)
         lamps_.push_back(
             {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});
+}
+
+void DirectLight::set_parts(std::span<const std::uint32_t> part) {
+    part_.assign(part.begin(), part.end());
+    choice_.set_parts(part_, patch_of_emitter_);
 }
 
 Vec3 DirectLight::irradiance(std::uint32_t patch) const {
@@ -160,6 +173,8 @@ void DirectLight::save(StateWriter& state) const {
     state.add(std::span<const std::uint32_t>(samples_));
     state.add(std::span<const std::uint32_t>(hits_));
     state.add(std::span<const double>(blocked_));
+    state.add(std::uint64_t{!part_.empty()});
+    state.add(std::span<const std::uint32_t>(part_));
 }
 
 void DirectLight::load(StateReader& state) {
@@ -167,6 +182,10 @@ void DirectLight::load(StateReader& state) {
     state.get(std::span(samples_));
     state.get(std::span(hits_));
     state.get(std::span(blocked_));
+    part_.resize(state.whole() != 0 ? hits_.size() : 0);
+    state.get(std::span(part_));
+    if (!part_.empty())
+        choice_.set_parts(part_, patch_of_emitter_);
 }
 
 } // namespace hemilux

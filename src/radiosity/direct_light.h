@@ -40,6 +40,9 @@ class DirectLight {
     std::uint64_t sample_up_to(std::span<const std::uint32_t> samples, const Workers& workers,
                                Monitor& monitor);
 
+    /// From now on emitters of other parts of the scene (linked_parts.h) get few samples; by patch.
+    void set_parts(std::span<const std::uint32_t> part);
+
     [[nodiscard]] std::size_t estimates() const { return seeds_.size(); }
     /// Mean over the samples of one estimate [W/m2 arriving].
     [[nodiscard]] Vec3 irradiance(std::uint32_t patch, std::size_t estimate) const {
@@ -88,8 +91,10 @@ class DirectLight {
     const Mesh& mesh_;
     const Tracer& tracer_;
     const Needs& needs_;
-    std::vector<Patch> emitters_; ///< whole sides of facets
+    std::vector<std::uint32_t> patch_of_emitter_; ///< one of each
+    std::vector<Patch> emitters_;                 ///< whole sides of facets
     EmitterChoice choice_;
+    std::vector<std::uint32_t> part_; ///< empty: not known
     std::vector<std::uint64_t> seeds_;
     std::vector<Vec3> sum_; ///< by patch and estimate
     std::vector<std::uint32_t> samples_, hits_;

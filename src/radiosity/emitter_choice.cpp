@@ -17,10 +17,30 @@ namespace {
 /// Emitters that a patch weighs one by one; else so many clusters.
 constexpr std::size_t most_emitters = 1024, most_clusters = 128;
 
+/// Of the rays of a receiver, to emitters from which no light was seen to come.
+constexpr double share_of_doubtful = 1.0 / 16;
+
+/// The light of each emitter, as the mean of its channels relative to the most that any has in that
+/// channel: a lamp that is faint, but the only one in its channel, is as important as any.
+std::vector<double> balanced_light(const Mesh& mesh, std::span<const Patch> emitters) {
+    Vec3 most(0.0);
+    for (const Patch& patch : emitters)
+        most = glm::max(most, mesh.material(patch).emission);
+    std::vector<double> light;
+    for (const Patch& patch : emitters) {
+        double sum = 0;
+        for (int c = 0; c < 3; ++c)
+            sum += most[c] > 0 ? mesh.material(patch).emission[c] / most[c] : 0;
+        light.push_back(sum / 3);
+    }
+    return light;
+}
+
 } // namespace
 
 EmitterChoice::EmitterChoice(const Mesh& mesh, std::span<const Patch> emitters)
-    : mesh_(mesh), emitters_(emitters), order_(emitters.size()), power_sums_(1, 0.0) {
+    : mesh_(mesh), emitters_(emitters), order_(emitters.size()), power_sums_(1, 0.0),
+      light_(balanced_light(mesh, emitters)) {
     for (const Patch& patch : mesh.patches())
         radius_.push_back(radius_of(patch));
     std::iota(order_.begin(), order_.end(), 0u);
@@ -86,7 +106,7 @@ EmitterReceiver EmitterChoice::receiver_at(std::uint32_t patch) const {
 const Vec3& EmitterChoice::centre(std::uint32_t place) const { return emitters_[place].centre; }
 
 double EmitterChoice::light_of(std::uint32_t place) const {
-    return mean_of_channels(mesh_.material(emitters_[place]).emission);
+    return light_[place];
 }
 
 double EmitterChoice::power_of(std::uint32_t place) const {
@@ -154,11 +174,43 @@ void EmitterChoice::weigh(std::uint32_t receiver, Cut& cut) const {
         choose_clusters(receiver, cut);
         weigh_clusters(receiver, cut);
     }
+    if (!part_.empty())
+        doubt_others(receiver, cut);
     cut.sum = cut.sums[0] = 0;
     for (std::size_t k = 1; k < cut.sums.size(); ++k)
         cut.sums[k] = cut.sum += cut.sums[k];
     cut.square_found = std::accumulate(cut.found.begin(), cut.found.end(), 0.0);
     cut.sums.resize(std::bit_ceil(cut.sums.size()), std::numeric_limits<double>::infinity());
+}
+
+void EmitterChoice::set_parts(std::span<const std::uint32_t> part,
+                              std::span<const std::uint32_t> patches) {
+    part_.assign(part.begin(), part.end());
+    part_of_emitter_.clear();
+    for (const std::uint32_t patch : patches)
+        part_of_emitter_.push_back(part[patch]);
+}
+
+/// A cluster of several emitters may belong to several parts and is not doubted.
+void EmitterChoice::doubt_others(std::uint32_t receiver, Cut& cut) const {
+    const auto is_doubtful = [&](std::size_t k) {
+        if (cut.clusters.empty())
+            return part_of_emitter_[order_[k]] != part_[receiver];
+        const Cluster& cluster = clusters_[cut.clusters[k]];
+        return cluster.left == 0 && part_of_emitter_[order_[cluster.begin]] != part_[receiver];
+    };
+    double linked = 0, doubtful = 0;
+    const std::size_t count = cut.found.size();
+    for (std::size_t k = 0; k < count; ++k)
+        (is_doubtful(k) ? doubtful : linked) += cut.sums[k + 1];
+    const double most = linked * share_of_doubtful / (1 - share_of_doubtful);
+    if (!(linked > 0) || doubtful <= most)
+        return;
+    for (std::size_t k = 0; k < count; ++k)
+        if (is_doubtful(k)) {
+            cut.sums[k + 1] *= most / doubtful;
+            cut.found[k] *= most / doubtful;
+        }
 }
 
 /// The cluster that is nearest for its size is divided as long as there is room.

@@ -51,6 +51,10 @@ class EmitterChoice {
     /// For choose().
     void weigh(std::uint32_t receiver, Cut& cut) const;
 
+    /// From now on emitters that are not of the receiver's part of the scene, `part` by patch, get
+    /// few of the rays: no light was seen to pass there. `patches`: of each emitter, one patch.
+    void set_parts(std::span<const std::uint32_t> part, std::span<const std::uint32_t> patches);
+
     struct Choice {
         std::uint32_t emitter; ///< its place among the emitters
         double chance;         ///< with which it is drawn
@@ -75,6 +79,7 @@ class EmitterChoice {
     [[nodiscard]] EmitterArrays arrays_from(std::size_t k) const;
     [[nodiscard]] EmitterReceiver receiver_at(std::uint32_t patch) const;
     void choose_clusters(std::uint32_t receiver, Cut& cut) const;
+    void doubt_others(std::uint32_t receiver, Cut& cut) const;
     void weigh_clusters(std::uint32_t receiver, Cut& cut) const;
     [[nodiscard]] Choice choose_within(const Cluster& cluster, double share) const;
     [[nodiscard]] double light_of(std::uint32_t place) const;
@@ -88,6 +93,8 @@ class EmitterChoice {
     std::vector<double> power_sums_;   ///< by order_, one more: of all before
     std::vector<Cluster> clusters_;    ///< the first is all of them
     std::vector<double> radius_;       ///< of each patch, from its centre
+    std::vector<double> light_;        ///< of each emitter, see light_of
+    std::vector<std::uint32_t> part_of_emitter_, part_; ///< of emitters by place, of patches
     /// By order_: centre, normal, four corners, area, side, light.
     std::array<std::vector<double>, 21> arrays_;
 };

@@ -47,7 +47,8 @@ struct PartLedger {
     Vec3 leaving{0.0};     ///< power that rays at random stand for
     Vec3 one_ray{0.0};     ///< its mean per ray, weighted by itself
     Vec3 appetite{0.0};    ///< area times absorptance
-    double area = 0, rays = 0;
+    double area = 0;
+    double rays = 0, lost = 0; ///< numbers of rays
     bool lit = false;
 };
 
@@ -93,9 +94,9 @@ class Account {
             shadow_weight += blocked;
         }
         if (shadow_weight > 0)
-            errors.unseen += rule_of_three * rule_of_three * shadow / shadow_weight;
+            errors.unseen_by_shadow_rays = rule_of_three * rule_of_three * shadow / shadow_weight;
+        errors.part = parts_.of;
         errors.lit = lit_;
-        errors.unlit = static_cast<std::size_t>(std::ranges::count(lit_, false));
     }
 
   private:
@@ -109,23 +110,25 @@ class Account {
         const Vec3 power = area_[i] * leaving(i);
         part.area += area_[i];
         part.rays += rays_[i];
+        part.lost += rays_[i] * (escaped + absorbed);
         part.lit = part.lit || lit_[i];
         part.appetite += area_[i] * (1.0 - rho_[i]);
         part.used += area_[i] * (1.0 - rho_[i]) * incident_[i] + (escaped + absorbed) * power;
         if (rays_[i] > 0) {
+            const Vec3 kept = (1 - escaped - absorbed) * power;
             part.leaving += power;
-            part.one_ray += power * power / rays_[i];
+            part.one_ray += kept * power / rays_[i];
         }
     }
     [[nodiscard]] const PartLedger& ledger(std::uint32_t i) const { return ledgers_[parts_.of[i]]; }
 
     /// If rays of the part had been lost that were not: less light in all of it, in proportion to
-    /// what else takes light away.
+    /// what else takes light away. The more were lost, the more the sets know of it themselves.
     [[nodiscard]] Vec3 unseen_loss(std::uint32_t i) const {
         if (result_.system.closed())
             return Vec3(0.0);
         const PartLedger& part = ledger(i);
-        const Vec3 share = rule_of_three * ratio(part.one_ray, part.used);
+        const Vec3 share = rule_of_three / (1 + part.lost) * ratio(part.one_ray, part.used);
         return share * rho_[i] * incident_[i];
     }
 

@@ -11,6 +11,7 @@
 
 #include "geometry/vector.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace hemilux {
@@ -25,9 +26,10 @@ struct RowSpread;
 struct GatheringErrors {
     std::vector<Vec3> standard_error; ///< of the radiosity by patch [W/m2]
     double variance = 0; ///< by the sets: sum over patches and channels of area times variance
-    double unseen = 0;   ///< the same, of what was not seen
+    /// The same, of what random rays and what shadow rays have not seen.
+    double unseen = 0, unseen_by_shadow_rays = 0;
+    std::vector<std::uint32_t> part; ///< of each patch, see linked_parts.h
     std::vector<bool> lit; ///< by patch: whether light reaches it on any stored path, or it emits
-    std::size_t unlit = 0; ///< patches that are not
 };
 
 /// What is known of a solution; all of it outlives the call.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace hemilux {
@@ -26,6 +27,10 @@ constexpr double aim_below = 1;
 
 /// The share of the weights that is measured; and what a patch's area counts.
 constexpr double trust = .5, area_exponent = .42;
+
+/// Of the shadow rays that it had got, what a patch keeps that no light has reached: few, but not
+/// none, as a lamp may shine through a gap that all of them have missed.
+constexpr double weight_of_unlit = 1e-3;
 
 /// Black emitters count as if they reflected this: their rays tell where their light goes.
 constexpr double least_reflectance = .1;
@@ -47,7 +52,7 @@ GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random
         prior_lamp_weights_.push_back(area * reflectance);
         prior_weights_.push_back(area * std::max(reflectance, least_reflectance));
     }
-    weights_ = prior_weights_;
+    weights_ = learned_weights_ = prior_weights_;
     lamp_weights_ = prior_lamp_weights_;
 }
 
@@ -135,32 +140,42 @@ void GatheringPlan::mix(std::span<const double> known, std::span<const double> p
 /// A ray is worth most where it takes most from the error. A patch counts by its area and its
 /// reflectance, and the variance of random rays is the spread of the light that comes from all
 /// sides, as far as it is known; half of the weight does not trust that.
-void GatheringPlan::weigh(std::span<const Vec3> variance, const std::vector<bool>& lit) {
-    std::vector<double> known(variance.size()), prior = prior_weights_;
-    for (std::size_t i = 0; i < known.size(); ++i) {
-        if (!lit[i])
-            prior[i] = 0;
-        known[i] =
-            prior[i] * std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance[i]));
-    }
-    std::vector<double> smooth(known.size());
+void GatheringPlan::learn(std::span<const Vec3> variance) {
+    std::vector<double> known(variance.size()), smooth(variance.size());
+    for (std::size_t i = 0; i < known.size(); ++i)
+        known[i] = prior_weights_[i] *
+                   std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance[i]));
     for (std::uint32_t i = 0; i < known.size(); ++i)
-        smooth[i] = prior[i] > 0 ? of_neighbours(i, known) : 0;
-    mix(smooth, prior, weights_);
+        smooth[i] = prior_weights_[i] > 0 ? of_neighbours(i, known) : 0;
+    mix(smooth, prior_weights_, learned_weights_);
+}
+
+void GatheringPlan::weigh(std::span<const Vec3> variance, const std::vector<bool>& lit) {
+    if (std::ranges::none_of(lit, std::identity{})) // nothing is known yet
+        return;
+    if (!has_learned_)
+        learn(variance);
+    has_learned_ = true;
+    for (std::size_t i = 0; i < weights_.size(); ++i)
+        weights_[i] = lit[i] ? learned_weights_[i] : 0;
 }
 
 /// With a variance that falls as v n^-fall, the sum over patches is least for n as
 /// v^(1 / (1 + fall)), v being what one ray alone would leave.
-void GatheringPlan::weigh_lamps(std::span<const double> variance) {
-    std::vector<double> known(variance.size());
+void GatheringPlan::weigh_lamps(std::span<const double> variance, const std::vector<bool>& lit) {
+    if (std::ranges::none_of(lit, std::identity{}))
+        return;
+    std::vector<double> known(variance.size()), prior = prior_lamp_weights_;
     for (std::size_t i = 0; i < known.size(); ++i) {
         if (variance[i] < 0)
-            prior_lamp_weights_[i] = 0;
+            prior_lamp_weights_[i] = prior[i] = 0;
+        if (!lit[i])
+            prior[i] *= weight_of_unlit;
         if (prior_lamp_weights_[i] > 0)
             known[i] =
                 std::pow(variance[i] * std::pow(now_.rays.to_lamps[i], fall), 1 / (1 + fall));
     }
-    mix(known, prior_lamp_weights_, lamp_weights_);
+    mix(known, prior, lamp_weights_);
 }
 
 /// What was planned, and what is known of the patches; the rest follows from the scene.
@@ -171,8 +186,9 @@ void GatheringPlan::save(StateWriter& state) const {
         state.add(std::span<const std::uint32_t>(stage->rays.random));
         state.add(std::span<const std::uint32_t>(stage->rays.to_lamps));
     }
-    state.add(std::span<const double>(weights_));
-    state.add(std::span<const double>(lamp_weights_));
+    for (const std::vector<double>* weights : {&weights_, &learned_weights_, &lamp_weights_})
+        state.add(std::span<const double>(*weights));
+    state.add(std::uint64_t{has_learned_});
 }
 
 void GatheringPlan::load(StateReader& state) {
@@ -185,12 +201,13 @@ void GatheringPlan::load(StateReader& state) {
         state.get(std::span(stage->rays.random));
         state.get(std::span(stage->rays.to_lamps));
     }
-    for (std::vector<double>* weights : {&weights_, &lamp_weights_}) {
+    for (std::vector<double>* weights : {&weights_, &learned_weights_, &lamp_weights_}) {
         state.get(std::span(*weights));
         for (const double weight : *weights)
             if (!(weight >= 0 && std::isfinite(weight)))
                 throw StateError("a weight is no weight");
     }
+    has_learned_ = state.whole() != 0;
 }
 
 } // namespace hemilux

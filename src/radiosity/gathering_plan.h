@@ -59,11 +59,12 @@ class GatheringPlan {
     ///
     /// How many rays a patch gets must not depend on what its own rays have found: where they missed
     /// something rare, their variance is too small, fewer rays would follow, and the mean of all
-    /// would stay wrong. So a patch is judged by its neighbours.
+    /// would stay wrong. So a patch is judged by its neighbours, and but once, by the first rays that
+    /// found light, which are soon a small part of all.
     void weigh(std::span<const Vec3> variance, const std::vector<bool>& lit);
 
     /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`: of each patch, times its area, in any unit; negative: it takes none.
-    void weigh_lamps(std::span<const double> variance);
+    void weigh_lamps(std::span<const double> variance, const std::vector<bool>& lit);
 
     void save(StateWriter& state) const;
     /// Of a plan made with the same arguments. Throws StateError for what save() cannot have
@@ -76,6 +77,7 @@ class GatheringPlan {
         GatheringRays rays;
     };
     [[nodiscard]] double of_neighbours(std::uint32_t patch, std::span<const double> known) const;
+    void learn(std::span<const Vec3> variance);
     static void mix(std::span<const double> known, std::span<const double> prior,
                     std::vector<double>& weights);
     void choose(const KnownError& known);
@@ -87,6 +89,8 @@ class GatheringPlan {
     Stage first_, before_, now_;
     std::vector<Vec3> reflectance_;
     std::vector<double> weights_, lamp_weights_; ///< what a ray is worth
+    std::vector<double> learned_weights_;        ///< of random rays, were all patches lit
+    bool has_learned_ = false;
     std::vector<double> prior_weights_;          ///< of random rays, before anything is known
     std::vector<double> prior_lamp_weights_;     ///< likewise of shadow rays
 };

@@ -14,8 +14,8 @@ namespace {
 /// that error, and of the whole.
 constexpr double left_of_sets = .1, left_of_all = 1e-3;
 
-/// Residuals, relative to the light that comes straight from the emitters: never less, and of the
-/// sets never more.
+/// Residuals, relative to the light: never less; and of the sets, times what a reflection takes
+/// away, never more.
 constexpr double least_residual = 1e-10, first_residual = 1e-3;
 
 /// Of one of them.
@@ -65,14 +65,14 @@ ExchangeMatrix GatheringSystem::solve(const Rays& rays, std::optional<double> er
     });
     const Vec3 variance = sample_variance(power);
     std::vector<GatheredLight::Light> found = light;
-    const double residual =
-        error ? std::clamp(left_of_sets * *error, least_residual, first_residual) : first_residual;
+    // What a residual makes of the light is no larger than its sum over all reflections.
+    const double known = error ? std::min(left_of_sets * *error, first_residual) : first_residual;
+    const double residual = std::max(known * lost_at_least_, least_residual);
     workers.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
         direct[set].variance = variance;
         solve(parts[set], std::move(direct[set]), found[set], alone, residual, interrupted);
     });
     ExchangeMatrix all(std::move(parts), workers);
-    // What a residual makes of the light is no larger than its sum over all reflections.
     const double worth = left_of_all * average(found) * lost_at_least_;
     solve(all,
           {straight_light(all, rays.direct, std::nullopt, workers), variance / double(sets)},

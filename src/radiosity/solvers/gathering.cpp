@@ -200,17 +200,16 @@ class GatheringSolver final : public Solver {
         const RowSpread rows = spread_of_rows(all, light, workers_);
         GatheringErrors errors =
             errors_of<sets>({input_.mesh, system_, light_, all, rows, *direct_});
-        direct_variance_ = spread.direct_variance;
-        variance_ = std::max(errors.variance, direct_variance_);
+        direct_variance_ = spread.direct_variance + errors.unseen_by_shadow_rays;
+        variance_ = std::max(errors.variance + errors.unseen, direct_variance_);
         solution_.standard_error = std::move(errors.standard_error);
         solution_.variance = errors.variance;
-        solution_.unseen = errors.unseen;
+        solution_.unseen = errors.unseen + errors.unseen_by_shadow_rays;
         solution_.error_samples = sets;
         solution_.error_parts = error_parts(spread.products, sets);
-        if (errors.unlit == n) // nothing is known yet
-            errors.lit.assign(n, true);
         plan_.weigh(rows.variance, errors.lit);
-        plan_.weigh_lamps(direct_variances);
+        plan_.weigh_lamps(direct_variances, errors.lit);
+        direct_->set_parts(errors.part);
         account();
         solution_.rays_energy = traced_;
         solution_.bytes_transport = all.bytes() + direct_->bytes();
