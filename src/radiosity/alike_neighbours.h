@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace hemilux {
 
@@ -28,5 +30,10 @@ void for_alike_neighbours(const Mesh& mesh, std::uint32_t i, const Visit& visit)
             visit(j);
     }
 }
+
+/// Variances by patch that are known badly from a few samples each: the mean over the patch and its
+/// neighbours, or the mean of that and the patch's own, whatever is more.
+[[nodiscard]] std::vector<Vec3> pooled_over_neighbours(const Mesh& mesh,
+                                                       std::span<const Vec3> variance);
 
 } // namespace hemilux

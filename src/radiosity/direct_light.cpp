@@ -71,7 +71,7 @@ DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& ne
     : mesh_(mesh), tracer_(tracer), needs_(needs), patch_of_emitter_(one_of_each_side(mesh, emitters)),
       emitters_(whole_sides(mesh, patch_of_emitter_)), choice_(mesh, emitters_), seeds_(std::move(seeds)),
       sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)), samples_(mesh.patches().size()),
-      hits_(mesh.patches().size()), blocked_(mesh.patches().size()) {
+      hits_(mesh.patches().size()), unblocked_(mesh.patches().size()) {
     for (const Patch& emitter : emitters_)
         lamps_.push_back(
             {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});
@@ -159,9 +159,8 @@ void DirectLight::send(Volley& volley) {
     }
     for (std::size_t k = 0; k < size; ++k) {
         const auto& [patch, estimate, light] = volley.samples[k];
-        if (blocked[k]) {
-            blocked_[patch] += mean_of_channels(light);
-        } else {
+        unblocked_[patch] += mean_of_channels(light);
+        if (!blocked[k]) {
             sum_[patch * seeds_.size() + estimate] += light;
             ++hits_[patch];
         }
@@ -172,7 +171,7 @@ void DirectLight::save(StateWriter& state) const {
     state.add(std::span<const Vec3>(sum_));
     state.add(std::span<const std::uint32_t>(samples_));
     state.add(std::span<const std::uint32_t>(hits_));
-    state.add(std::span<const double>(blocked_));
+    state.add(std::span<const double>(unblocked_));
     state.add(std::uint64_t{!part_.empty()});
     state.add(std::span<const std::uint32_t>(part_));
 }
@@ -181,7 +180,7 @@ void DirectLight::load(StateReader& state) {
     state.get(std::span(sum_));
     state.get(std::span(samples_));
     state.get(std::span(hits_));
-    state.get(std::span(blocked_));
+    state.get(std::span(unblocked_));
     part_.resize(state.whole() != 0 ? hits_.size() : 0);
     state.get(std::span(part_));
     if (!part_.empty())

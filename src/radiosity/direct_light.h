@@ -56,11 +56,10 @@ class DirectLight {
     [[nodiscard]] std::uint32_t samples(std::uint32_t patch) const { return samples_[patch]; }
     /// Samples of this patch that brought light.
     [[nodiscard]] std::uint32_t hits(std::uint32_t patch) const { return hits_[patch]; }
-    /// What the samples of this patch that were blocked would have brought, as if they made up the
-    /// irradiance together with the others [W/m2, mean of channels].
-    [[nodiscard]] double blocked(std::uint32_t patch) const {
-        const std::uint32_t n = samples_[patch];
-        return n > 0 ? blocked_[patch] / (static_cast<double>(n) * double(seeds_.size())) : 0;
+    /// The irradiance if nothing blocked any sample [W/m2, mean of channels].
+    [[nodiscard]] double unblocked(std::uint32_t patch) const {
+        const double n = double(samples_[patch]) * double(seeds_.size());
+        return n > 0 ? unblocked_[patch] / n : 0;
     }
     [[nodiscard]] std::uint64_t bytes() const {
         return sum_.size() * sizeof(Vec3) +
@@ -98,7 +97,7 @@ class DirectLight {
     std::vector<std::uint64_t> seeds_;
     std::vector<Vec3> sum_; ///< by patch and estimate
     std::vector<std::uint32_t> samples_, hits_;
-    std::vector<double> blocked_; ///< sum over the samples of a patch
+    std::vector<double> unblocked_; ///< sum over the samples of a patch
     std::vector<Emitter> lamps_;
 };
 

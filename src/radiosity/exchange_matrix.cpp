@@ -109,11 +109,41 @@ Workers ExchangeMatrix::readers(const Workers& workers) const {
 }
 
 /// What the rows are to sum to; less than 0: unknown, as the patch itself has not looked.
-std::vector<double> ExchangeMatrix::due() const {
-    std::vector<double> due(area_.size(), -1.0);
-    for (std::size_t i = 0; i < due.size(); ++i)
-        if (rays_[i] > 0)
-            due[i] = area_[i] * std::max(1 - lost_[i].escaped - lost_[i].absorbed, 0.0);
+///
+/// A patch's own rays tell it by how many of them met no patch; the rays between it and others, those
+/// of the others included, tell it too. Each counts by the inverse of its variance. In a closed room
+/// the first is known to be all. But a ground under a lamp with a narrow shade loses nearly all of
+/// its rays, and what little is left is known much better from the lamp's side.
+std::vector<double> ExchangeMatrix::due(const Workers& workers) const {
+    const std::size_t n = area_.size();
+    std::vector<double> due(n, -1.0), rays_per_area(n);
+    double all = 0, lost = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        rays_per_area[i] = area_[i] > 0 ? rays_[i] / area_[i] : 0;
+        all += rays_[i];
+        lost += rays_[i] * (lost_[i].escaped + lost_[i].absorbed);
+    }
+    for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (!(rays_[i] > 0))
+                continue;
+            const double kept = std::max(1 - lost_[i].escaped - lost_[i].absorbed, 0.0);
+            due[i] = area_[i] * kept;
+            if (!(lost > 0))
+                continue;
+            // As if one ray more had met what rays meet on average.
+            const double share = (rays_[i] * (1 - kept) + lost / all) / (rays_[i] + 1);
+            const double variance = area_[i] * area_[i] * share * (1 - share) / rays_[i];
+            double sum = 0, variance_of_sum = 0;
+            for (const MatrixEntry& entry : rows_.row(i)) {
+                sum += entry.value;
+                variance_of_sum += entry.value / (rays_per_area[i] + rays_per_area[entry.column]);
+            }
+            if (variance_of_sum > 0)
+                due[i] += variance / (variance + variance_of_sum) *
+                          (std::min(sum, area_[i]) - due[i]);
+        }
+    });
     return due;
 }
 
@@ -138,7 +168,7 @@ void ExchangeMatrix::find_scale(std::span<const double> due, int times, const Wo
 }
 
 void ExchangeMatrix::close(int times, const Workers& workers) {
-    const std::vector<double> due = this->due();
+    const std::vector<double> due = this->due(workers);
     find_scale(due, times, workers);
     self_.assign(area_.size(), 0.0);
     per_area_.assign(area_.size(), 0.0);

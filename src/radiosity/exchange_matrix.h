@@ -71,7 +71,7 @@ class ExchangeMatrix {
     void find_lost(std::span<const ExchangeMatrix> sets);
     void store(const RayCounts& set);
     void close(int times, const Workers& workers);
-    [[nodiscard]] std::vector<double> due() const;
+    [[nodiscard]] std::vector<double> due(const Workers& workers) const;
     void find_scale(std::span<const double> due, int times, const Workers& workers);
     [[nodiscard]] Workers readers(const Workers& workers) const;
 

@@ -25,22 +25,6 @@ Vec3 ratio(const Vec3& a, const Vec3& b) {
     return {one(a.x, b.x), one(a.y, b.y), one(a.z, b.z)};
 }
 
-/// One error of many patches, known badly from each of them alone: the mean over alike neighbours,
-/// or half of the patch's own, whatever is more.
-std::vector<Vec3> pooled(const Mesh& mesh, std::span<const Vec3> variance) {
-    std::vector<Vec3> result(variance.size());
-    for (std::uint32_t i = 0; i < result.size(); ++i) {
-        Vec3 sum = variance[i];
-        double count = 1;
-        for_alike_neighbours(mesh, i, [&](std::uint32_t j) {
-            sum += variance[j];
-            ++count;
-        });
-        result[i] = glm::max(sum / count, 0.5 * (sum / count + variance[i]));
-    }
-    return result;
-}
-
 /// Sums over the patches of a linked part, by channel.
 struct PartLedger {
     Vec3 used{0.0};        ///< power that ends there: absorbed, or lost
@@ -85,13 +69,14 @@ class Account {
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
             const Vec3 level = lit_[i] ? unseen_loss(i) : unseen_light(i);
             errors.unseen += area_[i] * glm::dot(level, level);
-            const Vec3 one = glm::max(one_ray(i), one_shadow_ray(i));
+            const bool dark = result_.direct.hits(i) == 0;
+            const Vec3 one = glm::max(one_ray(i), dark ? one_shadow_ray(i) : Vec3(0.0));
             Vec3& sigma = errors.standard_error[i];
             sigma = glm::sqrt(glm::max(sigma * sigma, one * one) + level * level);
-            const double blocked = area_[i] * result_.direct.blocked(i);
+            const double weight = area_[i] * result_.direct.unblocked(i);
             const Vec3 sample = one_shadow_ray(i);
-            shadow += blocked * area_[i] * glm::dot(sample, sample);
-            shadow_weight += blocked;
+            shadow += weight * area_[i] * glm::dot(sample, sample);
+            shadow_weight += weight;
         }
         if (shadow_weight > 0)
             errors.unseen_by_shadow_rays = rule_of_three * rule_of_three * shadow / shadow_weight;
@@ -148,10 +133,11 @@ class Account {
     [[nodiscard]] Vec3 one_ray(std::uint32_t i) const {
         return rays_[i] > 0 ? rho_[i] * result_.rows.typical[i] / rays_[i] : Vec3(0.0);
     }
-    /// The light that one of the shadow rays that were blocked would have brought.
+    /// The light that one shadow ray more or less would bring: through a gap that all have missed, or
+    /// behind a thing that none has met.
     [[nodiscard]] Vec3 one_shadow_ray(std::uint32_t i) const {
         const double samples = double(result_.direct.samples(i)) * double(result_.direct.estimates());
-        return samples > 0 ? rho_[i] * (result_.direct.blocked(i) / samples) : Vec3(0.0);
+        return samples > 0 ? rho_[i] * (result_.direct.unblocked(i) / samples) : Vec3(0.0);
     }
 
     const GatheringResult& result_;
@@ -179,7 +165,7 @@ template <std::size_t Sets> GatheringErrors errors_of(const GatheringResult& res
         variance[i] = rho * rho * squares / double(Sets * (Sets - 1));
         errors.variance += result.system.area()[i] * (variance[i].x + variance[i].y + variance[i].z);
     }
-    errors.standard_error = pooled(result.mesh, variance);
+    errors.standard_error = pooled_over_neighbours(result.mesh, variance);
     for (Vec3& sigma : errors.standard_error)
         sigma = glm::sqrt(sigma);
     Account(result).add_unseen(errors);

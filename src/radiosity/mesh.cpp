@@ -5,6 +5,7 @@
 #include "radiosity/stacked_facets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -69,15 +70,41 @@ double radius_of(const Patch& patch) {
     return std::sqrt(squares);
 }
 
+/// The centre, and how far corners are from it at most, of the box around all facets. But where most
+/// of them lie in a small part of that, as under a distant sun, the centre of that part: there
+/// floats are most precise.
 LocalFrame LocalFrame::of(const Scene& scene) {
-    Box bounds;
-    for (const Facet& facet : scene.facets)
-        for (const std::uint32_t v : facet.vertex)
-            bounds.include(scene.vertices[v]);
-    const Vec3 half = 0.5 * bounds.extent();
+    constexpr double small_part = 1.0 / 1024, left_out = 1.0 / 16; // of the extent; on either side
+    LocalFrame frame;
+    double most = 0, whole = 0, inner = 0;
+    Vec3 centre_of_inner;
+    std::array<std::array<double, 2>, 3> ends{};
+    std::vector<double> places;
+    for (int axis = 0; axis < 3; ++axis) {
+        places.clear();
+        for (const Facet& facet : scene.facets)
+            for (const std::uint32_t v : facet.vertex)
+                places.push_back(scene.vertices[v][axis]);
+        const auto [low, high] = std::ranges::minmax(places);
+        ends.at(static_cast<std::size_t>(axis)) = {low, high};
+        const auto skipped = static_cast<std::ptrdiff_t>(left_out * double(places.size()));
+        const auto first = places.begin() + skipped, last = places.end() - 1 - skipped;
+        std::nth_element(places.begin(), first, places.end());
+        std::nth_element(first, last, places.end());
+        frame.centre[axis] = .5 * (low + high);
+        centre_of_inner[axis] = .5 * (*first + *last);
+        whole = std::max(whole, high - low);
+        inner = std::max(inner, *last - *first);
+    }
+    if (inner < small_part * whole)
+        frame.centre = centre_of_inner;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double end : ends.at(static_cast<std::size_t>(axis)))
+            most = std::max(most, std::abs(end - frame.centre[axis]));
     int exponent = 0;
-    std::frexp(std::max({half.x, half.y, half.z}), &exponent);
-    return {bounds.centre(), std::ldexp(1.0, -exponent)};
+    std::frexp(most, &exponent);
+    frame.scale = std::ldexp(1.0, -exponent);
+    return frame;
 }
 
 std::vector<Vec3> LocalFrame::to_local(std::span<const Vec3> world) const {

@@ -39,8 +39,10 @@ std::size_t count_triangles(const Scene& scene) {
 void find_idle_patches(const Mesh& mesh, Needs& needs) {
     const std::vector<bool> lit = find_lit_patches(mesh);
     needs.idle.resize(lit.size());
+    needs.bounces = false;
     for (std::uint32_t i = 0; i < lit.size(); ++i) {
         const Material& material = mesh.material(i);
+        needs.bounces |= lit[i] && !is_black(material.reflectance);
         if (!is_black(material.emission))
             continue;
         needs.idle[i] = !lit[i] || is_black(material.reflectance);
@@ -79,7 +81,7 @@ std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
         list.push_back({"tests of visibility", "nothing stands in a convex enclosure",
                         "all rays between two patches"});
     if (!needs.bounces && work.passes)
-        list.push_back({"all passes but the first", "nothing reflects",
+        list.push_back({"all passes but the first", "nothing that light reaches reflects",
                         "all steps but one, and the search for their length"});
     add_idle_patches(needs, work, list);
     if (!needs.tree)
@@ -97,12 +99,11 @@ Needs find_needs(const Mesh& mesh) {
     const Scene& scene = mesh.scene();
     const std::vector<bool> used = materials_in_use(scene);
     Needs needs;
-    needs.colours = needs.bounces = false;
+    needs.colours = false;
     for (std::size_t m = 0; m < used.size(); ++m)
         if (used[m]) {
             const Material& material = scene.materials[m];
             needs.colours |= !is_grey(material.reflectance) || !is_grey(material.emission);
-            needs.bounces |= !is_black(material.reflectance);
         }
     needs.densities = needs.visibility = !is_convex_enclosure(mesh);
     needs.tree = needs_tree(mesh);

@@ -19,7 +19,7 @@ struct Needs {
     bool colours = true;    ///< false: all is grey, one channel stands for three
     bool densities = true;  ///< false: a convex enclosure, one surface in each direction
     bool visibility = true; ///< false: the same, nothing stands between two patches
-    bool bounces = true;    ///< false: nothing reflects
+    bool bounces = true;    ///< false: nothing that light may reach reflects
     bool tree = true;       ///< false: so few triangles that a ray tests them all at once
 
     /// Whether a patch may ever hold power to be shot. If not it needs no rays and no hemisphere.

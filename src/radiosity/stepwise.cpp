@@ -1,5 +1,6 @@
 #include "radiosity/stepwise.h"
 
+#include "radiosity/alike_neighbours.h"
 #include "radiosity/check_input.h"
 #include "radiosity/mesh.h"
 #include "radiosity/shot.h"
@@ -21,6 +22,7 @@ StepwiseSolver::StepwiseSolver(const SolverInput& input, bool equal_rays)
     const auto patches = input_.mesh.patches();
     const double unknown = input.needs.bounces ? std::numeric_limits<double>::quiet_NaN() : 0;
     solution_.standard_error.assign(patches.size(), Vec3(unknown));
+    solution_.may_find_light = input.needs.bounces;
     solution_.hits.assign(patches.size(), 0);
     squares_.assign(patches.size(), Vec3(0.0));
     for (std::uint32_t i = 0; i < patches.size(); ++i)
@@ -187,35 +189,90 @@ Vec3 StepwiseSolver::one_ray(std::uint32_t patch) const {
         return (solution_.radiosity[patch] - input_.mesh.material(patch).emission) /
                static_cast<double>(solution_.hits[patch]);
     const double area = input_.mesh.patches()[patch].area;
-    const double emitted_power = mean_of_channels(solution_.energy.emitted);
-    if (!equal_rays_ || !(emitted_power > 0) || !(area > 0))
+    if (!(area > 0))
         return Vec3(0.0);
-    const Vec3 power = ray_power_ / emitted_power * solution_.energy.emitted;
-    return input_.mesh.material(patch).reflectance * power / (area * solution_.steps);
+    return input_.mesh.material(patch).reflectance * mean_ray() / area;
 }
 
-/// Mean and spread of the steps. A patch that no ray has struck shows no spread, though one ray
-/// more might have struck it: a standard error is never below what one ray brings. Summed over all
-/// patches that would be too much; the variances themselves are right on average.
+/// The power of a ray in the mean of the steps, local units; 0 where rays have none in common.
+Vec3 StepwiseSolver::mean_ray() const {
+    const double emitted_power = mean_of_channels(solution_.energy.emitted);
+    if (!equal_rays_ || !(emitted_power > 0))
+        return Vec3(0.0);
+    return ray_power_ / (emitted_power * solution_.steps) * solution_.energy.emitted;
+}
+
+/// Area times squared radiosity that rays would have brought that struck nothing so far, by the rule
+/// of three: as three more of mean power, each anywhere.
+double StepwiseSolver::unseen() const {
+    constexpr double rule_of_three = 3;
+    const Vec3 power = rule_of_three * mean_ray();
+    double area = 0, squares = 0;
+    for (std::uint32_t i = 0; i < squares_.size(); ++i) {
+        const Vec3 reflected = input_.mesh.material(i).reflectance * power;
+        area += input_.mesh.patches()[i].area;
+        squares += glm::dot(reflected, reflected);
+    }
+    return squares / area;
+}
+
+/// Mean and spread of the steps.
 void StepwiseSolver::combine(const StepResult& result) {
     const std::vector<Vec3>& radiosity = result.radiosity;
     const double n = ++solution_.steps;
-    double variance = 0;
     for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
         const Vec3 before = n > 1 ? solution_.radiosity[i] : Vec3(0.0);
         solution_.radiosity[i] = before + (radiosity[i] - before) / n;
         solution_.hits[i] += result.hits[i];
-        if (n > 1) {
+        if (n > 1)
             squares_[i] += (radiosity[i] - before) * (radiosity[i] - solution_.radiosity[i]);
-            const Vec3 of_mean = squares_[i] / (n * (n - 1));
-            variance += input_.mesh.patches()[i].area * (of_mean.x + of_mean.y + of_mean.z);
-            solution_.standard_error[i] = glm::max(glm::sqrt(of_mean), one_ray(i));
-        }
     }
+    note_level(radiosity);
     if (n > 1)
-        solution_.variance = variance;
+        estimate_errors();
     solution_.rays_energy += result.rays;
     account(result);
+}
+
+/// How much of the reflected light of the mean a step has, where all patches err together.
+void StepwiseSolver::note_level(const std::vector<Vec3>& radiosity) {
+    double of_step = 0, of_mean = 0;
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
+        const Vec3 emission = input_.mesh.material(i).emission;
+        const Vec3 mean = input_.mesh.patches()[i].area * (solution_.radiosity[i] - emission);
+        of_step += glm::dot(mean, radiosity[i] - emission);
+        of_mean += glm::dot(mean, solution_.radiosity[i] - emission);
+    }
+    const double level = of_mean > 0 ? of_step / of_mean : 0;
+    const double before = solution_.steps > 1 ? level_ : 0;
+    level_ = before + (level - before) / solution_.steps;
+    if (solution_.steps > 1)
+        level_squares_ += (level - before) * (level - level_);
+}
+
+/// A patch that no ray has struck shows no spread, though one ray more might have struck it: a
+/// standard error is never below what one ray brings. Summed over all patches that would be too
+/// much; the variances themselves are right on average. The error is that of single patches, of
+/// which there are many, and that of the level, which is one.
+void StepwiseSolver::estimate_errors() {
+    const double n = solution_.steps;
+    std::vector<Vec3> variance(squares_.size());
+    double sum = 0, value = 0;
+    for (std::uint32_t i = 0; i < variance.size(); ++i) {
+        const double area = input_.mesh.patches()[i].area;
+        const Vec3 reflected = solution_.radiosity[i] - input_.mesh.material(i).emission;
+        variance[i] = squares_[i] / (n * (n - 1));
+        sum += area * (variance[i].x + variance[i].y + variance[i].z);
+        value += area * glm::dot(reflected, reflected);
+    }
+    variance = pooled_over_neighbours(input_.mesh, variance);
+    for (std::uint32_t i = 0; i < variance.size(); ++i)
+        solution_.standard_error[i] = glm::max(glm::sqrt(variance[i]), one_ray(i));
+    const double of_level = level_squares_ / (n * (n - 1)) * value;
+    solution_.variance = sum;
+    solution_.unseen = unseen();
+    if (of_level > 0)
+        solution_.error_parts = std::max(std::pow(sum / of_level, 2.0), 1.0);
 }
 
 /// What patches send by the solution and what rays have carried differ by chance: numbers of rays
@@ -235,15 +292,14 @@ void StepwiseSolver::save(StateWriter& state) const {
     state.add(std::uint64_t{solution_.steps});
     state.add(solution_.rays_energy);
     state.add(solution_.seconds_density);
-    state.add(std::uint64_t{solution_.variance.has_value()});
-    state.add(solution_.variance.value_or(0));
     for (const Vec3& power :
          {solution_.energy.absorbed, solution_.energy.escaped, solution_.energy.unshot,
           absorbed_.sum, absorbed_.lost, escaped_.sum, escaped_.lost, sent_.sum, sent_.lost})
         state.add(power);
     state.add(ray_power_);
+    state.add(level_);
+    state.add(level_squares_);
     state.add(std::span<const Vec3>(solution_.radiosity));
-    state.add(std::span<const Vec3>(solution_.standard_error));
     state.add(std::span<const Vec3>(squares_));
     state.add(std::span<const std::uint64_t>(solution_.hits));
     save_more(state);
@@ -256,18 +312,18 @@ void StepwiseSolver::load(StateReader& state) {
     solution_.steps = static_cast<std::uint32_t>(steps);
     solution_.rays_energy = state.whole();
     solution_.seconds_density += state.number(); // both were spent
-    const bool has_variance = state.whole() != 0;
-    const double variance = state.number();
-    solution_.variance = has_variance ? std::optional(variance) : std::nullopt;
     for (Vec3* power :
          {&solution_.energy.absorbed, &solution_.energy.escaped, &solution_.energy.unshot,
           &absorbed_.sum, &absorbed_.lost, &escaped_.sum, &escaped_.lost, &sent_.sum, &sent_.lost})
         state.get(*power);
     ray_power_ = state.number();
+    level_ = state.number();
+    level_squares_ = state.number();
     state.get(std::span(solution_.radiosity));
-    state.get(std::span(solution_.standard_error));
     state.get(std::span(squares_));
     state.get(std::span(solution_.hits));
+    if (solution_.steps > 1)
+        estimate_errors();
     load_more(state);
 }
 

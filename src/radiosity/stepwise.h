@@ -89,7 +89,11 @@ class StepwiseSolver : public Solver {
     [[nodiscard]] Vec3 power_leaving() const;
     [[nodiscard]] StepResult fresh_result() const;
     bool find_ray_power();
+    [[nodiscard]] Vec3 mean_ray() const;
     [[nodiscard]] Vec3 one_ray(std::uint32_t patch) const;
+    [[nodiscard]] double unseen() const;
+    void estimate_errors();
+    void note_level(const std::vector<Vec3>& radiosity);
     void combine(const StepResult& result);
     void account(const StepResult& result);
 
@@ -100,6 +104,9 @@ class StepwiseSolver : public Solver {
     double ray_power_ = 0;        ///< 0 until the pilot has found it
     std::vector<Vec3> pilot_;     ///< its radiosity; empty where there was none
     std::vector<Vec3> squares_;   ///< sum of squared deviations of the steps (Welford 1962)
+    /// Of each step, how bright all of it is beside the mean of the steps; mean and sum of squared
+    /// deviations.
+    double level_ = 0, level_squares_ = 0;
     CompensatedSum<Vec3> absorbed_, escaped_, sent_; ///< of all steps
 };
 

@@ -65,6 +65,7 @@ class GatheringSolver final : public Solver {
         solution_.energy.unshot = solution_.energy.emitted;
         solution_.radiosity.assign(system_.emission().begin(), system_.emission().end());
         solution_.standard_error.resize(patches.size());
+        solution_.may_find_light = input.needs.bounces;
         solution_.hits.resize(patches.size());
     }
 

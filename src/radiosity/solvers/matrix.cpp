@@ -13,8 +13,10 @@
 // patches^2 faces.
 
 #include "geometry/compensated_sum.h"
+#include "radiosity/alike_neighbours.h"
 #include "radiosity/check_input.h"
 #include "radiosity/energy_closing.h"
+#include "radiosity/error_spread.h"
 #include "radiosity/exact_form_factors.h"
 #include "radiosity/gmres.h"
 #include "radiosity/mesh.h"
@@ -25,6 +27,7 @@
 #include "radiosity/solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -67,6 +70,7 @@ class MatrixSolver final : public Solver {
                                   hash_words({input.options.seed, r}), needs);
         solution_.standard_error.resize(patches.size());
         solution_.error_samples = replicates;
+        solution_.may_find_light = input.needs.bounces;
         solution_.hits.resize(patches.size());
         for (std::uint32_t i = 0; i < patches.size(); ++i)
             solution_.radiosity.push_back(input.mesh.material(i).emission);
@@ -186,24 +190,43 @@ class MatrixSolver final : public Solver {
     }
 
     void combine(const Vec3& absorbed_power, const Vec3& escaped_power) {
-        for (std::size_t i = 0; i < solution_.radiosity.size(); ++i) {
-            Vec3 sum(0.0), squares(0.0);
+        std::vector<Vec3> variance(solution_.radiosity.size());
+        std::vector<double> products(replicates * replicates);
+        std::array<Vec3, replicates> off{};
+        for (std::uint32_t i = 0; i < variance.size(); ++i) {
+            Vec3 mean(0.0), squares(0.0);
             for (const auto& replicate : guesses_)
-                sum += replicate[i];
-            const Vec3 mean = sum / double(replicates);
-            for (const auto& replicate : guesses_)
-                squares += (replicate[i] - mean) * (replicate[i] - mean);
+                mean += replicate[i] / double(replicates);
+            for (std::size_t r = 0; r < replicates; ++r) {
+                off[r] = guesses_[r][i] - mean;
+                squares += off[r] * off[r];
+            }
+            const double area = input_.mesh.patches()[i].area;
+            for (std::size_t r = 0; r < replicates; ++r)
+                for (std::size_t t = 0; t < replicates; ++t)
+                    products[r * replicates + t] += area * glm::dot(off[r], off[t]);
             solution_.radiosity[i] = mean;
-            solution_.standard_error[i] =
-                glm::sqrt(squares / double(replicates * (replicates - 1)));
+            variance[i] = squares / double(replicates * (replicates - 1));
             solution_.hits[i] = std::uint64_t{rays_} * replicates;
         }
+        note_errors(variance, products);
         const double to_world = input_.mesh.frame().area_to_world(1.0);
         solution_.energy.absorbed = to_world * absorbed_power;
         solution_.energy.escaped = to_world * escaped_power;
         solution_.energy.unshot = Vec3(0.0);
         solution_.rays_energy = traced_;
         ++solution_.steps;
+    }
+
+    void note_errors(std::span<const Vec3> variance, std::span<const double> products) {
+        solution_.variance = 0;
+        for (std::uint32_t i = 0; i < variance.size(); ++i)
+            *solution_.variance +=
+                input_.mesh.patches()[i].area * glm::dot(variance[i], Vec3(1.0));
+        solution_.error_parts = error_parts(products, replicates);
+        solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
+        for (Vec3& sigma : solution_.standard_error)
+            sigma = glm::sqrt(sigma);
     }
 
     SolverInput input_;

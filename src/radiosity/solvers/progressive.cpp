@@ -61,6 +61,23 @@ constexpr double least_lost_rays = 16, most_lost_rays = 16384;
 /// What overshooting adds at most to what is unshot.
 constexpr double most_overshot = .8;
 
+/// About the emitted power that falls on patches, were nothing between them: a sun sends most of its
+/// light elsewhere, and what lights a scene is to be measured by what gets there.
+Vec3 power_to_patches(const Mesh& mesh) {
+    CompensatedSum<Vec3> power;
+    for (std::uint32_t e = 0; e < mesh.patches().size(); ++e) {
+        const Vec3& emission = mesh.material(e).emission;
+        if (emission == Vec3(0.0))
+            continue;
+        double area = 0; // times the factor to the emitter: the emitter's times that from it
+        for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
+            if (i != e && may_see(mesh.patches()[i], mesh.patches()[e]))
+                area += mesh.patches()[i].area * rough_factor(mesh.patches()[i], mesh.patches()[e]);
+        power += std::min(area, mesh.patches()[e].area) * emission;
+    }
+    return power.value();
+}
+
 class ProgressiveSolver final : public Solver {
   public:
     explicit ProgressiveSolver(const SolverInput& input)
@@ -75,7 +92,9 @@ class ProgressiveSolver final : public Solver {
         emitted_ = emitted_power(input.mesh);
         mean_reflectance_ = glm::min(mean_reflectance_ / total_area_, Vec3(.999));
         const Vec3 rho = glm::max(mean_reflectance_, least_reflectance_of_receivers);
-        factors_.emplace(input, mean_of_channels(emitted_ * rho / (1.0 - rho)) / total_area_);
+        arriving_ = power_to_patches(input.mesh);
+        factors_.emplace(input, mean_of_channels(arriving_ * rho / (1.0 - rho)) / total_area_);
+        solution_.may_find_light = input.needs.bounces;
         begin_pass();
         publish(estimate());
         solution_.steps = 0;
@@ -106,6 +125,7 @@ class ProgressiveSolver final : public Solver {
 
     [[nodiscard]] bool finished() const override {
         const bool sure =
+            (is_lit(mean_.radiosity) || !solution_.may_find_light) &&
             std::ranges::all_of(mean_.variance, [](const Vec3& v) { return v == Vec3(0.0); });
         return (passes_ > 0 && (options_.one_shot || sure)) || emitted_ == Vec3(0.0);
     }
@@ -146,6 +166,13 @@ class ProgressiveSolver final : public Solver {
             left * mean_of_channels(mean_reflectance_ / (1.0 - mean_reflectance_));
         return !(missing > finished_share * reflected) &&
                !(left > finished_share_of_emitted * mean_of_channels(emitted_));
+    }
+
+    [[nodiscard]] bool is_lit(std::span<const Vec3> radiosity) const {
+        for (std::uint32_t i = 0; i < radiosity.size(); ++i)
+            if (radiosity[i] != input_.mesh.material(i).emission)
+                return true;
+        return false;
     }
 
     /// To the nearest power of 2^(1/256) of what is emitted: of patches that are alike but for
@@ -270,6 +297,7 @@ class ProgressiveSolver final : public Solver {
     double total_area_ = 0;
     Vec3 mean_reflectance_{0.0}; ///< by area
     Vec3 emitted_{0.0};
+    Vec3 arriving_{0.0}; ///< about what of it would fall on patches if nothing stood between
     // The present pass after its last shot; solution_ is that after the last step.
     std::vector<Vec3> radiosity_, unshot_;                ///< B and dB
     LargestFirst brightest_;                              ///< unshot power
