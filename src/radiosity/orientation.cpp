@@ -48,6 +48,7 @@ class Judge {
         sum_light();
         result_.looks_away.assign(scene_.faces, false);
         result_.clashing_edges = shells_.clashing_edges;
+        result_.light = find_light_shares(mesh_, *made_.tracer);
         for (std::uint32_t s = 0; s < shells_.all.size(); ++s)
             judge(s);
         count_faces();

@@ -10,6 +10,7 @@
 // - In a shell whose facets do not agree, those faces are turned that are in the minority, or unlit
 //   where the others are lit. Faces on whose fronts most of their own light falls stay.
 
+#include "radiosity/light_shares.h"
 #include "radiosity/scene.h"
 
 #include <cstddef>
@@ -28,6 +29,7 @@ struct Orientation {
     std::size_t mixed = 0;             ///< shells of which some faces look away
     std::size_t clashing_edges = 0;    ///< that two facets run along in the same direction
     std::size_t one_sided = 0;         ///< shells that cannot be oriented: Moebius strips
+    LightShares light;                 ///< with the faces as they are
 };
 
 /// Deterministic. In a scene in which nothing emits no face looks away. `threads`: 0 for one per
