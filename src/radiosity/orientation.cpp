@@ -16,7 +16,8 @@ namespace {
 constexpr double hardly_any = 0.02;
 constexpr double enough_closed = 0.9, enough_open = 0.98;
 /// Of the scene: from here on small open shells are turned too; from here on the file is taken to
-/// be inside out, and more light on the backs than on the fronts is enough.
+/// be inside out, if this holds without the shell in question, and more light on the backs than on
+/// the fronts is enough.
 constexpr double much = 0.3, most = 0.5;
 /// What makes a shell a small one: its part of the light of the scene, or of
 /// what is emitted.
@@ -117,7 +118,8 @@ class Judge {
 
     void judge_consistent(std::uint32_t s, const ShellLight& light) {
         const Shell& shell = shells_.all[s];
-        const bool inside_out_file = all_light_.back >= most * all_light_.all();
+        const double others = all_light_.all() - light.all();
+        const bool inside_out_file = others > 0 && all_light_.back - light.back >= most * others;
         const double enough = inside_out_file ? 0.5 : (shell.closed ? enough_closed : enough_open);
         const bool dark_front = light.all() > 0 && light.back >= enough * light.all() &&
                                 (shell.closed || matters(light));

@@ -6,7 +6,7 @@
 // evidence leaves open stays as it is:
 // - A shell whose fronts get nearly all of its light stays, and so does one without light.
 // - A consistent shell is turned as a whole, and only if nearly all of its light falls on its
-//   backs. For an open one that is a stricter limit: a lamp shade is lit from inside and outside.
+//   backs. For an open one that is a stricter limit: more of them are meant to be lit from behind.
 // - In a shell whose facets do not agree, those faces are turned that are in the minority, or unlit
 //   where the others are lit. Faces on whose fronts most of their own light falls stay.
 
