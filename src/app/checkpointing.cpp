@@ -90,7 +90,7 @@ Before resume(const Checkpoint& checkpoint, const SolveSettings& settings, const
     if (checkpoint.scene != scene_hash(mesh))
         throw InputError(path, "is a checkpoint of another scene; expected '" +
                                    settings.scene.path +
-                                   "' as it is now, with the same --max-edge, --two-sided, "
+                                   "' as it is now, with the same --max-edge, --sides, "
                                    "--emission and --reflectance");
     const double density_now = solver.solution().seconds_density;
     try {

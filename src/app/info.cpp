@@ -3,6 +3,7 @@
 #include "app/commands.h"
 #include "app/exit_code.h"
 #include "app/load.h"
+#include "app/sides.h"
 #include "io/error.h"
 #include "io/inspect.h"
 
@@ -11,14 +12,32 @@
 
 namespace hemilux {
 
+namespace {
+
+/// The scene as it is solved; prints what its sides are like.
+Scene with_sides(Scene scene, Sides sides) {
+    if (sides == Sides::both) {
+        std::cout << describe_both_sides(scene);
+        return scene;
+    }
+    const Orientation found = find_orientation(scene);
+    std::cout << describe(found, scene, sides);
+    if (sides == Sides::automatic)
+        turn_faces(scene, found);
+    return scene;
+}
+
+} // namespace
+
 int info(const InfoSettings& settings) {
-    const ReadResult read = load_scene(settings.scene);
+    ReadResult read = load_scene(settings.scene);
     if (settings.talk != Talk::quiet)
         for (const std::string& warning : read.warnings)
             std::fprintf(stderr, "warning: %s\n", warning.c_str());
     std::cout << describe(inspect(read));
     if (!read.scene.facets.empty()) {
-        const Mesh mesh = divide_scene(read.scene, settings.scene);
+        const Mesh mesh =
+            divide_scene(with_sides(std::move(read.scene), settings.scene.sides), settings.scene);
         if (settings.scene.mesh.max_edge > 0 || settings.scene.mesh.two_sided)
             std::cout << "patches             " << mesh.patches().size() << " (as divided)\n";
         std::cout << describe(left_out(find_needs(mesh)));

@@ -3,6 +3,7 @@
 #include "app/exit_code.h"
 #include "app/memory.h"
 #include "app/names.h"
+#include "app/sides.h"
 #include "app/stopwatch.h"
 #include "app/summary.h"
 #include "app/talk.h"
@@ -119,6 +120,7 @@ LoadedMesh load_mesh(const SceneSettings& settings, const SolveOptions& options,
     const double seconds = reading.seconds();
     check_memory(memory_need(read.scene, settings.mesh, options, methods), settings.memory,
                  settings.path);
+    settle_sides(read.scene, settings, talk, options.threads);
     LoadedMesh loaded{divide_scene(std::move(read.scene), settings), seconds};
     say(talk, Talk::verbose, mesh_text(loaded.mesh));
     return loaded;

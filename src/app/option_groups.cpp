@@ -2,9 +2,11 @@
 
 #include "app/exit_code.h"
 #include "app/memory.h"
+#include "app/names.h"
 #include "app/option_kinds.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <limits>
 
 namespace hemilux {
@@ -28,6 +30,32 @@ std::optional<Camera> camera_from(const std::string& text) {
     }
 }
 
+void choose_sides(SceneSettings& scene, Sides sides) {
+    scene.sides = sides;
+    scene.mesh.two_sided = sides == Sides::both;
+}
+
+void add_sides_options(CLI::App& app, SceneSettings& scene) {
+    CLI::Option* const sides = app.add_option_function<std::string>(
+        "--sides",
+        [&scene](const std::string& name) {
+            const auto found = std::ranges::find(sides_names, name);
+            if (found == sides_names.end()) {
+                const std::vector<std::string> names(sides_names.begin(), sides_names.end());
+                throw UsageError("--sides: " + unknown_name("choice", name, names));
+            }
+            choose_sides(scene, static_cast<Sides>(found - sides_names.begin()));
+        },
+        "which sides of faces emit and reflect. auto: the front, faces that look away from the "
+        "light being turned; front: the front as in the file; both [auto]");
+    sides->type_name("auto|front|both")->group("Scene");
+    app.add_flag_callback(
+           "--two-sided", [&scene] { choose_sides(scene, Sides::both); },
+           "the same as --sides both")
+        ->group("Scene")
+        ->excludes(sides);
+}
+
 } // namespace
 
 CLI::Option* add_text(CLI::App& app, const std::string& name, const std::string& type,
@@ -40,8 +68,7 @@ void add_scene_options(CLI::App& app, SceneSettings& scene) {
     add_number(app, "--max-edge", "LENGTH", scene.mesh.max_edge, positive,
                "divide faces until no edge is longer [not divided]")
         ->group("Scene");
-    app.add_flag("--two-sided", scene.mesh.two_sided, "faces emit and reflect on both sides")
-        ->group("Scene");
+    add_sides_options(app, scene);
     add_override(app, "--emission", scene.emission, emission_range,
                  "what a material emits, W/m2; * for all; repeatable")
         ->group("Scene");

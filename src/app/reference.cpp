@@ -28,7 +28,7 @@ void check_same_patches(const PatchTable& table, const std::string& path, const 
     if (table.radiosity.size() != patches)
         throw InputError(path, "has " + std::to_string(table.radiosity.size()) +
                                    " patches, the scene has " + std::to_string(patches) +
-                                   "; were --max-edge and --two-sided the same?");
+                                   "; were --max-edge and --sides the same?");
     for (std::size_t i = 0; i < patches; ++i)
         if (!same_patch(table, i, mesh))
             throw InputError(path, "patch " + std::to_string(i) +

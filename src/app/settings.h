@@ -16,11 +16,16 @@
 
 namespace hemilux {
 
+/// Which sides of faces emit and reflect, as --sides names them, in this order.
+enum class Sides { automatic, front, both };
+inline constexpr std::array<const char*, 3> sides_names = {"auto", "front", "both"};
+
 /// Which scene, and with which changes.
 struct SceneSettings {
     std::string path;
     std::vector<Override> emission, reflectance;
-    MeshOptions mesh;
+    Sides sides = Sides::automatic;
+    MeshOptions mesh;                    ///< two-sided with Sides::both
     std::optional<std::uint64_t> memory; ///< bytes that a run may need
 };
 

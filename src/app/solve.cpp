@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/exit_code.h"
 #include "app/load.h"
+#include "app/lost_light.h"
 #include "app/memory.h"
 #include "app/method_options.h"
 #include "app/progress.h"
@@ -70,12 +71,22 @@ std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverI
     }
 }
 
+void say_lost_light(const SolveSettings& settings, const Results& results) {
+    const LightShares light = find_light_shares(results.mesh, results.tracer);
+    const std::string text =
+        lost_light_text(results.mesh, results.solution.radiosity, light, settings.scene.sides);
+    if (!text.empty())
+        say(settings.talk, Talk::normal, "warning: " + text);
+}
+
 /// The last words; returns the exit code.
 int finish(const SolveSettings& settings, const Results& results, const WriteReport& of_steps,
            const std::optional<Reference>& reference, bool interrupted) {
     WriteReport report = write_results(settings, results);
     report.add(of_steps);
     say(settings.talk, Talk::normal, run_text(results.statistics));
+    if (results.solution.steps > 0)
+        say_lost_light(settings, results);
     say(settings.talk, Talk::verbose, memory_text(results.statistics));
     if (reference) {
         const Solution& solution = results.solution;

@@ -1,7 +1,7 @@
 #include "io/inspect.h"
 
 #include "geometry/polygon.h"
-#include "io/welded_edges.h"
+#include "radiosity/welded_edges.h"
 #include "radiosity/check_input.h"
 #include "radiosity/mesh.h"
 #include "radiosity/stacked_facets.h"

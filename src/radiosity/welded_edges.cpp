@@ -1,9 +1,10 @@
-#include "io/welded_edges.h"
+#include "radiosity/welded_edges.h"
 
 #include "radiosity/rng.h"
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 #include <unordered_map>
 
 namespace hemilux {
@@ -27,33 +28,29 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
     return welded;
 }
 
-/// Each facet's edges as pairs of welded vertices, the smaller one in the upper half.
-std::vector<std::uint64_t> edges_of(const Scene& scene) {
+} // namespace
+
+std::vector<Edge> welded_edges(const Scene& scene) {
     const std::vector<std::uint32_t> welded = weld(scene.vertices);
-    std::vector<std::uint64_t> edges;
+    std::vector<Edge> edges;
     edges.reserve(4 * scene.facets.size());
-    for (const Facet& facet : scene.facets)
+    for (std::uint32_t f = 0; f < scene.facets.size(); ++f)
         for (std::size_t i = 0; i < 4; ++i) {
-            const std::uint64_t a = welded[facet.vertex[i]], b = welded[facet.vertex[(i + 1) % 4]];
+            const auto& vertex = scene.facets[f].vertex;
+            const std::uint64_t a = welded[vertex[i]], b = welded[vertex[(i + 1) % 4]];
             if (a != b)
-                edges.push_back(std::min(a, b) << 32 | std::max(a, b));
+                edges.push_back({std::min(a, b) << 32 | std::max(a, b), f, a < b});
         }
+    std::ranges::sort(edges, {}, [](const Edge& e) { return std::tuple(e.ends, e.facet); });
     return edges;
 }
 
-} // namespace
-
 EdgeCounts count_edges(const Scene& scene) {
-    std::vector<std::uint64_t> edges = edges_of(scene);
-    std::sort(edges.begin(), edges.end());
     EdgeCounts counts;
-    for (auto begin = edges.begin(); begin != edges.end();) {
-        const auto end =
-            std::find_if(begin, edges.end(), [&](auto edge) { return edge != *begin; });
-        counts.open += end - begin == 1;
-        counts.nonmanifold += end - begin > 2;
-        begin = end;
-    }
+    for_each_place(welded_edges(scene), [&](auto first, auto last) {
+        counts.open += last - first == 1;
+        counts.nonmanifold += last - first > 2;
+    });
     return counts;
 }
 
