@@ -11,7 +11,9 @@
 #include "radiosity/shot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace hemilux {
 namespace {
@@ -55,19 +57,14 @@ class Account {
             if (part.lit)
                 lit_one_ray_ = glm::max(lit_one_ray_, part.one_ray);
         }
-        for (std::uint32_t i = 0; i < n; ++i)
-            if (lit_[i])
-                lit_radiosity_ += leaving(i) * area_[i];
-        double lit_area = 0;
-        for (std::uint32_t i = 0; i < n; ++i)
-            lit_area += lit_[i] ? area_[i] : 0;
-        lit_radiosity_ = lit_area > 0 ? lit_radiosity_ / lit_area : Vec3(0.0);
+        find_bright_radiosity();
+        count_rays_of_darker();
     }
 
     void add_unseen(GatheringErrors& errors) const {
         double shadow = 0, shadow_weight = 0;
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
-            const Vec3 level = lit_[i] ? unseen_loss(i) : unseen_light(i);
+            const Vec3 level = lit_[i] ? unseen_loss(i) + unseen_sight(i) : unseen_light(i);
             errors.unseen += area_[i] * glm::dot(level, level);
             const bool dark = result_.direct.hits(i) == 0;
             const Vec3 one = glm::max(one_ray(i), dark ? one_shadow_ray(i) : Vec3(0.0));
@@ -117,13 +114,42 @@ class Account {
         return share * rho_[i] * incident_[i];
     }
 
+    /// That of the patches that most light comes from: mean, weighted by itself.
+    void find_bright_radiosity() {
+        Vec3 power(0.0), squares(0.0);
+        for (std::uint32_t i = 0; i < area_.size(); ++i) {
+            power += area_[i] * leaving(i);
+            squares += area_[i] * leaving(i) * leaving(i);
+        }
+        bright_radiosity_ = ratio(squares, power);
+    }
+    /// Of all patches that are not brighter than each.
+    void count_rays_of_darker() {
+        std::vector<std::uint32_t> order(area_.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::ranges::stable_sort(order, {}, [&](std::uint32_t i) {
+            return incident_[i].x + incident_[i].y + incident_[i].z;
+        });
+        double sum = 0;
+        rays_of_darker_.resize(order.size());
+        for (const std::uint32_t i : order)
+            rays_of_darker_[i] = sum += rays_[i];
+    }
+
+    /// If rays of dark patches had met what is bright, far through doors that stand in a line.
+    [[nodiscard]] Vec3 unseen_sight(std::uint32_t i) const {
+        return rays_of_darker_[i] > 0
+                   ? rho_[i] * bright_radiosity_ * (rule_of_three / rays_of_darker_[i])
+                   : Vec3(0.0);
+    }
+
     /// If rays had passed between a dark part and a lit one: what the part would hold then. Neither
     /// the rays of the lit parts nor its own have.
     [[nodiscard]] Vec3 unseen_light(std::uint32_t i) const {
         const PartLedger& part = ledger(i);
         if (!(part.rays > 0))
             return Vec3(0.0); // no light can reach it, by geometry
-        const Vec3 by_own = rule_of_three * lit_radiosity_ * (part.area / part.rays);
+        const Vec3 by_own = rule_of_three * bright_radiosity_ * (part.area / part.rays);
         const Vec3 by_lit = rule_of_three * lit_one_ray_;
         const Vec3 power = ratio(by_own * by_lit, by_own + by_lit);
         return rho_[i] * ratio(power, part.appetite);
@@ -148,30 +174,77 @@ class Account {
     std::vector<PartLedger> ledgers_;
     std::vector<Vec3> incident_;
     std::vector<bool> lit_;
-    Vec3 lit_one_ray_{0.0}, lit_radiosity_{0.0};
+    Vec3 lit_one_ray_{0.0}, bright_radiosity_{0.0};
+    std::vector<double> rays_of_darker_;
+};
+
+/// The standard error of a mean of a few samples is known badly. Where patches err each for itself
+/// it is pooled over neighbours; where they err together (0 to 1) that does not help, and it is
+/// raised as Student's t asks for, so that hardly any error is beyond three of them.
+double raised(double together) {
+    constexpr double of_few = 1.8; // (t / 3)^2 with seven degrees of freedom, .5 of 100 beyond
+    return 1 + (of_few - 1) * together;
+}
+
+/// What a patch's neighbours and itself are off in each set.
+template <std::size_t Sets> class Window {
+  public:
+    void add(const std::array<Vec3, Sets>& off) {
+        for (std::size_t s = 0; s < Sets; ++s) {
+            sum_[s] += off[s];
+            squares_ += glm::dot(off[s], off[s]);
+        }
+        ++count_;
+    }
+    /// 1: all err alike; 0: each for itself.
+    [[nodiscard]] double together() const {
+        if (count_ < 2 || !(squares_ > 0))
+            return 1;
+        double of_sum = 0;
+        for (const Vec3& sum : sum_)
+            of_sum += glm::dot(sum, sum);
+        return std::clamp((of_sum / squares_ - 1) / (count_ - 1), 0.0, 1.0);
+    }
+
+  private:
+    std::array<Vec3, Sets> sum_{};
+    double squares_ = 0, count_ = 0;
 };
 
 } // namespace
 
-template <std::size_t Sets> GatheringErrors errors_of(const GatheringResult& result) {
+template <std::size_t Sets>
+GatheringErrors errors_of(const GatheringResult& result, const Workers& workers) {
+    constexpr std::size_t patches_per_chunk = 512;
     const std::size_t n = result.system.area().size();
     GatheringErrors errors;
     std::vector<Vec3> variance(n);
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const Vec3 rho = result.system.reflectance()[i];
-        Vec3 squares(0.0);
-        for (const Vec3& off : result.light.deviations<Sets>(i))
-            squares += off * off;
-        variance[i] = rho * rho * squares / double(Sets * (Sets - 1));
-        errors.variance += result.system.area()[i] * (variance[i].x + variance[i].y + variance[i].z);
-    }
+    std::vector<double> raise(n);
+    workers.for_chunks(n, patches_per_chunk, [&](std::size_t begin, std::size_t end) {
+        for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+            const Vec3 rho = result.system.reflectance()[i];
+            Vec3 squares(0.0);
+            const auto own = result.light.deviations<Sets>(i);
+            Window<Sets> window;
+            window.add(own);
+            for (const Vec3& off : own)
+                squares += off * off;
+            for_alike_neighbours(result.mesh, i, [&](std::uint32_t j) {
+                window.add(result.light.deviations<Sets>(j));
+            });
+            variance[i] = rho * rho * squares / double(Sets * (Sets - 1));
+            raise[i] = raised(window.together());
+        }
+    });
+    for (std::size_t i = 0; i < n; ++i)
+        errors.variance += result.system.area()[i] * glm::dot(variance[i], Vec3(1.0));
     errors.standard_error = pooled_over_neighbours(result.mesh, variance);
-    for (Vec3& sigma : errors.standard_error)
-        sigma = glm::sqrt(sigma);
+    for (std::size_t i = 0; i < n; ++i)
+        errors.standard_error[i] = glm::sqrt(raise[i] * errors.standard_error[i]);
     Account(result).add_unseen(errors);
     return errors;
 }
 
-template GatheringErrors errors_of<8>(const GatheringResult& result);
+template GatheringErrors errors_of<8>(const GatheringResult& result, const Workers& workers);
 
 } // namespace hemilux

@@ -21,6 +21,7 @@ class ExchangeMatrix;
 class GatheredLight;
 class GatheringSystem;
 class Mesh;
+class Workers;
 struct RowSpread;
 
 struct GatheringErrors {
@@ -43,8 +44,9 @@ struct GatheringResult {
 };
 
 /// `Sets`: of light.
-template <std::size_t Sets> [[nodiscard]] GatheringErrors errors_of(const GatheringResult& result);
+template <std::size_t Sets>
+[[nodiscard]] GatheringErrors errors_of(const GatheringResult& result, const Workers& workers);
 
-extern template GatheringErrors errors_of<8>(const GatheringResult& result);
+extern template GatheringErrors errors_of<8>(const GatheringResult& result, const Workers& workers);
 
 } // namespace hemilux

@@ -175,7 +175,13 @@ void GatheringPlan::weigh_lamps(std::span<const double> variance, const std::vec
             known[i] =
                 std::pow(variance[i] * std::pow(now_.rays.to_lamps[i], fall), 1 / (1 + fall));
     }
-    mix(known, prior, lamp_weights_);
+    // A patch may have missed what its neighbours have found.
+    std::vector<double> smooth(known.size());
+    for (std::uint32_t i = 0; i < known.size(); ++i) {
+        const double mean = of_neighbours(i, known);
+        smooth[i] = prior[i] > 0 ? std::max(mean, .5 * (mean + known[i])) : 0;
+    }
+    mix(smooth, prior, lamp_weights_);
 }
 
 /// What was planned, and what is known of the patches; the rest follows from the scene.

@@ -200,7 +200,7 @@ class GatheringSolver final : public Solver {
         }
         const RowSpread rows = spread_of_rows(all, light, workers_);
         GatheringErrors errors =
-            errors_of<sets>({input_.mesh, system_, light_, all, rows, *direct_});
+            errors_of<sets>({input_.mesh, system_, light_, all, rows, *direct_}, workers_);
         direct_variance_ = spread.direct_variance + errors.unseen_by_shadow_rays;
         variance_ = std::max(errors.variance + errors.unseen, direct_variance_);
         solution_.standard_error = std::move(errors.standard_error);
