@@ -41,6 +41,13 @@ ShotRays shoot_to_lose(const Mesh& mesh, const Tracer& tracer, const Needs& need
     return result;
 }
 
+/// As of rays of which as many are lost as of those of all shots, and one more: a variance by what
+/// the few rays of this shot have met would trust those most that happened to lose none.
+double ShotBalance::variance_of_loss(double count) const {
+    const double usual = (all_.escaped + all_.absorbed + 1) / (all_.count + 2);
+    return usual * (1 - usual) / count;
+}
+
 ShotShares ShotBalance::settle(const FactorSum& factors, const ShotRays& rays) {
     const auto [sum, variance, at_risk] = factors;
     all_.count += rays.count;
@@ -49,19 +56,22 @@ ShotShares ShotBalance::settle(const FactorSum& factors, const ShotRays& rays) {
     const double lost = (rays.escaped + rays.absorbed) / rays.count;
     if (!(sum > 0) || at_risk > most_at_risk)
         return {1, {rays.escaped / rays.count, rays.absorbed / rays.count}, 1 - sum - lost};
-    const double all_lost = (all_.escaped + all_.absorbed) / all_.count;
-    if (!(all_lost > 0))
+    if (closed_)
         return {1 / sum, {}, 0};
-    // As if one more ray had met what rays meet on average.
-    const double chance = (lost * rays.count + all_lost) / (rays.count + 1);
-    const double variance_of_rays = chance * (1 - chance) / rays.count;
+    const double variance_of_rays = variance_of_loss(rays.count);
     const double both = variance + variance_of_rays;
     const double joined =
         both > 0 ? ((1 - lost) * variance + sum * variance_of_rays) / both : 1 - lost;
-    const double arriving = std::min(joined, 1.0);
+    // More than all is chance, and evens out: cut off, light would be missing on average.
+    const double arriving = joined;
+    if (arriving >= 1)
+        return {arriving / sum, {}, 1 - arriving};
     const LostShare kinds{rays.escaped + all_.escaped / all_.count,
                           rays.absorbed + all_.absorbed / all_.count};
-    const double each = (1 - arriving) / (kinds.escaped + kinds.absorbed);
+    const double known = kinds.escaped + kinds.absorbed;
+    if (!(known > 0))
+        return {arriving / sum, {1 - arriving, 0}, 0};
+    const double each = (1 - arriving) / known;
     return {arriving / sum, {each * kinds.escaped, each * kinds.absorbed}, 0};
 }
 

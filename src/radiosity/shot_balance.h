@@ -40,9 +40,14 @@ struct ShotShares {
 
 class ShotBalance {
   public:
+    /// `closed`: no light can be lost, as the geometry proves.
+    explicit ShotBalance(bool closed) : closed_(closed) {}
     ShotShares settle(const FactorSum& factors, const ShotRays& rays);
 
   private:
+    [[nodiscard]] double variance_of_loss(double count) const;
+
+    bool closed_;
     ShotRays all_; ///< of all shots: where hardly any is lost, a few rays do not tell
 };
 

@@ -202,6 +202,17 @@ Vec3 StepwiseSolver::mean_ray() const {
     return ray_power_ / (emitted_power * solution_.steps) * solution_.energy.emitted;
 }
 
+/// The most that a ray may bring of a channel: that of the emitter which shines in it most purely.
+Vec3 StepwiseSolver::purest_ray() const {
+    Vec3 share(0.0);
+    for (const Facet& facet : input_.mesh.scene().facets) {
+        const Vec3& emission = input_.mesh.scene().materials[facet.material].emission;
+        if (emission != Vec3(0.0))
+            share = glm::max(share, emission / mean_of_channels(emission));
+    }
+    return mean_of_channels(mean_ray()) * share;
+}
+
 /// Area times squared radiosity that rays would have brought that struck nothing so far, by the rule
 /// of three: as three more of mean power, each anywhere.
 double StepwiseSolver::unseen() const {
@@ -266,8 +277,16 @@ void StepwiseSolver::estimate_errors() {
         value += area * glm::dot(reflected, reflected);
     }
     variance = pooled_over_neighbours(input_.mesh, variance);
-    for (std::uint32_t i = 0; i < variance.size(); ++i)
-        solution_.standard_error[i] = glm::max(glm::sqrt(variance[i]), one_ray(i));
+    const Vec3 purest = purest_ray();
+    for (std::uint32_t i = 0; i < variance.size(); ++i) {
+        Vec3& sigma = solution_.standard_error[i];
+        sigma = glm::max(glm::sqrt(variance[i]), one_ray(i));
+        const double area = input_.mesh.patches()[i].area;
+        for (int c = 0; c < 3; ++c)
+            if (variance[i][c] == 0 && area > 0) // nothing of this channel was seen around here
+                sigma[c] = std::max(sigma[c],
+                                    input_.mesh.material(i).reflectance[c] * purest[c] / area);
+    }
     const double of_level = level_squares_ / (n * (n - 1)) * value;
     solution_.variance = sum;
     solution_.unseen = unseen();

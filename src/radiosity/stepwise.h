@@ -90,6 +90,7 @@ class StepwiseSolver : public Solver {
     [[nodiscard]] StepResult fresh_result() const;
     bool find_ray_power();
     [[nodiscard]] Vec3 mean_ray() const;
+    [[nodiscard]] Vec3 purest_ray() const;
     [[nodiscard]] Vec3 one_ray(std::uint32_t patch) const;
     [[nodiscard]] double unseen() const;
     void estimate_errors();

@@ -38,6 +38,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -57,6 +58,9 @@ constexpr double finished_share = 2e-5, finished_share_of_emitted = 5e-3;
 
 /// Rays from each shooter to find how much of its light leaves the scene.
 constexpr double least_lost_rays = 16, most_lost_rays = 16384;
+
+/// Of a mean, so that sums of all reflections stay finite.
+constexpr double most_reflectance = .999;
 
 /// What overshooting adds at most to what is unshot.
 constexpr double most_overshot = .8;
@@ -82,18 +86,21 @@ class ProgressiveSolver final : public Solver {
   public:
     explicit ProgressiveSolver(const SolverInput& input)
         : input_(input), options_(input.options.progressive),
-          brightest_(input.mesh.patches().size()), hits_(input.mesh.patches().size()) {
+          brightest_(input.mesh.patches().size()),
+          balance_(!input.needs.visibility), hits_(input.mesh.patches().size()) {
         check_input(input);
         for (std::uint32_t i = 0; i < hits_.size(); ++i) {
             const double area = input.mesh.patches()[i].area;
-            total_area_ += area;
-            mean_reflectance_ += area * input.mesh.material(i).reflectance;
+            const Vec3& reflectance = input.mesh.material(i).reflectance;
+            reflecting_area_ += reflectance != Vec3(0.0) ? area : 0;
+            mean_reflectance_ += area * reflectance;
         }
+        reflecting_area_ = std::max(reflecting_area_, std::numeric_limits<double>::min());
         emitted_ = emitted_power(input.mesh);
-        mean_reflectance_ = glm::min(mean_reflectance_ / total_area_, Vec3(.999));
+        mean_reflectance_ = glm::min(mean_reflectance_ / reflecting_area_, Vec3(most_reflectance));
         const Vec3 rho = glm::max(mean_reflectance_, least_reflectance_of_receivers);
         arriving_ = power_to_patches(input.mesh);
-        factors_.emplace(input, mean_of_channels(arriving_ * rho / (1.0 - rho)) / total_area_);
+        factors_.emplace(input, mean_of_channels(arriving_ * rho / (1.0 - rho)) / reflecting_area_);
         solution_.may_find_light = input.needs.bounces;
         begin_pass();
         publish(estimate());
@@ -156,15 +163,12 @@ class ProgressiveSolver final : public Solver {
     }
 
     [[nodiscard]] bool pass_is_done() const {
-        double left = 0, reflected = 0;
-        for (std::uint32_t i = 0; i < unshot_.size(); ++i) {
+        double left = 0;
+        for (std::uint32_t i = 0; i < unshot_.size(); ++i)
             left += unshot_power(i);
-            reflected += input_.mesh.patches()[i].area *
-                         mean_of_channels(radiosity_[i] - input_.mesh.material(i).emission);
-        }
-        const double missing =
-            left * mean_of_channels(mean_reflectance_ / (1.0 - mean_reflectance_));
-        return !(missing > finished_share * reflected) &&
+        const Reflected reflected = this->reflected();
+        const double missing = left * mean_of_channels(reflected.gain);
+        return !(missing > finished_share * mean_of_channels(reflected.power)) &&
                !(left > finished_share_of_emitted * mean_of_channels(emitted_));
     }
 
@@ -243,10 +247,31 @@ class ProgressiveSolver final : public Solver {
                              hash_words({input_.options.seed, shots_, shooter, 1}));
     }
 
+    /// The light that was reflected so far, over all patches.
+    struct Reflected {
+        Vec3 power{0.0};
+        Vec3 gain{0.0}; ///< what all reflections add to light where this is, relative to it
+    };
+    [[nodiscard]] Reflected reflected() const {
+        Reflected result;
+        Vec3 weighted(0.0), usual = mean_reflectance_;
+        for (std::uint32_t i = 0; i < radiosity_.size(); ++i) {
+            const Material& material = input_.mesh.material(i);
+            const Vec3 power = input_.mesh.patches()[i].area * (radiosity_[i] - material.emission);
+            result.power += power;
+            weighted += material.reflectance * power;
+        }
+        for (int c = 0; c < 3; ++c)
+            if (result.power[c] > 0)
+                usual[c] = std::clamp(weighted[c] / result.power[c], usual[c], most_reflectance);
+        result.gain = usual / (1.0 - usual);
+        return result;
+    }
+
     /// Irradiance that the unshot light will bring to the mean patch: the ambient term of Cohen et
     /// al. (1988).
     [[nodiscard]] Vec3 ambient() const {
-        return power_unshot() / (1.0 - mean_reflectance_) / total_area_;
+        return power_unshot() / (1.0 - mean_reflectance_) / reflecting_area_;
     }
 
     [[nodiscard]] Vec3 power_unshot() const {
@@ -262,15 +287,22 @@ class ProgressiveSolver final : public Solver {
         Vec3 power_variance(0.0);
         for (std::uint32_t i = 0; i < hits_.size(); ++i)
             power_variance += std::pow(input_.mesh.patches()[i].area, 2.0) * variance_[i];
-        const Vec3 gain = 1.0 / ((1.0 - mean_reflectance_) * total_area_);
+        const Vec3 gain = 1.0 / ((1.0 - mean_reflectance_) * reflecting_area_);
         const Vec3 shared = missing * missing + gain * gain * power_variance;
+        // What is unshot may stay where the light is now, as in the shade around a lamp.
+        const Reflected now = reflected();
+        Vec3 share(0.0);
+        for (int c = 0; c < 3; ++c)
+            if (now.power[c] > 0)
+                share[c] = power_unshot()[c] * now.gain[c] / now.power[c];
         Estimate result{
             radiosity_,
             variance_,
             {emitted_, absorbed_.value(), escaped_.value(), power_unshot() + by_chance_.value()}};
         for (std::uint32_t i = 0; i < hits_.size(); ++i) {
             const Vec3& rho = input_.mesh.material(i).reflectance;
-            result.variance[i] += rho * rho * shared;
+            const Vec3 here = share * (radiosity_[i] - input_.mesh.material(i).emission);
+            result.variance[i] += glm::max(rho * rho * shared, here * here);
             if (options_.ambient)
                 result.radiosity[i] += rho * missing;
         }
@@ -294,8 +326,8 @@ class ProgressiveSolver final : public Solver {
     SolverInput input_;
     ProgressiveOptions options_;
     std::optional<ShotFactors> factors_;
-    double total_area_ = 0;
-    Vec3 mean_reflectance_{0.0}; ///< by area
+    double reflecting_area_ = 0;
+    Vec3 mean_reflectance_{0.0}; ///< of that, by area
     Vec3 emitted_{0.0};
     Vec3 arriving_{0.0}; ///< about what of it would fall on patches if nothing stood between
     // The present pass after its last shot; solution_ is that after the last step.

@@ -5,8 +5,6 @@
 #include "support/families/watchdog.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -123,13 +121,6 @@ JudgedRun judge(const PreparedScene& scene, const Solution& solution) {
                   wrong_factor * std::hypot(run.reported, reference_error(scene)) + rounding);
     for (const std::vector<std::uint32_t>& part : scene.hard().parts)
         judge_part(scene, solution, part, run);
-    if (std::getenv("WORST")) {
-        std::vector<std::pair<double,std::uint32_t>> z;
-        for (std::uint32_t i=0;i<solution.radiosity.size();++i) { double d=solution.radiosity[i].x-scene.hard().reference[i].x; z.push_back({scene.mesh().patches()[i].area*d*d,i}); }
-        std::sort(z.rbegin(), z.rend());
-        for (auto& part : scene.hard().parts) { double off=0,sg=0,v=0; for (auto i: part){ double a=scene.mesh().patches()[i].area; off+=a*(solution.radiosity[i].x-scene.hard().reference[i].x); sg+=a*solution.standard_error[i].x; v+=a*(scene.hard().reference[i].x-scene.mesh().material(i).emission.x);} std::printf("   part: off %.3g of %.3g sigma %.3g z %.2f  hits %llu n %zu\n", off/v, v, sg/v, off/sg, (unsigned long long)solution.hits[part[0]], part.size()); }
-        for (int k=0;k<6;++k){ auto i=z[k].second; auto&c=scene.mesh().patches()[i].centre; std::printf("   patch %u at %g %g %g B %g ref %g sigma %g hits %llu\n", i,c.x,c.y,c.z,solution.radiosity[i].x,scene.hard().reference[i].x,solution.standard_error[i].x,(unsigned long long)solution.hits[i]); }
-    }
     add_coverage(scene, solution, run);
     run.bias = relative_bias(scene, solution);
     run.rays = solution.rays_energy + solution.rays_density;
