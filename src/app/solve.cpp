@@ -10,6 +10,7 @@
 #include "app/progress.h"
 #include "app/reference.h"
 #include "app/results.h"
+#include "app/run_notes.h"
 #include "app/signals.h"
 #include "app/step_pictures.h"
 #include "app/stopwatch.h"
@@ -27,13 +28,22 @@ namespace hemilux {
 
 namespace {
 
-StopRule stop_rule(const SolveSettings& settings) {
-    const StopRule& given = settings.stop;
-    if (given.steps || given.seconds || given.error)
-        return given;
-    StopRule stop = settings.method->default_stop;
+/// A run to an error ends at a number of rays at the latest, if nothing else ends it.
+std::uint64_t default_max_rays(std::size_t patches) {
+    constexpr std::uint64_t least = 100'000'000, each = 1000;
+    return least + each * patches;
+}
+
+StopRule stop_rule(const SolveSettings& settings, std::size_t patches) {
+    StopRule stop = settings.stop;
+    if (!stop.steps && !stop.seconds && !stop.error) {
+        stop = settings.method->default_stop;
+        stop.rays = settings.stop.rays;
+    }
     if (!stop.steps && !stop.seconds && !stop.error)
         stop.steps = StopRule::default_steps;
+    if (!stop.steps && !stop.seconds && !stop.rays)
+        stop.rays = default_max_rays(patches);
     return stop;
 }
 
@@ -81,10 +91,13 @@ void say_lost_light(const SolveSettings& settings, const Results& results) {
 
 /// The last words; returns the exit code.
 int finish(const SolveSettings& settings, const Results& results, const WriteReport& of_steps,
-           const std::optional<Reference>& reference, bool interrupted) {
+           const std::optional<Reference>& reference, const RunNotes& notes, bool interrupted) {
     WriteReport report = write_results(settings, results);
     report.add(of_steps);
     say(settings.talk, Talk::normal, run_text(results.statistics));
+    for (const std::string& note :
+         notes.texts(results.statistics.estimated_error, interrupted))
+        say(settings.talk, Talk::normal, "warning: " + note);
     if (results.solution.steps > 0)
         say_lost_light(settings, results);
     say(settings.talk, Talk::verbose, memory_text(results.statistics));
@@ -115,7 +128,6 @@ int solve(const SolveSettings& settings) {
     const std::span methods(&settings.method, 1);
     check_own_options(settings.options, methods);
     check_checkpoint_options(settings);
-    const StopRule stop = stop_rule(settings);
     Monitor monitor;
     InterruptGuard guard;
     Statistics statistics;
@@ -125,6 +137,7 @@ int solve(const SolveSettings& settings) {
     const LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk);
     const Mesh& mesh = loaded.mesh;
     check_exact(settings.options, mesh.patches().size());
+    const StopRule stop = stop_rule(settings, mesh.patches().size());
     statistics.seconds_read = loaded.seconds_read;
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;
@@ -154,7 +167,9 @@ int solve(const SolveSettings& settings) {
     }
     Checkpointer checkpointer(settings, mesh, *solver);
     StepPictures step_pictures(settings, mesh, *tracer);
+    RunNotes notes(stop);
     const auto after_step = [&](const StepRecord& record, const Solution& solution) {
+        notes.step_done(record);
         rows.push_back({std::string(settings.method->name), 0, record, std::nullopt});
         if (reference)
             rows.back().error = reference->error(mesh, solution.radiosity);
@@ -185,7 +200,7 @@ int solve(const SolveSettings& settings) {
     of_run.add(checkpointer.report());
     const bool interrupted = !completed && !fault;
     const int code = finish(settings, {mesh, *tracer, solver->solution(), statistics, rows}, of_run,
-                            reference, interrupted);
+                            reference, notes, interrupted);
     if (interrupted)
         end_at_once(code);
     if (!fault || code != exit_done)

@@ -117,6 +117,10 @@ std::vector<LeftOut> left_out(const Needs& needs) {
 
 std::vector<LeftOut> left_out(const Needs& needs, const Method& method, const Solution& solution) {
     std::vector<LeftOut> list = left_out_of(needs, method.work);
+    if (solution.unlit > 0 && solution.unlit < solution.radiosity.size())
+        list.push_back({"rays of " + patches(solution.unlit) + " after the first step",
+                        "no path to them from an emitter was found",
+                        "their rays at random, and most of their shadow rays"});
     if (solution.rays_density_spared > 0)
         list.push_back(
             {"densities below triangles that are not divided",

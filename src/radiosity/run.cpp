@@ -31,6 +31,7 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
     const auto done = [&](std::uint32_t step, double seconds, double error) {
         return solver.finished() || (stop.steps && step >= *stop.steps) ||
                (stop.error && error <= *stop.error) ||
+               (stop.rays && solver.solution().rays_energy >= *stop.rays) ||
                // A step that would end too late is not begun.
                (stop.seconds && seconds + growth * longest > *stop.seconds);
     };

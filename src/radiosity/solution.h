@@ -45,6 +45,9 @@ struct Solution {
     /// standard_error, which does not tell what patches err together.
     std::optional<double> error_parts;
     EnergyBalance energy;
+    /// Patches from which `gathering` traces no more rays at random, as none of those that were
+    /// traced has found a path to them from an emitter.
+    std::size_t unlit = 0;
     std::uint32_t steps = 0;
     std::uint64_t rays_energy = 0;
     std::uint64_t rays_density = 0;

@@ -208,6 +208,9 @@ class GatheringSolver final : public Solver {
         solution_.unseen = errors.unseen + errors.unseen_by_shadow_rays;
         solution_.error_samples = sets;
         solution_.error_parts = error_parts(spread.products, sets);
+        solution_.unlit = 0;
+        for (std::uint32_t i = 0; i < n; ++i)
+            solution_.unlit += !errors.lit[i] && input_.needs.power(i);
         plan_.weigh(rows.variance, errors.lit);
         plan_.weigh_lamps(direct_variances, errors.lit);
         direct_->set_parts(errors.part);
