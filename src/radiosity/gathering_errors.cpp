@@ -8,18 +8,14 @@
 #include "radiosity/linked_parts.h"
 #include "radiosity/mesh.h"
 #include "radiosity/row_spread.h"
-#include "radiosity/shot.h"
+#include "radiosity/unseen_sights.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace hemilux {
 namespace {
-
-/// Of N rays none of which met something, as many as this might have.
-constexpr double rule_of_three = 3;
 
 bool any(const Vec3& v) { return v != Vec3(0.0); }
 Vec3 ratio(const Vec3& a, const Vec3& b) {
@@ -57,14 +53,18 @@ class Account {
             if (part.lit)
                 lit_one_ray_ = glm::max(lit_one_ray_, part.one_ray);
         }
-        find_bright_radiosity();
-        count_rays_of_darker();
+        std::vector<Vec3> all_leaving(n);
+        for (std::uint32_t i = 0; i < n; ++i)
+            all_leaving[i] = leaving(i);
+        const PatchLight light{area_, rho_, incident_, all_leaving, rays_};
+        bright_radiosity_ = bright_radiosity(light);
+        unseen_sights_ = unseen_sights(light);
     }
 
     void add_unseen(GatheringErrors& errors) const {
         double shadow = 0, shadow_weight = 0;
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
-            const Vec3 level = lit_[i] ? unseen_loss(i) + unseen_sight(i) : unseen_light(i);
+            const Vec3 level = lit_[i] ? unseen_loss(i) + unseen_sights_[i] : unseen_light(i);
             errors.unseen += area_[i] * glm::dot(level, level);
             const bool dark = result_.direct.hits(i) == 0;
             const Vec3 one = glm::max(one_ray(i), dark ? one_shadow_ray(i) : Vec3(0.0));
@@ -114,35 +114,6 @@ class Account {
         return share * rho_[i] * incident_[i];
     }
 
-    /// That of the patches that most light comes from: mean, weighted by itself.
-    void find_bright_radiosity() {
-        Vec3 power(0.0), squares(0.0);
-        for (std::uint32_t i = 0; i < area_.size(); ++i) {
-            power += area_[i] * leaving(i);
-            squares += area_[i] * leaving(i) * leaving(i);
-        }
-        bright_radiosity_ = ratio(squares, power);
-    }
-    /// Of all patches that are not brighter than each.
-    void count_rays_of_darker() {
-        std::vector<std::uint32_t> order(area_.size());
-        std::iota(order.begin(), order.end(), 0u);
-        std::ranges::stable_sort(order, {}, [&](std::uint32_t i) {
-            return incident_[i].x + incident_[i].y + incident_[i].z;
-        });
-        double sum = 0;
-        rays_of_darker_.resize(order.size());
-        for (const std::uint32_t i : order)
-            rays_of_darker_[i] = sum += rays_[i];
-    }
-
-    /// If rays of dark patches had met what is bright, far through doors that stand in a line.
-    [[nodiscard]] Vec3 unseen_sight(std::uint32_t i) const {
-        return rays_of_darker_[i] > 0
-                   ? rho_[i] * bright_radiosity_ * (rule_of_three / rays_of_darker_[i])
-                   : Vec3(0.0);
-    }
-
     /// If rays had passed between a dark part and a lit one: what the part would hold then. Neither
     /// the rays of the lit parts nor its own have.
     [[nodiscard]] Vec3 unseen_light(std::uint32_t i) const {
@@ -175,7 +146,7 @@ class Account {
     std::vector<Vec3> incident_;
     std::vector<bool> lit_;
     Vec3 lit_one_ray_{0.0}, bright_radiosity_{0.0};
-    std::vector<double> rays_of_darker_;
+    std::vector<Vec3> unseen_sights_;
 };
 
 /// The standard error of a mean of a few samples is known badly. Where patches err each for itself

@@ -6,6 +6,7 @@
 #include "radiosity/shot.h"
 #include "radiosity/solve_error.h"
 #include "radiosity/state.h"
+#include "radiosity/unseen_sights.h"
 
 #include <algorithm>
 #include <atomic>
@@ -216,7 +217,6 @@ Vec3 StepwiseSolver::purest_ray() const {
 /// Area times squared radiosity that rays would have brought that struck nothing so far, by the rule
 /// of three: as three more of mean power, each anywhere.
 double StepwiseSolver::unseen() const {
-    constexpr double rule_of_three = 3;
     const Vec3 power = rule_of_three * mean_ray();
     double area = 0, squares = 0;
     for (std::uint32_t i = 0; i < squares_.size(); ++i) {

@@ -25,6 +25,7 @@
 #include "radiosity/shot.h"
 #include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
+#include "radiosity/unseen_sights.h"
 
 #include <algorithm>
 #include <array>
@@ -225,8 +226,26 @@ class MatrixSolver final : public Solver {
                 input_.mesh.patches()[i].area * glm::dot(variance[i], Vec3(1.0));
         solution_.error_parts = error_parts(products, replicates);
         solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
-        for (Vec3& sigma : solution_.standard_error)
-            sigma = glm::sqrt(sigma);
+        const std::vector<Vec3> unseen = unseen_light();
+        for (std::uint32_t i = 0; i < unseen.size(); ++i)
+            solution_.standard_error[i] =
+                glm::sqrt(solution_.standard_error[i] + unseen[i] * unseen[i]);
+    }
+
+    /// What dark patches may receive besides; by contour integration nothing is left to chance.
+    [[nodiscard]] std::vector<Vec3> unseen_light() const {
+        const std::size_t n = solution_.radiosity.size();
+        std::vector<double> area(n), rays(n, double(rays_) * replicates);
+        std::vector<Vec3> reflectance(n), incident(n);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const Material& material = input_.mesh.material(i);
+            area[i] = input_.mesh.patches()[i].area;
+            reflectance[i] = material.reflectance;
+            incident[i] = solution_.radiosity[i] - material.emission; // in the same order, about
+        }
+        if (exact_ || !input_.needs.visibility)
+            return std::vector<Vec3>(n, Vec3(0.0));
+        return unseen_sights({area, reflectance, incident, solution_.radiosity, rays});
     }
 
     SolverInput input_;

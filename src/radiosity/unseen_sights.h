@@ -1,0 +1,32 @@
+#pragma once
+// The light that dark patches may receive from bright ones that none of their rays has met: through
+// a pinhole, or far through doors that stand in a line.
+
+#include "geometry/vector.h"
+
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+/// Of N rays none of which met something, up to this many might have (Hanley and Lippman-Hand 1983,
+/// "If nothing goes wrong, is everything all right?").
+inline constexpr double rule_of_three = 3;
+
+/// All by patch.
+struct PatchLight {
+    std::span<const double> area;
+    std::span<const Vec3> reflectance;
+    std::span<const Vec3> incident; ///< arrives [W/m2]
+    std::span<const Vec3> leaving;  ///< that rays are to find [W/m2]
+    std::span<const double> rays;   ///< of the patch
+};
+
+/// The mean of what leaves, weighted by itself: that of the patches that most light comes from.
+[[nodiscard]] Vec3 bright_radiosity(const PatchLight& light);
+
+/// By patch [W/m2 leaving]: what it would reflect if three of the rays of all patches that are not
+/// brighter than it had met something bright.
+[[nodiscard]] std::vector<Vec3> unseen_sights(const PatchLight& light);
+
+} // namespace hemilux
