@@ -3,6 +3,7 @@
 #include "radiosity/emitter_choice.h"
 #include "radiosity/pair_factor.h"
 #include "radiosity/shot.h"
+#include "radiosity/small_emitters.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

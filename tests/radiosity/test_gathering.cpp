@@ -5,6 +5,7 @@
 #include "radiosity/exchange_matrix.h"
 #include "radiosity/ray_counts.h"
 #include "radiosity/ray_deal.h"
+#include "radiosity/small_emitters.h"
 #include "radiosity/state.h"
 #include "support/after_streams.h"
 #include "support/scenes.h"
