@@ -108,9 +108,31 @@ TEST_CASE("a comparison leaves a log, charts, pictures and a table") {
     CHECK(table.at("progressive-monte-carlo")[9] == "1.00");
     CHECK(table.at("progressive-monte-carlo")[10] == "-");
     CHECK(table.at("hemisphere")[10] == "-"); // a convex room needs no densities
+    for (const std::size_t gain : {8u, 9u}) {
+        double times = 0, error = 0;
+        REQUIRE(std::sscanf(table.at("hemisphere")[gain].c_str(), "%lf +- %lf", &times, &error) ==
+                2);
+        CHECK(times > 0);
+        CHECK(error >= 0);
+    }
+    CHECK_THAT(outcome.err, Contains("+-: standard error of the gain, from the spread of 2 runs"));
     // 2000 rays per patch on 24 patches.
     for (const char* method : {"hemisphere", "progressive-monte-carlo"})
         CHECK(std::stod(table.at(method)[3]) < 6);
+}
+
+TEST_CASE("the uncertainty of a gain from one run is unknown") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome =
+        place.hemilux("compare room.obj -o a --methods stratified,progressive-monte-carlo "
+                      "--runs 1 --rays 20 --budget-rays 20000 " +
+                      quick);
+    REQUIRE(outcome.code == 0);
+    const auto table = table_of(outcome.out);
+    CHECK_THAT(table.at("stratified")[9], Catch::EndsWith(" +- ?"));
+    CHECK(table.at("progressive-monte-carlo")[9] == "1.00");
+    CHECK_THAT(outcome.err, Contains("gains are from one run: uncertainty unknown"));
 }
 
 TEST_CASE("by default gathering and all unbiased methods are compared, by rays") {
