@@ -168,7 +168,8 @@ std::string gain_note(std::span<const MethodSummary> summaries) {
     if (unknown)
         return "+- ?: without one of the runs there is no such gain, so its uncertainty is unknown";
     if (known)
-        return "+-: standard error of the gain, from the spread of " + counted(least, "run", "runs");
+        return "+-: standard error of the gain, from the spread of " +
+               counted(least, "run", "runs");
     return "";
 }
 

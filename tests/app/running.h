@@ -22,7 +22,8 @@ namespace test {
 inline constexpr auto patience = std::chrono::minutes(5);
 
 /// Looks again and again until the condition holds; false when that takes too long.
-template <class Condition> bool wait_until(const Condition& condition) {
+template <class Condition>
+bool wait_until(const Condition& condition) {
     const auto end = std::chrono::steady_clock::now() + patience;
     while (!condition()) {
         if (std::chrono::steady_clock::now() > end)
