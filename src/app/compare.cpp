@@ -102,6 +102,8 @@ int finish(const Contest& contest, std::vector<MethodRuns> results) {
         report = write_comparison(contest, results, summaries);
         judge_reference(contest, summaries);
         std::cout << summary_table(summaries) << std::flush;
+        if (const std::string note = gain_note(summaries); !note.empty())
+            say(talk, Talk::normal, note);
         if (!std::cout)
             throw OutputError("standard output", "cannot be written");
     }

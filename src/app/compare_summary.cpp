@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hemilux {
 
@@ -61,6 +62,7 @@ MethodSummary summarise(const MethodRuns& result, bool literal) {
                      geometric_mean(runs, [](const StepRow& row) { return row.error->rest; })};
     summary.estimated_error =
         geometric_mean(runs, [](const StepRow& row) { return row.record.estimated_error; });
+    summary.runs = runs.size();
     summary.runs_by_seconds = curves_of(runs, seconds_of);
     summary.runs_by_rays = curves_of(runs, rays_of);
     summary.by_seconds = mean_curve(summary.runs_by_seconds);
@@ -74,7 +76,20 @@ std::string number(const char* format, double x) {
     return std::isfinite(x) ? formatted(format, x) : "-";
 }
 
-std::string gain(const std::optional<double>& x) { return x ? formatted("%.2f", *x) : "-"; }
+std::optional<Gain> gain_of(std::span<const ErrorCurve> runs,
+                            std::span<const ErrorCurve> base_runs) {
+    const std::optional<double> times = speed_up(runs, base_runs);
+    return times ? std::optional(Gain{*times, speed_up_error(runs, base_runs)}) : std::nullopt;
+}
+
+std::string gain(const std::optional<Gain>& x) {
+    if (!x)
+        return "-";
+    const std::string times = formatted("%.2f", x->times);
+    if (!x->standard_error)
+        return times + " +- ?";
+    return *x->standard_error == 0 ? times : times + formatted(" +- %.2f", *x->standard_error);
+}
 
 std::vector<std::string> table_row(const MethodSummary& s) {
     return {s.label,
@@ -119,8 +134,12 @@ std::vector<MethodSummary> summarise(std::span<const MethodRuns> results, bool l
         return summaries;
     const MethodSummary yardstick = summaries[static_cast<std::size_t>(base - results.begin())];
     for (MethodSummary& summary : summaries) {
-        summary.gain_seconds = speed_up(summary.runs_by_seconds, yardstick.runs_by_seconds);
-        summary.gain_rays = speed_up(summary.runs_by_rays, yardstick.runs_by_rays);
+        summary.gain_seconds = gain_of(summary.runs_by_seconds, yardstick.runs_by_seconds);
+        summary.gain_rays = gain_of(summary.runs_by_rays, yardstick.runs_by_rays);
+        if (summary.label == yardstick.label) // whatever the runs, it gains nothing on itself
+            for (std::optional<Gain>* const own : {&summary.gain_seconds, &summary.gain_rays})
+                if (*own)
+                    *own = Gain{1, 0.0};
     }
     return summaries;
 }
@@ -132,6 +151,26 @@ std::string summary_table(std::span<const MethodSummary> summaries) {
     for (const MethodSummary& summary : summaries)
         rows.push_back(table_row(summary));
     return aligned(rows);
+}
+
+std::string gain_note(std::span<const MethodSummary> summaries) {
+    bool known = false, unknown = false;
+    std::size_t least = std::numeric_limits<std::size_t>::max();
+    for (const MethodSummary& summary : summaries) {
+        least = std::min(least, summary.runs);
+        for (const std::optional<Gain>& gain : {summary.gain_seconds, summary.gain_rays}) {
+            known |= gain && gain->standard_error > 0.0;
+            unknown |= gain && !gain->standard_error;
+        }
+    }
+    if (unknown && least < 2)
+        return "gains are from one run: uncertainty unknown; --runs asks for more";
+    if (unknown)
+        return "+- ?: without one of the runs there is no such gain, so its uncertainty is unknown";
+    if (known)
+        return "+-: standard error of the gain, from the spread of " +
+               counted(least, "run", "runs");
+    return "";
 }
 
 } // namespace hemilux

@@ -20,6 +20,14 @@ double least_error(const ErrorCurve& curve) {
     return std::ranges::min_element(curve, {}, &CurvePoint::error)->error;
 }
 
+/// All runs but run i; all of them where there is no such run.
+std::vector<ErrorCurve> without(std::span<const ErrorCurve> runs, std::size_t i) {
+    std::vector<ErrorCurve> others(runs.begin(), runs.end());
+    if (i < others.size())
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    return others;
+}
+
 /// `count` numbers from low to high in equal ratios; one where these are the same.
 std::vector<double> geometric_series(double low, double high, std::size_t count) {
     std::vector<double> series{low};
@@ -115,7 +123,9 @@ std::optional<double> speed_up(std::span<const ErrorCurve> runs,
                 errors.push_back(least_error(curve));
         return geometric_mean(errors);
     };
-    const double error = std::max(mean_least(runs), mean_least(base_runs));
+    // Rounding of logarithms must not put it below the only run that there is.
+    constexpr double rounding = 1e-12;
+    const double error = std::max(mean_least(runs), mean_least(base_runs)) * (1 + rounding);
     const auto mean_cost = [error](std::span<const ErrorCurve> curves, bool from_first) {
         std::vector<double> costs;
         for (const ErrorCurve& curve : curves) {
@@ -128,6 +138,27 @@ std::optional<double> speed_up(std::span<const ErrorCurve> runs,
     };
     const double gain = mean_cost(base_runs, false) / mean_cost(runs, true);
     return std::isfinite(gain) ? std::optional(gain) : std::nullopt;
+}
+
+std::optional<double> speed_up_error(std::span<const ErrorCurve> runs,
+                                     std::span<const ErrorCurve> base_runs) {
+    const std::optional<double> gain = speed_up(runs, base_runs);
+    if (!gain || std::min(runs.size(), base_runs.size()) < 2)
+        return std::nullopt;
+    const std::size_t n = std::max(runs.size(), base_runs.size());
+    std::vector<double> logs;
+    double mean = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::optional<double> other = speed_up(without(runs, i), without(base_runs, i));
+        if (!other)
+            return std::nullopt;
+        logs.push_back(std::log(*other));
+        mean += logs.back() / double(n);
+    }
+    double squares = 0;
+    for (const double log : logs)
+        squares += (log - mean) * (log - mean);
+    return *gain * std::sqrt(squares * double(n - 1) / double(n));
 }
 
 double geometric_mean(std::span<const double> numbers) {

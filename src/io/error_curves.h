@@ -50,6 +50,12 @@ struct MeanCurve {
 [[nodiscard]] std::optional<double> speed_up(std::span<const ErrorCurve> runs,
                                              std::span<const ErrorCurve> base_runs);
 
+/// The standard error of the gain of several runs, from their spread: jackknife of its logarithm.
+/// Run i of both is left out at once, as what disturbs the machine disturbs both. Rough where the
+/// runs are few; empty where there are not two of both, or the gain is not known without one.
+[[nodiscard]] std::optional<double> speed_up_error(std::span<const ErrorCurve> runs,
+                                                   std::span<const ErrorCurve> base_runs);
+
 /// exp of the mean of logarithms; numbers that are not positive and finite do not count. NaN where
 /// none does.
 [[nodiscard]] double geometric_mean(std::span<const double> numbers);

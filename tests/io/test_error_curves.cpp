@@ -1,4 +1,5 @@
 #include "io/error_curves.h"
+#include "radiosity/rng.h"
 
 #include <catch2/catch.hpp>
 
@@ -97,6 +98,75 @@ TEST_CASE("the gain is the ratio of costs at the smallest error that both reach"
     CHECK(speed_up(fast, bases).value() == Approx(8).epsilon(.2)); // 4 and 16
     CHECK_FALSE(speed_up(std::vector<ErrorCurve>{}, bases));
     CHECK(speed_up(floored, base).value() == Approx(std::pow(6 / 0.4, 2) / 400));
+}
+
+TEST_CASE("the standard error of a gain is that of the difference of logarithms") {
+    // Each run is a power law down to the same error, at a cost of (factor / error)^2.
+    const auto down_to_error = [](double factor) {
+        return ErrorCurve{{1, factor}, {factor * factor / .01, .1}};
+    };
+    std::vector<ErrorCurve> runs, base;
+    std::vector<double> logs;
+    double mean = 0;
+    for (const auto& [factor, base_factor] :
+         {std::pair{3.0, 5.0}, {3.5, 5.2}, {2.8, 4.4}, {3.3, 6.1}}) {
+        runs.push_back(down_to_error(factor));
+        base.push_back(down_to_error(base_factor));
+        logs.push_back(2 * std::log(base_factor / factor));
+        mean += logs.back() / 4;
+    }
+    double squares = 0;
+    for (const double log : logs)
+        squares += (log - mean) * (log - mean);
+    CHECK(speed_up(runs, base).value() == Approx(std::exp(mean)));
+    CHECK(speed_up_error(runs, base).value() == Approx(std::exp(mean) * std::sqrt(squares / 12)));
+    CHECK(speed_up_error(base, base).value() == Approx(0).margin(1e-12));
+    CHECK_FALSE(speed_up_error(std::span(runs).first(1), std::span(base).first(1)));
+    CHECK_FALSE(speed_up_error(runs, std::span(base).first(1)));
+    CHECK(speed_up_error(std::span(runs).first(2), std::span(base).first(2)).has_value());
+    CHECK(speed_up_error(runs, std::span(base).first(2)).has_value());
+    CHECK_FALSE(speed_up_error(std::vector<ErrorCurve>{{}, {}}, base));
+}
+
+// The same method twice gains nothing. What it seems to gain is noise, which the standard error has
+// to cover: over many comparisons the two are as large as each other.
+TEST_CASE("the standard error of a gain is as large as the noise of the gain") {
+    Rng rng(11);
+    const auto noisy_run = [&] { // mean of steps, each of which has an error of its own
+        ErrorCurve curve;
+        double squares = 0;
+        for (int step = 1; step <= 32; ++step) {
+            double noise = -2;
+            for (int k = 0; k < 4; ++k)
+                noise += rng.uniform();
+            squares += std::exp(noise);
+            append(curve, {100.0 * step, std::sqrt(squares) / step});
+        }
+        return curve;
+    };
+    for (const std::size_t count : {3u, 8u}) {
+        double gained = 0, reported = 0;
+        constexpr int comparisons = 400;
+        int known = 0;
+        for (int i = 0; i < comparisons; ++i) {
+            std::vector<ErrorCurve> runs, base;
+            for (std::size_t run = 0; run < count; ++run) {
+                runs.push_back(noisy_run());
+                base.push_back(noisy_run());
+            }
+            const std::optional<double> gain = speed_up(runs, base);
+            const std::optional<double> error = speed_up_error(runs, base);
+            if (!gain || !error)
+                continue;
+            ++known;
+            gained += std::pow(std::log(*gain), 2);
+            reported += std::pow(*error / *gain, 2);
+        }
+        CAPTURE(count, known, gained / known, reported / known);
+        CHECK(known > .9 * comparisons);
+        CHECK(reported > .6 * gained);
+        CHECK(reported < 2.5 * gained);
+    }
 }
 
 TEST_CASE("the geometric mean leaves out what has no logarithm") {
