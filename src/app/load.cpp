@@ -103,7 +103,9 @@ Prepared prepare(const Mesh& mesh, const SolveOptions& options) {
         if (part == 0)
             prepared.made =
                 make_tracer(mesh, options.keep_all || needs_tree(mesh), options.threads);
-        else if (!options.keep_all)
+        else if (options.keep_all)
+            prepared.needs.closed = find_needs(mesh).closed;
+        else
             prepared.needs = find_needs(mesh);
     });
     prepared.seconds = preparing.seconds();

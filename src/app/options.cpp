@@ -135,9 +135,9 @@ void add_stop_options(CLI::App& app, StopRule& stop) {
     add_number(app, "--error", "X", stop.error, positive,
                "at an estimated relative error, e.g. .01")
         ->group(group);
-    add_whole<std::uint64_t>(app, "--max-rays", stop.rays, 1,
-                             std::numeric_limits<std::uint64_t>::max(),
-                             "after N rays, even if the error is not reached [1e8 and 1000 a patch]")
+    add_whole<std::uint64_t>(
+        app, "--max-rays", stop.rays, 1, std::numeric_limits<std::uint64_t>::max(),
+        "after N rays, even if the error is not reached [1e8 and 1000 a patch]")
         ->group(group);
 }
 

@@ -95,8 +95,7 @@ int finish(const SolveSettings& settings, const Results& results, const WriteRep
     WriteReport report = write_results(settings, results);
     report.add(of_steps);
     say(settings.talk, Talk::normal, run_text(results.statistics));
-    for (const std::string& note :
-         notes.texts(results.statistics.estimated_error, interrupted))
+    for (const std::string& note : notes.texts(results.statistics.estimated_error, interrupted))
         say(settings.talk, Talk::normal, "warning: " + note);
     if (results.solution.steps > 0)
         say_lost_light(settings, results);

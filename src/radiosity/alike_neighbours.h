@@ -1,6 +1,6 @@
 #pragma once
-// Patches that are near to a patch and much like it, so that what is uncertain about one is about as
-// uncertain about the others: errors that are known badly from one patch are pooled over them.
+// Patches that are near to a patch and much like it, so that what is uncertain about one is about
+// as uncertain about the others: errors that are known badly from one patch are pooled over them.
 
 #include "radiosity/mesh.h"
 

@@ -29,7 +29,7 @@ Vec3 is_lit(const Vec3& residual, const Vec3& light, const Vec3& weight) {
 
 /// Sums over patches.
 struct Sums {
-    Vec3 squares{0.0}; ///< of the residual, weighted
+    Vec3 squares{0.0};            ///< of the residual, weighted
     Vec3 relative{0.0}, lit{0.0}; ///< of the squares of the relative residual; area
 
     Sums& operator+=(const Sums& other) {
@@ -72,8 +72,7 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
         return all;
     };
     const auto residual_at = [&](std::size_t i) {
-        return Sums{weight[i] * r[i] * r[i],
-                    area[i] * relative_square(r[i], h[i], weight[i]),
+        return Sums{weight[i] * r[i] * r[i], area[i] * relative_square(r[i], h[i], weight[i]),
                     area[i] * is_lit(r[i], h[i], weight[i])};
     };
     const auto reflect = [&](std::size_t i, const Vec3& x) {

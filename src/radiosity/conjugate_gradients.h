@@ -14,10 +14,11 @@
 namespace hemilux {
 
 struct GradientOptions {
-    /// Of the residual relative to the light at the same patch, channel by channel: root mean square
-    /// over the area that is lit. So a faint room beside a bright one is solved to its own scale.
+    /// Of the residual relative to the light at the same patch, channel by channel: root mean
+    /// square over the area that is lit. So a faint room beside a bright one is solved to its own
+    /// scale.
     double tolerance = 1e-9;
-    int most = 1000;         ///< iterations
+    int most = 1000;                                ///< iterations
     const std::atomic<bool>* interrupted = nullptr; ///< ends them; h is void then
 };
 

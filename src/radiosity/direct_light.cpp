@@ -68,10 +68,12 @@ DirectLight::Shape::Shape(const Patch& of) : patch(&of), points(of.shape) {}
 
 DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                          std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds)
-    : mesh_(mesh), tracer_(tracer), needs_(needs), patch_of_emitter_(one_of_each_side(mesh, emitters)),
-      emitters_(whole_sides(mesh, patch_of_emitter_)), choice_(mesh, emitters_), seeds_(std::move(seeds)),
-      sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)), samples_(mesh.patches().size()),
-      hits_(mesh.patches().size()), unblocked_(mesh.patches().size()) {
+    : mesh_(mesh), tracer_(tracer), needs_(needs),
+      patch_of_emitter_(one_of_each_side(mesh, emitters)),
+      emitters_(whole_sides(mesh, patch_of_emitter_)), choice_(mesh, emitters_),
+      seeds_(std::move(seeds)), sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)),
+      samples_(mesh.patches().size()), hits_(mesh.patches().size()),
+      unblocked_(mesh.patches().size()) {
     for (const Patch& emitter : emitters_)
         lamps_.push_back(
             {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});

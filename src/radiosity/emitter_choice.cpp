@@ -105,9 +105,7 @@ EmitterReceiver EmitterChoice::receiver_at(std::uint32_t patch) const {
 
 const Vec3& EmitterChoice::centre(std::uint32_t place) const { return emitters_[place].centre; }
 
-double EmitterChoice::light_of(std::uint32_t place) const {
-    return light_[place];
-}
+double EmitterChoice::light_of(std::uint32_t place) const { return light_[place]; }
 
 double EmitterChoice::power_of(std::uint32_t place) const {
     return emitters_[place].area * light_of(place);

@@ -35,14 +35,14 @@ double variance_of_share(double count, double rays) {
     return (count + 1) * (rays - count + 1) / (all * all * (all + 1));
 }
 
-/// The share of all rays that are lost, as if one more of them had been.
+/// The share of all rays that are lost.
 double usual_loss(const Transport& t) {
-    double lost = 1, rays = 2;
+    double lost = 0, rays = 0;
     for (std::size_t i = 0; i < t.rays.size(); ++i) {
         lost += t.rays[i] * lost_in_all(t.lost[i]);
         rays += t.rays[i];
     }
-    return lost / rays;
+    return rays > 0 ? lost / rays : 0;
 }
 
 /// Sums over all patches.
@@ -130,7 +130,8 @@ EnergyBalance balance_energy(const Transport& transport, std::span<const Vec3> i
     energy.emitted = flows.emitted.sent.value();
     energy.absorbed = flows.absorbed.value();
     for (int c = 0; c < 3; ++c) {
-        const double escaped = flows.emitted.escaped.value()[c] + flows.reflected.escaped.value()[c];
+        const double escaped =
+            flows.emitted.escaped.value()[c] + flows.reflected.escaped.value()[c];
         const double by_rays = flows.emitted.lost(c) + flows.reflected.lost(c);
         // Where light finds no end the balance stays open, see is_drained.
         const bool ends = by_rays > 0 || energy.absorbed[c] > energy.emitted[c] / 2;

@@ -11,7 +11,8 @@ namespace hemilux {
 namespace {
 
 /// In standard deviations; 1.96 for parts that are normally distributed. Where there are few, they
-/// are not: with one part and seven degrees of freedom Student's t gives 1 + 1.84 for 1 + 2.5 x .76.
+/// are not: with one part and seven degrees of freedom Student's t gives 1 + 1.84 for 1 + 2.5 x
+/// .76.
 constexpr double quantile_97 = 2.5;
 
 /// A few samples do not tell more parts than these from any number.
@@ -34,13 +35,13 @@ double parts_by_patch(const Mesh& mesh, const Solution& solution) {
 double ErrorSpread::uncertainty() const { return 1 / std::sqrt(2 * parts * freedom); }
 
 double ErrorSpread::bound() const {
-    const double told = 1 / (1 / parts + 1 / most_parts);
-    return 1 + quantile_97 * std::sqrt((1 + 1 / freedom) / (2 * told));
+    return 1 + quantile_97 * std::sqrt((1 + 1 / freedom) / (2 * parts));
 }
 
 double ErrorSpread::reported() const {
     constexpr double tolerance = 1.5;
-    return std::max(1.0, bound() / tolerance);
+    const ErrorSpread surely{1 / (1 / parts + 1 / most_parts), freedom};
+    return std::max(1.0, surely.bound() / tolerance);
 }
 
 ErrorSpread error_spread(const Mesh& mesh, const Solution& solution) {
@@ -55,12 +56,11 @@ ErrorSpread error_spread(const Mesh& mesh, const Solution& solution) {
 
 double error_parts(std::span<const double> products, std::size_t samples) {
     const double n = static_cast<double>(samples) - 1;
-    double trace = 0, squares = 0;
+    double trace = 0, share = 0; // share: 1 / n to 1
     for (std::size_t s = 0; s < samples; ++s)
         trace += products[s * (samples + 1)];
     for (const double product : products)
-        squares += product * product;
-    const double share = squares / (trace * trace); // 1 / n to 1
+        share += (product / trace) * (product / trace);
     const double parts = (n + 1 - 2 * share) / (n * share - 1);
     return trace > 0 && parts >= 0 ? std::max(parts, 1.0) : std::numeric_limits<double>::infinity();
 }

@@ -27,8 +27,9 @@ struct ErrorSpread {
     [[nodiscard]] double reported() const;
 };
 
-/// Of the error that the solution's variance tells. Where a method does not say how many parts there are
-/// (Solution::error_parts) patches are taken to err each for itself. NaN before two steps.
+/// Of the error that the solution's variance tells. Where a method does not say how many parts
+/// there are (Solution::error_parts) patches are taken to err each for itself. NaN before two
+/// steps.
 [[nodiscard]] ErrorSpread error_spread(const Mesh& mesh, const Solution& solution);
 
 /// Parts from the scalar products of what each of some samples is off from their mean, all with

@@ -25,10 +25,10 @@ Vec3 ratio(const Vec3& a, const Vec3& b) {
 
 /// Sums over the patches of a linked part, by channel.
 struct PartLedger {
-    Vec3 used{0.0};        ///< power that ends there: absorbed, or lost
-    Vec3 leaving{0.0};     ///< power that rays at random stand for
-    Vec3 one_ray{0.0};     ///< its mean per ray, weighted by itself
-    Vec3 appetite{0.0};    ///< area times absorptance
+    Vec3 used{0.0};     ///< power that ends there: absorbed, or lost
+    Vec3 leaving{0.0};  ///< power that rays at random stand for
+    Vec3 one_ray{0.0};  ///< its mean per ray, weighted by itself
+    Vec3 appetite{0.0}; ///< area times absorptance
     double area = 0;
     double rays = 0, lost = 0; ///< numbers of rays
     bool lit = false;
@@ -62,21 +62,22 @@ class Account {
     }
 
     void add_unseen(GatheringErrors& errors) const {
-        double shadow = 0, shadow_weight = 0;
+        double unblocked = 0; // power
+        for (std::uint32_t i = 0; i < area_.size(); ++i)
+            unblocked += area_[i] * result_.direct.unblocked(i);
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
             const Vec3 level = lit_[i] ? unseen_loss(i) + unseen_sights_[i] : unseen_light(i);
             errors.unseen += area_[i] * glm::dot(level, level);
+            const Vec3 sample = one_shadow_ray(i);
             const bool dark = result_.direct.hits(i) == 0;
-            const Vec3 one = glm::max(one_ray(i), dark ? one_shadow_ray(i) : Vec3(0.0));
+            const Vec3 one = glm::max(one_ray(i), dark ? sample : Vec3(0.0));
             Vec3& sigma = errors.standard_error[i];
             sigma = glm::sqrt(glm::max(sigma * sigma, one * one) + level * level);
-            const double weight = area_[i] * result_.direct.unblocked(i);
-            const Vec3 sample = one_shadow_ray(i);
-            shadow += weight * area_[i] * glm::dot(sample, sample);
-            shadow_weight += weight;
+            const double share =
+                unblocked > 0 ? area_[i] * result_.direct.unblocked(i) / unblocked : 0;
+            errors.unseen_by_shadow_rays +=
+                rule_of_three * rule_of_three * share * area_[i] * glm::dot(sample, sample);
         }
-        if (shadow_weight > 0)
-            errors.unseen_by_shadow_rays = rule_of_three * rule_of_three * shadow / shadow_weight;
         errors.part = parts_.of;
         errors.lit = lit_;
     }
@@ -130,10 +131,11 @@ class Account {
     [[nodiscard]] Vec3 one_ray(std::uint32_t i) const {
         return rays_[i] > 0 ? rho_[i] * result_.rows.typical[i] / rays_[i] : Vec3(0.0);
     }
-    /// The light that one shadow ray more or less would bring: through a gap that all have missed, or
-    /// behind a thing that none has met.
+    /// The light that one shadow ray more or less would bring: through a gap that all have missed,
+    /// or behind a thing that none has met.
     [[nodiscard]] Vec3 one_shadow_ray(std::uint32_t i) const {
-        const double samples = double(result_.direct.samples(i)) * double(result_.direct.estimates());
+        const double samples =
+            double(result_.direct.samples(i)) * double(result_.direct.estimates());
         return samples > 0 ? rho_[i] * (result_.direct.unblocked(i) / samples) : Vec3(0.0);
     }
 
@@ -158,7 +160,8 @@ double raised(double together) {
 }
 
 /// What a patch's neighbours and itself are off in each set.
-template <std::size_t Sets> class Window {
+template <std::size_t Sets>
+class Window {
   public:
     void add(const std::array<Vec3, Sets>& off) {
         for (std::size_t s = 0; s < Sets; ++s) {

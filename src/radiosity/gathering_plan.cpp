@@ -143,8 +143,8 @@ void GatheringPlan::mix(std::span<const double> known, std::span<const double> p
 void GatheringPlan::learn(std::span<const Vec3> variance) {
     std::vector<double> known(variance.size()), smooth(variance.size());
     for (std::size_t i = 0; i < known.size(); ++i)
-        known[i] = prior_weights_[i] *
-                   std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance[i]));
+        known[i] =
+            prior_weights_[i] * std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance[i]));
     for (std::uint32_t i = 0; i < known.size(); ++i)
         smooth[i] = prior_weights_[i] > 0 ? of_neighbours(i, known) : 0;
     mix(smooth, prior_weights_, learned_weights_);

@@ -38,8 +38,8 @@ struct KnownError {
 
 class GatheringPlan {
   public:
-    /// The first step's means, of one set; no `to_lamps`: there are no lamps to be reached. The mesh
-    /// outlives this.
+    /// The first step's means, of one set; no `to_lamps`: there are no lamps to be reached. The
+    /// mesh outlives this.
     GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps,
                   const Pace& pace);
 
@@ -57,13 +57,14 @@ class GatheringPlan {
     /// reaches (`lit`), as far as all rays know. `variance`: of the light over the directions of
     /// each patch, by channel.
     ///
-    /// How many rays a patch gets must not depend on what its own rays have found: where they missed
-    /// something rare, their variance is too small, fewer rays would follow, and the mean of all
-    /// would stay wrong. So a patch is judged by its neighbours, and but once, by the first rays that
-    /// found light, which are soon a small part of all.
+    /// How many rays a patch gets must not depend on what its own rays have found: where they
+    /// missed something rare, their variance is too small, fewer rays would follow, and the mean of
+    /// all would stay wrong. So a patch is judged by its neighbours, and but once, by the first
+    /// rays that found light, which are soon a small part of all.
     void weigh(std::span<const Vec3> variance, const std::vector<bool>& lit);
 
-    /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`: of each patch, times its area, in any unit; negative: it takes none.
+    /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`:
+    /// of each patch, times its area, in any unit; negative: it takes none.
     void weigh_lamps(std::span<const double> variance, const std::vector<bool>& lit);
 
     void save(StateWriter& state) const;
@@ -91,8 +92,8 @@ class GatheringPlan {
     std::vector<double> weights_, lamp_weights_; ///< what a ray is worth
     std::vector<double> learned_weights_;        ///< of random rays, were all patches lit
     bool has_learned_ = false;
-    std::vector<double> prior_weights_;          ///< of random rays, before anything is known
-    std::vector<double> prior_lamp_weights_;     ///< likewise of shadow rays
+    std::vector<double> prior_weights_;      ///< of random rays, before anything is known
+    std::vector<double> prior_lamp_weights_; ///< likewise of shadow rays
 };
 
 } // namespace hemilux

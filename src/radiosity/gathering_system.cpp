@@ -74,8 +74,7 @@ ExchangeMatrix GatheringSystem::solve(const Rays& rays, std::optional<double> er
     });
     ExchangeMatrix all(std::move(parts), workers);
     const double worth = left_of_all * average(found) * lost_at_least_;
-    solve(all,
-          {straight_light(all, rays.direct, std::nullopt, workers), variance / double(sets)},
+    solve(all, {straight_light(all, rays.direct, std::nullopt, workers), variance / double(sets)},
           found[sets], workers, std::max(worth, least_residual), interrupted);
     if (!interrupted)
         light = std::move(found);

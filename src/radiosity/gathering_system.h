@@ -21,8 +21,9 @@ class Mesh;
 
 class GatheringSystem {
   public:
-    /// `lamps`: patches whose light comes by shadow rays, not by rays at random. `closed`: no ray can
-    /// leave the scene or meet the back of a face, as its geometry proves. The mesh outlives this.
+    /// `lamps`: patches whose light comes by shadow rays, not by rays at random. `closed`: no ray
+    /// can leave the scene or meet the back of a face, as its geometry proves. The mesh outlives
+    /// this.
     GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps, bool closed);
 
     /// By patch.

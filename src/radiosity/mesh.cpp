@@ -70,8 +70,8 @@ double radius_of(const Patch& patch) {
     return std::sqrt(squares);
 }
 
-/// The centre, and how far corners are from it at most, of the box around all facets. But where most
-/// of them lie in a small part of that, as under a distant sun, the centre of that part: there
+/// The centre, and how far corners are from it at most, of the box around all facets. But where
+/// most of them lie in a small part of that, as under a distant sun, the centre of that part: there
 /// floats are most precise.
 LocalFrame LocalFrame::of(const Scene& scene) {
     constexpr double small_part = 1.0 / 1024, left_out = 1.0 / 16; // of the extent; on either side

@@ -81,7 +81,7 @@ std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
         list.push_back({"tests of visibility", "nothing stands in a convex enclosure",
                         "all rays between two patches"});
     if (!needs.bounces && work.passes)
-        list.push_back({"all passes but the first", "nothing that light reaches reflects",
+        list.push_back({"all passes but the first", "nothing reflects that light reaches",
                         "all steps but one, and the search for their length"});
     add_idle_patches(needs, work, list);
     if (!needs.tree)
@@ -105,7 +105,8 @@ Needs find_needs(const Mesh& mesh) {
             const Material& material = scene.materials[m];
             needs.colours |= !is_grey(material.reflectance) || !is_grey(material.emission);
         }
-    needs.densities = needs.visibility = !is_convex_enclosure(mesh);
+    needs.closed = is_convex_enclosure(mesh);
+    needs.densities = needs.visibility = !needs.closed;
     needs.tree = needs_tree(mesh);
     find_idle_patches(mesh, needs);
     return needs;

@@ -22,6 +22,10 @@ struct Needs {
     bool bounces = true;    ///< false: nothing that light may reach reflects
     bool tree = true;       ///< false: so few triangles that a ray tests them all at once
 
+    /// No ray can leave the scene or meet the back of a face, as its geometry proves. This leaves
+    /// nothing out; it tells what errors are possible.
+    bool closed = false;
+
     /// Whether a patch may ever hold power to be shot. If not it needs no rays and no hemisphere.
     [[nodiscard]] bool power(std::uint32_t patch) const { return idle.empty() || !idle[patch]; }
 

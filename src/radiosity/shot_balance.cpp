@@ -62,17 +62,14 @@ ShotShares ShotBalance::settle(const FactorSum& factors, const ShotRays& rays) {
     const double both = variance + variance_of_rays;
     const double joined =
         both > 0 ? ((1 - lost) * variance + sum * variance_of_rays) / both : 1 - lost;
-    // More than all is chance, and evens out: cut off, light would be missing on average.
-    const double arriving = joined;
-    if (arriving >= 1)
-        return {arriving / sum, {}, 1 - arriving};
     const LostShare kinds{rays.escaped + all_.escaped / all_.count,
                           rays.absorbed + all_.absorbed / all_.count};
     const double known = kinds.escaped + kinds.absorbed;
-    if (!(known > 0))
-        return {arriving / sum, {1 - arriving, 0}, 0};
-    const double each = (1 - arriving) / known;
-    return {arriving / sum, {each * kinds.escaped, each * kinds.absorbed}, 0};
+    // More than all is chance, and evens out: cut off, light would be missing on average.
+    if (!(known > 0) || joined >= 1)
+        return {joined / sum, {}, 1 - joined};
+    const double each = (1 - joined) / known;
+    return {joined / sum, {each * kinds.escaped, each * kinds.absorbed}, 0};
 }
 
 } // namespace hemilux

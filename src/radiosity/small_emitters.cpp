@@ -70,7 +70,8 @@ class Views {
         for (std::uint32_t i = 0; i < mesh.patches().size() && points_.size() < points; ++i) {
             const double end = before + reflecting_area(i);
             for (; next < end && points_.size() < points; next += each)
-                points_.push_back({i, {rng.uniform(), rng.uniform(), rng.uniform(), rng.uniform()}});
+                points_.push_back(
+                    {i, {rng.uniform(), rng.uniform(), rng.uniform(), rng.uniform()}});
             before = end;
         }
     }

@@ -20,6 +20,9 @@ void save_solution(const Solution& solution, StateWriter& state) {
     state.add(solution.bytes_transport);
     state.add(solution.error_samples);
     state.add(solution.error_parts.value_or(0));
+    state.add(solution.variance.value_or(-1));
+    state.add(solution.unseen);
+    state.add(std::uint64_t{solution.unlit});
     save_energy(solution.energy, state);
     state.add(std::span<const Vec3>(solution.radiosity));
     state.add(std::span<const Vec3>(solution.standard_error));
@@ -33,6 +36,10 @@ void load_solution(Solution& solution, StateReader& state) {
     state.get(solution.error_samples);
     const double parts = state.number();
     solution.error_parts = parts > 0 ? std::optional(parts) : std::nullopt;
+    const double variance = state.number();
+    solution.variance = variance >= 0 ? std::optional(variance) : std::nullopt;
+    state.get(solution.unseen);
+    solution.unlit = state.whole();
     load_energy(solution.energy, state);
     state.get(std::span(solution.radiosity));
     state.get(std::span(solution.standard_error));

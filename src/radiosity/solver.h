@@ -73,8 +73,8 @@ struct StopRule {
     std::optional<std::uint32_t> steps;
     std::optional<double> seconds;
     std::optional<double> error; ///< estimated relative error, e.g. .01
-    /// Rays in all, after which no further step is begun: where light is rare an error may be out of
-    /// reach.
+    /// Rays in all, after which no further step is begun: where light is rare an error may be out
+    /// of reach.
     std::optional<std::uint64_t> rays = {};
     static constexpr std::uint32_t default_steps = 16;
 };

@@ -214,8 +214,8 @@ Vec3 StepwiseSolver::purest_ray() const {
     return mean_of_channels(mean_ray()) * share;
 }
 
-/// Area times squared radiosity that rays would have brought that struck nothing so far, by the rule
-/// of three: as three more of mean power, each anywhere.
+/// Area times squared radiosity that rays would have brought that struck nothing so far, by the
+/// rule of three: as three more of mean power, each anywhere.
 double StepwiseSolver::unseen() const {
     const Vec3 power = rule_of_three * mean_ray();
     double area = 0, squares = 0;
@@ -284,8 +284,8 @@ void StepwiseSolver::estimate_errors() {
         const double area = input_.mesh.patches()[i].area;
         for (int c = 0; c < 3; ++c)
             if (variance[i][c] == 0 && area > 0) // nothing of this channel was seen around here
-                sigma[c] = std::max(sigma[c],
-                                    input_.mesh.material(i).reflectance[c] * purest[c] / area);
+                sigma[c] =
+                    std::max(sigma[c], input_.mesh.material(i).reflectance[c] * purest[c] / area);
     }
     const double of_level = level_squares_ / (n * (n - 1)) * value;
     solution_.variance = sum;

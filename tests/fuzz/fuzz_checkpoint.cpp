@@ -30,7 +30,7 @@ Scene one_triangle() {
 std::string sealed(std::string_view content) {
     StateWriter length, sum;
     length.add(std::uint64_t{content.size()});
-    std::string bytes = "hemilux checkpoint, format 4\n" + length.bytes() + std::string(content);
+    std::string bytes = "hemilux checkpoint, format 5\n" + length.bytes() + std::string(content);
     Checksum checksum;
     checksum.add(bytes);
     sum.add(checksum.value());

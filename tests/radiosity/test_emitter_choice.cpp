@@ -100,6 +100,9 @@ TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may brin
     const std::span<const Patch> patches = model.mesh.patches();
     REQUIRE(patches.size() <= 1024); // weighed one by one
     const EmitterChoice choice(model.mesh, patches);
+    Vec3 most(0.0); // each channel counts alike
+    for (const Patch& patch : patches)
+        most = glm::max(most, model.mesh.material(patch).emission);
     EmitterChoice::Cut cut;
     for (std::uint32_t i = 0; i < patches.size(); i += 7) {
         choice.weigh(i, cut);
@@ -115,7 +118,8 @@ TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may brin
                 std::max({r - radius_of(to), least_height(from, to), least_height(to, from), 0.0});
             if (e != i && may_see(to, from))
                 expected[e] =
-                    mean_of_channels(model.mesh.material(from).emission) * rough_factor(to, from) *
+                    mean_of_channels(model.mesh.material(from).emission / most) *
+                    rough_factor(to, from) *
                     std::sqrt((pi * r * r + from.area) / (pi * nearest * nearest + from.area));
             sum += expected[e];
         }

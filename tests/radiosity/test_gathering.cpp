@@ -57,9 +57,11 @@ struct RunErrors {
 } // namespace
 
 TEST_CASE("Exchange between patches is symmetric, and each row closed") {
-    // Under the open sky no symmetric matrix may agree with all that was lost.
-    for (const auto& [scene, off] :
-         {std::pair(test::room_with_block(), 1e-5), std::pair(test::open_scene(), .02)}) {
+    // Where rays are lost, that is known from both sides: rows keep to it as well as their rays
+    // tell it, more than two thirds within one standard error and nearly all within three.
+    for (const auto& [scene, closed] :
+         {std::pair(test::furnace_l_shape(.5), true), std::pair(test::room_with_block(), false),
+          std::pair(test::open_scene(), false)}) {
         const Model model(scene);
         const std::size_t n = model.mesh.patches().size();
         const std::vector<RayCounts> sets = traced(model, 2, 32);
@@ -70,10 +72,15 @@ TEST_CASE("Exchange between patches is symmetric, and each row closed") {
         const ExchangeMatrix f(std::move(parts), workers);
         std::vector<Vec3> x(n, Vec3(1.0)), y(n);
         f.multiply(x, y, workers);
+        double within = 0;
         for (std::uint32_t i = 0; i < n; ++i) {
-            const LostShare lost = f.lost()[i];
-            CHECK(y[i].x == Approx(1 - lost.escaped - lost.absorbed).margin(off));
+            const double kept = 1 - f.lost()[i].escaped - f.lost()[i].absorbed;
+            const double rays = f.rays()[i], share = (kept * rays + .5) / (rays + 1);
+            const double sigma = closed ? 1e-5 : std::sqrt(share * (1 - share) / rays);
+            within += std::abs(y[i].x - kept) <= sigma;
+            CHECK(std::abs(y[i].x - kept) <= 4 * sigma);
         }
+        CHECK(within >= (closed ? 1 : .68) * double(n));
         // x^T A F y = y^T A F x for any two vectors.
         std::vector<Vec3> a(n), b(n), fa(n), fb(n);
         for (std::size_t i = 0; i < n; ++i) {

@@ -35,8 +35,8 @@ TEST_CASE("Gathering needs no more rays for bright rooms than for dim ones") {
         for (int run = 0; run < runs; ++run) {
             SolveOptions options;
             options.seed = 1 + std::uint64_t(run);
-            const Solution s = test::solve(model, *find_method("gathering"), options,
-                                           {.steps = {}, .seconds = {}, .error = .008});
+            const Solution s = test::solve_as_needed(model, *find_method("gathering"), options,
+                                                     {.steps = {}, .seconds = {}, .error = .008});
             rays += static_cast<double>(s.rays_energy) / runs;
             squares += std::pow(relative_error(model, s, exact), 2) / runs;
             for (int c = 0; c < 3; ++c)

@@ -28,6 +28,17 @@ struct Model {
     return solver->solution();
 }
 
+/// The same with what the scene does not need left out, as the program does.
+[[nodiscard]] inline Solution solve_as_needed(const Model& model, const Method& method,
+                                              const SolveOptions& options, const StopRule& stop) {
+    Monitor monitor;
+    const Needs needs = find_needs(model.mesh);
+    const SolverInput input{model.mesh, model.bvh, options, monitor, needs};
+    const auto solver = method.make(input);
+    run(*solver, input, stop);
+    return solver->solution();
+}
+
 [[nodiscard]] inline StopRule steps(std::uint32_t n) {
     return {.steps = n, .seconds = {}, .error = {}};
 }

@@ -55,8 +55,8 @@ class GatheringSolver final : public Solver {
   public:
     explicit GatheringSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)),
-          system_(input.mesh, emitters_, !input.needs.visibility), plan_(first_plan(input, !emitters_.empty())),
-          light_(sets, input.mesh.patches().size()) {
+          system_(input.mesh, emitters_, input.needs.closed),
+          plan_(first_plan(input, !emitters_.empty())), light_(sets, input.mesh.patches().size()) {
         check_input(input);
         renew();
         const auto patches = input.mesh.patches();

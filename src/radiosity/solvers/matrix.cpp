@@ -222,14 +222,36 @@ class MatrixSolver final : public Solver {
     void note_errors(std::span<const Vec3> variance, std::span<const double> products) {
         solution_.variance = 0;
         for (std::uint32_t i = 0; i < variance.size(); ++i)
-            *solution_.variance +=
-                input_.mesh.patches()[i].area * glm::dot(variance[i], Vec3(1.0));
+            *solution_.variance += input_.mesh.patches()[i].area * glm::dot(variance[i], Vec3(1.0));
         solution_.error_parts = error_parts(products, replicates);
         solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
         const std::vector<Vec3> unseen = unseen_light();
-        for (std::uint32_t i = 0; i < unseen.size(); ++i)
+        const double share = unseen_loss();
+        solution_.unseen = 0;
+        for (std::uint32_t i = 0; i < unseen.size(); ++i) {
+            const Vec3 level = share * (solution_.radiosity[i] - input_.mesh.material(i).emission);
+            solution_.unseen += input_.mesh.patches()[i].area * glm::dot(level, level);
             solution_.standard_error[i] =
-                glm::sqrt(solution_.standard_error[i] + unseen[i] * unseen[i]);
+                glm::sqrt(solution_.standard_error[i] + level * level + unseen[i] * unseen[i]);
+        }
+    }
+
+    /// The share of all light that a few rays stand for that were not lost and might have been, as
+    /// long as hardly any was: what is emitted is all that is used, and one ray carries its part of
+    /// what leaves all patches.
+    [[nodiscard]] double unseen_loss() const {
+        if (exact_ || input_.needs.closed)
+            return 0;
+        double leaving = 0, emitted = 0, lost = 0;
+        for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i) {
+            const double area = input_.mesh.patches()[i].area;
+            leaving += area * mean_of_channels(solution_.radiosity[i]);
+            emitted += area * mean_of_channels(input_.mesh.material(i).emission);
+            for (const SampledFormFactors& factors : factors_)
+                lost += rays_ * (factors.lost(i).escaped + factors.lost(i).absorbed);
+        }
+        const double rays = double(rays_) * double(replicates * solution_.radiosity.size());
+        return emitted > 0 ? rule_of_three / (1 + lost) * leaving / (rays * emitted) : 0;
     }
 
     /// What dark patches may receive besides; by contour integration nothing is left to chance.
@@ -243,7 +265,7 @@ class MatrixSolver final : public Solver {
             reflectance[i] = material.reflectance;
             incident[i] = solution_.radiosity[i] - material.emission; // in the same order, about
         }
-        if (exact_ || !input_.needs.visibility)
+        if (exact_ || input_.needs.closed)
             return std::vector<Vec3>(n, Vec3(0.0));
         return unseen_sights({area, reflectance, incident, solution_.radiosity, rays});
     }

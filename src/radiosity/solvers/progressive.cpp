@@ -38,7 +38,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -65,8 +64,8 @@ constexpr double most_reflectance = .999;
 /// What overshooting adds at most to what is unshot.
 constexpr double most_overshot = .8;
 
-/// About the emitted power that falls on patches, were nothing between them: a sun sends most of its
-/// light elsewhere, and what lights a scene is to be measured by what gets there.
+/// About the emitted power that falls on patches, were nothing between them: a sun sends most of
+/// its light elsewhere, and what lights a scene is to be measured by what gets there.
 Vec3 power_to_patches(const Mesh& mesh) {
     CompensatedSum<Vec3> power;
     for (std::uint32_t e = 0; e < mesh.patches().size(); ++e) {
@@ -86,16 +85,19 @@ class ProgressiveSolver final : public Solver {
   public:
     explicit ProgressiveSolver(const SolverInput& input)
         : input_(input), options_(input.options.progressive),
-          brightest_(input.mesh.patches().size()),
-          balance_(!input.needs.visibility), hits_(input.mesh.patches().size()) {
+          brightest_(input.mesh.patches().size()), balance_(input.needs.closed),
+          hits_(input.mesh.patches().size()) {
         check_input(input);
+        double total_area = 0;
         for (std::uint32_t i = 0; i < hits_.size(); ++i) {
             const double area = input.mesh.patches()[i].area;
             const Vec3& reflectance = input.mesh.material(i).reflectance;
+            total_area += area;
             reflecting_area_ += reflectance != Vec3(0.0) ? area : 0;
             mean_reflectance_ += area * reflectance;
         }
-        reflecting_area_ = std::max(reflecting_area_, std::numeric_limits<double>::min());
+        if (!(reflecting_area_ > 0))
+            reflecting_area_ = total_area;
         emitted_ = emitted_power(input.mesh);
         mean_reflectance_ = glm::min(mean_reflectance_ / reflecting_area_, Vec3(most_reflectance));
         const Vec3 rho = glm::max(mean_reflectance_, least_reflectance_of_receivers);
