@@ -19,15 +19,16 @@ constexpr double quantile_97 = 2.5;
 constexpr double most_parts = 16;
 
 double parts_by_patch(const Mesh& mesh, const Solution& solution) {
-    double sum = 0, squares = 0;
-    for (std::size_t i = 0; i < solution.standard_error.size(); ++i) {
+    const auto variance = [&](std::size_t i) {
         const Vec3& sigma = solution.standard_error[i];
-        const double variance = mesh.patches()[i].area * glm::dot(sigma, sigma);
-        sum += variance;
-        squares += variance * variance;
-    }
-    return squares > 0 ? std::max(sum * sum / squares, 1.0)
-                       : std::numeric_limits<double>::infinity();
+        return mesh.patches()[i].area * glm::dot(sigma, sigma);
+    };
+    double sum = 0, squares = 0; // squares: of the shares, as those of variances may be too small
+    for (std::size_t i = 0; i < solution.standard_error.size(); ++i)
+        sum += variance(i);
+    for (std::size_t i = 0; i < solution.standard_error.size(); ++i)
+        squares += sum > 0 ? variance(i) / sum * (variance(i) / sum) : 0;
+    return squares > 0 ? std::max(1 / squares, 1.0) : std::numeric_limits<double>::infinity();
 }
 
 } // namespace
