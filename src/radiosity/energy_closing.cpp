@@ -35,10 +35,12 @@ double variance_of_share(double count, double rays) {
     return (count + 1) * (rays - count + 1) / (all * all * (all + 1));
 }
 
-/// The share of all rays that are lost.
-double usual_loss(const Transport& t) {
+/// The share of all rays of patches that light leaves which are lost.
+double usual_loss(const Transport& t, std::span<const Vec3> incident) {
     double lost = 0, rays = 0;
     for (std::size_t i = 0; i < t.rays.size(); ++i) {
+        if (t.emission[i] + t.reflectance[i] * incident[i] == Vec3(0.0))
+            continue;
         lost += t.rays[i] * lost_in_all(t.lost[i]);
         rays += t.rays[i];
     }
@@ -64,7 +66,7 @@ struct Flows {
 /// Variance of the power that is lost, where each patch counted as if one ray more had met what
 /// rays meet on average.
 Vec3 variance_of_losses(const Transport& t, std::span<const Vec3> incident) {
-    const double usual = usual_loss(t);
+    const double usual = usual_loss(t, incident);
     Vec3 variance(0.0);
     for (std::size_t i = 0; i < incident.size() && !t.closed; ++i) {
         if (!(t.rays[i] > 0))

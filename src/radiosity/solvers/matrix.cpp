@@ -242,15 +242,17 @@ class MatrixSolver final : public Solver {
     [[nodiscard]] double unseen_loss() const {
         if (exact_ || input_.needs.closed)
             return 0;
-        double leaving = 0, emitted = 0, lost = 0;
+        double leaving = 0, emitted = 0, lost = 0, rays = 0;
         for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i) {
+            if (solution_.radiosity[i] == Vec3(0.0))
+                continue;
             const double area = input_.mesh.patches()[i].area;
             leaving += area * mean_of_channels(solution_.radiosity[i]);
             emitted += area * mean_of_channels(input_.mesh.material(i).emission);
+            rays += double(rays_) * double(replicates);
             for (const SampledFormFactors& factors : factors_)
                 lost += rays_ * (factors.lost(i).escaped + factors.lost(i).absorbed);
         }
-        const double rays = double(rays_) * double(replicates * solution_.radiosity.size());
         return emitted > 0 ? rule_of_three / (1 + lost) * leaving / (rays * emitted) : 0;
     }
 
