@@ -87,7 +87,7 @@ class Judge {
             all_light_.add(light, false);
         light_of_face_.assign(scene_.faces, SideLight{});
         for (std::uint32_t f = 0; f < light_.size(); ++f)
-            for (const std::size_t side : {0, 1})
+            for (const std::size_t side : {0u, 1u})
                 light_of_face_[scene_.facets[f].face][side] += light_[f][side];
     }
 

@@ -56,7 +56,7 @@ TEST_CASE("A room from Blender is lit, whichever of its faces look away") {
     };
     check(Facing::as_modelled, 1);
     check(Facing::all_turned, 1);
-    for (const std::uint64_t seed : {1, 2, 3, 4})
+    for (const std::uint64_t seed : {1u, 2u, 3u, 4u})
         check(Facing::half_turned, seed);
 }
 

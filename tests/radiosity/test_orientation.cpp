@@ -102,7 +102,7 @@ Faces looking_away(const Scene& scene) {
 void check_recovered(const Scene& scene) {
     CHECK(find_orientation(scene).faces == 0);
     CHECK(looking_away(with_turned(scene, all_faces(scene))) == all_faces(scene));
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
         CAPTURE(seed);
         const Faces half = random_half(scene, seed);
         CHECK(looking_away(with_turned(scene, half)) == half);
