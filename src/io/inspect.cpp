@@ -1,10 +1,10 @@
 #include "io/inspect.h"
 
 #include "geometry/polygon.h"
-#include "radiosity/welded_edges.h"
 #include "radiosity/check_input.h"
 #include "radiosity/mesh.h"
 #include "radiosity/stacked_facets.h"
+#include "radiosity/welded_edges.h"
 
 #include <algorithm>
 #include <charconv>
