@@ -10,6 +10,7 @@
 #include "app/text.h"
 #include "io/error.h"
 #include "io/inspect.h"
+#include "radiosity/convex_enclosure.h"
 #include "radiosity/workers.h"
 
 #include <algorithm>
@@ -104,7 +105,7 @@ Prepared prepare(const Mesh& mesh, const SolveOptions& options) {
             prepared.made =
                 make_tracer(mesh, options.keep_all || needs_tree(mesh), options.threads);
         else if (options.keep_all)
-            prepared.needs.closed = find_needs(mesh).closed;
+            prepared.needs.closed = is_convex_enclosure(mesh);
         else
             prepared.needs = find_needs(mesh);
     });

@@ -1,5 +1,7 @@
 #include "radiosity/conjugate_gradients.h"
 
+#include "geometry/vector_ratio.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -39,12 +41,6 @@ struct Sums {
         return *this;
     }
 };
-
-/// 0 / 0 is 0: a channel that is done, or dark, stands still.
-Vec3 ratio(const Vec3& a, const Vec3& b) {
-    const auto one = [](double x, double y) { return y > 0 ? x / y : 0.0; };
-    return {one(a.x, b.x), one(a.y, b.y), one(a.z, b.z)};
-}
 
 } // namespace
 
@@ -91,7 +87,7 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
     Vec3 more(0.0);
     GradientResult result;
     const auto worst = [&] {
-        const Vec3 share = glm::sqrt(ratio(sums.relative, sums.lit));
+        const Vec3 share = glm::sqrt(ratio_or_zero(sums.relative, sums.lit));
         return std::max({share.x, share.y, share.z});
     };
     const auto interrupted = [&] { return options.interrupted && *options.interrupted; };
@@ -108,14 +104,15 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
             q[i] = p[i] - factors.row_times(i, reflected);
             return weight[i] * p[i] * q[i];
         });
-        const Vec3 step = ratio(sums.squares, curvature);
+        // A channel that is done, or dark, stands still.
+        const Vec3 step = ratio_or_zero(sums.squares, curvature);
         const Vec3 before = sums.squares;
         sums = sum([&](std::size_t i) {
             h[i] += step * p[i];
             r[i] -= step * q[i];
             return residual_at(i);
         });
-        more = ratio(sums.squares, before);
+        more = ratio_or_zero(sums.squares, before);
     }
     // Where nothing is reflected the weight is 0: there one more step without a product tells h.
     for (std::size_t i = 0; i < n; ++i)

@@ -1,5 +1,6 @@
 #include "radiosity/gathering_errors.h"
 
+#include "geometry/vector_ratio.h"
 #include "radiosity/alike_neighbours.h"
 #include "radiosity/direct_light.h"
 #include "radiosity/exchange_matrix.h"
@@ -18,11 +19,6 @@ namespace hemilux {
 namespace {
 
 bool any(const Vec3& v) { return v != Vec3(0.0); }
-Vec3 ratio(const Vec3& a, const Vec3& b) {
-    const auto one = [](double x, double y) { return y > 0 ? x / y : 0.0; };
-    return {one(a.x, b.x), one(a.y, b.y), one(a.z, b.z)};
-}
-
 /// Sums over the patches of a linked part, by channel.
 struct PartLedger {
     Vec3 used{0.0};     ///< power that ends there: absorbed, or lost
@@ -49,7 +45,7 @@ class Account {
             enter(i);
         }
         for (PartLedger& part : ledgers_) {
-            part.one_ray = ratio(part.one_ray, part.leaving);
+            part.one_ray = ratio_or_zero(part.one_ray, part.leaving);
             if (part.lit)
                 lit_one_ray_ = glm::max(lit_one_ray_, part.one_ray);
         }
@@ -111,7 +107,7 @@ class Account {
         if (result_.system.closed())
             return Vec3(0.0);
         const PartLedger& part = ledger(i);
-        const Vec3 share = rule_of_three / (1 + part.lost) * ratio(part.one_ray, part.used);
+        const Vec3 share = rule_of_three / (1 + part.lost) * ratio_or_zero(part.one_ray, part.used);
         return share * rho_[i] * incident_[i];
     }
 
@@ -123,8 +119,8 @@ class Account {
             return Vec3(0.0); // no light can reach it, by geometry
         const Vec3 by_own = rule_of_three * bright_radiosity_ * (part.area / part.rays);
         const Vec3 by_lit = rule_of_three * lit_one_ray_;
-        const Vec3 power = ratio(by_own * by_lit, by_own + by_lit);
-        return rho_[i] * ratio(power, part.appetite);
+        const Vec3 power = ratio_or_zero(by_own * by_lit, by_own + by_lit);
+        return rho_[i] * ratio_or_zero(power, part.appetite);
     }
 
     /// What a single ray at random stands for, where light comes from.

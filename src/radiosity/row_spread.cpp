@@ -1,17 +1,9 @@
 #include "radiosity/row_spread.h"
 
+#include "geometry/vector_ratio.h"
 #include "radiosity/exchange_matrix.h"
 
 namespace hemilux {
-namespace {
-
-Vec3 ratio(const Vec3& a, const Vec3& b) {
-    const auto one = [](double x, double y) { return y > 0 ? x / y : 0.0; };
-    return {one(a.x, b.x), one(a.y, b.y), one(a.z, b.z)};
-}
-
-} // namespace
-
 RowSpread spread_of_rows(const ExchangeMatrix& factors, std::span<const Vec3> light,
                          const Workers& workers) {
     const std::size_t n = light.size();
@@ -25,7 +17,7 @@ RowSpread spread_of_rows(const ExchangeMatrix& factors, std::span<const Vec3> li
         for (std::size_t i = begin; i < end; ++i) {
             const Vec3 mean = factors.row_times(i, once), squares = factors.row_times(i, squared);
             spread.variance[i] = glm::max(squares - mean * mean, 0.0);
-            spread.typical[i] = ratio(squares, mean);
+            spread.typical[i] = ratio_or_zero(squares, mean);
         }
     });
     return spread;
