@@ -38,6 +38,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -61,22 +62,38 @@ constexpr double least_lost_rays = 16, most_lost_rays = 16384;
 /// Of a mean, so that sums of all reflections stay finite.
 constexpr double most_reflectance = .999;
 
+/// Of patches and emitters, to guess what light reaches patches at all: a moment's work.
+constexpr std::size_t most_pairs_before_shots = 10'000'000;
+
 /// What overshooting adds at most to what is unshot.
 constexpr double most_overshot = .8;
 
 /// About the emitted power that falls on patches, were nothing between them: a sun sends most of
-/// its light elsewhere, and what lights a scene is to be measured by what gets there.
+/// its light elsewhere, and what lights a scene is to be measured by what gets there. Emitters
+/// beyond the first pairs, in the order of their power, count as a whole.
 Vec3 power_to_patches(const Mesh& mesh) {
+    const auto power_of = [&](std::uint32_t e) {
+        return mesh.patches()[e].area * mesh.material(e).emission;
+    };
+    std::vector<std::uint32_t> emitters;
+    for (std::uint32_t e = 0; e < mesh.patches().size(); ++e)
+        if (mesh.material(e).emission != Vec3(0.0))
+            emitters.push_back(e);
+    std::ranges::stable_sort(emitters, std::greater{},
+                             [&](std::uint32_t e) { return mean_of_channels(power_of(e)); });
+    const std::size_t looked_at = 1 + most_pairs_before_shots / mesh.patches().size();
     CompensatedSum<Vec3> power;
-    for (std::uint32_t e = 0; e < mesh.patches().size(); ++e) {
-        const Vec3& emission = mesh.material(e).emission;
-        if (emission == Vec3(0.0))
-            continue;
-        double area = 0; // times the factor to the emitter: the emitter's times that from it
-        for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
-            if (i != e && may_see(mesh.patches()[i], mesh.patches()[e]))
-                area += mesh.patches()[i].area * rough_factor(mesh.patches()[i], mesh.patches()[e]);
-        power += std::min(area, mesh.patches()[e].area) * emission;
+    for (std::size_t k = 0; k < emitters.size(); ++k) {
+        const Patch& emitter = mesh.patches()[emitters[k]];
+        double share = 1;
+        if (k < looked_at) {
+            double area = 0; // times the factor to the emitter: the emitter's times that from it
+            for (const Patch& patch : mesh.patches())
+                if (&patch != &emitter && may_see(patch, emitter))
+                    area += patch.area * rough_factor(patch, emitter);
+            share = std::min(1.0, area / emitter.area);
+        }
+        power += share * power_of(emitters[k]);
     }
     return power.value();
 }
