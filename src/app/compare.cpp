@@ -127,14 +127,14 @@ int run_comparison(const CompareSettings& settings) {
     make_folder(settings.folder);
     Monitor monitor;
     InterruptGuard guard;
-    const LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk);
+    LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk);
     const Mesh& mesh = loaded.mesh;
     check_exact(settings.options, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;
     if (!settings.reference.empty())
         reference = read_reference(settings.reference, mesh, {});
-    const Prepared prepared = prepare(mesh, settings.options);
+    const Prepared prepared = prepare(loaded, settings.options);
     const Needs& needs = prepared.needs;
     const auto& [tracer, tree] = prepared.made;
     guard.watch(monitor.interrupted);

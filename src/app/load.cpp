@@ -97,19 +97,22 @@ Mesh divide_scene(Scene scene, const SceneSettings& settings) {
 }
 
 /// Either by a thread of its own, where there are two.
-Prepared prepare(const Mesh& mesh, const SolveOptions& options) {
+Prepared prepare(LoadedMesh& loaded, const SolveOptions& options) {
     const Stopwatch preparing;
-    Prepared prepared{};
+    const Mesh& mesh = loaded.mesh;
+    Prepared prepared{.needs = {}, .made = std::move(loaded.made), .seconds = 0};
     Workers(options.threads).for_chunks(2, 1, [&](std::size_t part, std::size_t) {
-        if (part == 0)
+        if (part == 0 && !prepared.made.tracer)
             prepared.made =
                 make_tracer(mesh, options.keep_all || needs_tree(mesh), options.threads);
+        else if (part == 0)
+            return;
         else if (options.keep_all)
             prepared.needs.closed = is_convex_enclosure(mesh);
         else
             prepared.needs = find_needs(mesh);
     });
-    prepared.seconds = preparing.seconds();
+    prepared.seconds = loaded.seconds_sides + preparing.seconds();
     return prepared;
 }
 
@@ -123,8 +126,9 @@ LoadedMesh load_mesh(const SceneSettings& settings, const SolveOptions& options,
     const double seconds = reading.seconds();
     check_memory(memory_need(read.scene, settings.mesh, options, methods), settings.memory,
                  settings.path);
-    settle_sides(read.scene, settings, talk, options.threads);
-    LoadedMesh loaded{divide_scene(std::move(read.scene), settings), seconds};
+    const Stopwatch dividing;
+    SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, talk);
+    LoadedMesh loaded{std::move(sided.mesh), std::move(sided.made), seconds, dividing.seconds()};
     say(talk, Talk::verbose, mesh_text(loaded.mesh));
     return loaded;
 }

@@ -24,7 +24,8 @@ void check_solvable(const ReadResult& read, const std::string& path);
 
 struct LoadedMesh {
     Mesh mesh;
-    double seconds_read;
+    MadeTracer made; ///< where the sides of the faces needed one
+    double seconds_read, seconds_sides;
 };
 /// All of this together, with what there is to say about it. Throws MemoryError where the methods
 /// would need more than they may.
@@ -34,10 +35,10 @@ struct LoadedMesh {
 struct Prepared {
     Needs needs; ///< everything with --keep-all
     MadeTracer made;
-    double seconds;
+    double seconds; ///< with those of the sides
 };
-/// What solving needs besides the mesh, which must outlive it.
-[[nodiscard]] Prepared prepare(const Mesh& mesh, const SolveOptions& options);
+/// What solving needs besides the mesh, which must outlive it. Takes over what was made.
+[[nodiscard]] Prepared prepare(LoadedMesh& loaded, const SolveOptions& options);
 
 /// Divides the faces; throws UsageError where --max-edge would give too many patches.
 [[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings);

@@ -13,8 +13,7 @@ Mesh load_geometry(const SceneSettings& settings, Talk talk) {
     say_warnings(talk, read.warnings);
     if (read.scene.facets.empty())
         throw InputError(settings.path, "there is no face with an area");
-    settle_sides(read.scene, settings, talk);
-    Mesh mesh = divide_scene(std::move(read.scene), settings);
+    Mesh mesh = divide_with_sides(std::move(read.scene), settings, {}, talk).mesh;
     say(talk, Talk::verbose, mesh_text(mesh));
     return mesh;
 }

@@ -1,18 +1,21 @@
 #include "app/sides.h"
 
+#include "app/load.h"
 #include "app/names.h"
 #include "app/talk.h"
 #include "app/text.h"
 #include "geometry/polygon.h"
 
+#include <algorithm>
+
 namespace hemilux {
 
 namespace {
 
-std::string names_of_groups(const Scene& scene, const Orientation& found) {
+std::string names_of(const std::vector<std::uint32_t>& groups, const Scene& scene) {
     constexpr std::size_t most = 4;
     std::vector<std::string> names;
-    for (const std::uint32_t g : found.groups)
+    for (const std::uint32_t g : groups)
         names.push_back(scene.groups[g]);
     return (names.size() == 1 ? "group " : "groups ") + list_names(names, most);
 }
@@ -36,7 +39,7 @@ std::string kinds_text(const Orientation& found) {
 
 std::string faces_text(const Orientation& found, const Scene& scene) {
     return grouped(found.faces) + " of " + counted(scene.faces, "face", "faces") + " (" +
-           names_of_groups(scene, found) + ": " + kinds_text(found) + ")";
+           names_of(found.groups, scene) + ": " + kinds_text(found) + ")";
 }
 
 /// Of the fronts, all channels [W].
@@ -53,10 +56,46 @@ double emitted_power(const Scene& scene) {
     return power;
 }
 
+/// "3 faces (group shade)": those that stay as they are.
+std::string doubt_text(const Orientation& found, const Scene& scene) {
+    return counted(found.in_doubt, "face", "faces") + " (" +
+           names_of(found.groups_in_doubt, scene) + ")";
+}
+
+void say_sides(const Orientation& found, const Scene& scene, Sides sides, Talk talk) {
+    const std::string fell = percent(found.light.backs) + " of the emitted light ";
+    if (found.faces > 0 && sides == Sides::automatic)
+        say(talk, Talk::normal,
+            "turned " + faces_text(found, scene) + ", which looked away from the light; " + fell +
+                "fell on backs; --sides front trusts the file");
+    else if (found.faces > 0)
+        say(talk, Talk::normal,
+            "warning: " + faces_text(found, scene) + " look away from the light; " + fell +
+                "falls on backs, which absorb it; --sides auto turns these faces");
+    if (found.in_doubt > 0)
+        say(talk, Talk::normal,
+            "note: " + doubt_text(found, scene) +
+                " may look away from the light, or be meant to; they stay as they are; --sides "
+                "both lets both sides emit and reflect");
+}
+
 std::string both_sides_text(const Scene& scene) {
     const double power = emitted_power(scene);
     return formatted("lamps shine to both sides: %g W, where one side emits %g W", 2 * power,
                      power);
+}
+
+bool anything_is_lit(const Mesh& mesh, std::span<const Vec3> radiosity) {
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i)
+        if (glm::any(glm::greaterThan(radiosity[i], mesh.material(i).emission)))
+            return true;
+    return false;
+}
+
+bool anything_reflects(const Mesh& mesh) {
+    return std::ranges::any_of(mesh.scene().facets, [&](const Facet& facet) {
+        return mesh.scene().materials[facet.material].reflectance != Vec3(0.0);
+    });
 }
 
 std::string line(std::string name, const std::string& text) {
@@ -67,25 +106,26 @@ std::string line(std::string name, const std::string& text) {
 
 } // namespace
 
-void settle_sides(Scene& scene, const SceneSettings& settings, Talk talk, unsigned threads) {
+SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings, const SolveOptions& options,
+                            Talk talk) {
     if (settings.sides == Sides::both) {
         if (emitted_power(scene) > 0)
             say(talk, Talk::normal, both_sides_text(scene));
-        return;
+        return {divide_scene(std::move(scene), settings), {}};
     }
-    const Orientation found = find_orientation(scene, threads);
-    if (found.faces == 0)
-        return;
-    const std::string fell = percent(found.light.backs) + " of the emitted light ";
-    if (settings.sides == Sides::automatic) {
-        turn_faces(scene, found);
-        say(talk, Talk::normal,
-            "turned " + faces_text(found, scene) + ", which looked away from the light; " + fell +
-                "fell on backs; --sides front trusts the file");
-    } else
-        say(talk, Talk::normal,
-            "warning: " + faces_text(found, scene) + " look away from the light; " + fell +
-                "falls on backs, which absorb it; --sides auto turns these faces");
+    const auto divide = [&](Scene sided) {
+        Mesh mesh = divide_scene(std::move(sided), settings);
+        MadeTracer made = make_tracer(mesh, options.keep_all || needs_tree(mesh), options.threads);
+        return SidedMesh{std::move(mesh), std::move(made)};
+    };
+    SidedMesh sided = divide(std::move(scene));
+    const Orientation found = find_orientation(sided.mesh, *sided.made.tracer);
+    say_sides(found, sided.mesh.scene(), settings.sides, talk);
+    if (found.faces == 0 || settings.sides != Sides::automatic)
+        return sided;
+    Scene turned = sided.mesh.scene();
+    turn_faces(turned, found);
+    return divide(std::move(turned));
 }
 
 std::string describe(const Orientation& found, const Scene& scene, Sides sides) {
@@ -97,9 +137,12 @@ std::string describe(const Orientation& found, const Scene& scene, Sides sides) 
     if (found.faces > 0)
         text += line("looking away",
                      std::to_string(found.faces) + " of " + counted(scene.faces, "face", "faces") +
-                         " (" + names_of_groups(scene, found) + "); " +
+                         " (" + names_of(found.groups, scene) + "); " +
                          (sides == Sides::automatic ? "solve turns them, --sides front does not"
                                                     : "--sides auto turns them"));
+    if (found.in_doubt > 0)
+        text += line("in doubt", doubt_text(found, scene) +
+                                     "; much light falls on their backs, maybe on purpose");
     add("inside out", found.inside_out, "closed surfaces whose backs are lit");
     add("lit from behind", found.from_behind, "open surfaces whose backs are lit");
     add("lamps turned away", found.lamps, "they face a wall at once, or nothing");
@@ -118,6 +161,25 @@ std::string describe(const Orientation& found, const Scene& scene, Sides sides) 
 
 std::string describe_both_sides(const Scene& scene) {
     return emitted_power(scene) > 0 ? line("both sides", both_sides_text(scene)) : "";
+}
+
+std::string lost_light_text(const Mesh& mesh, std::span<const Vec3> radiosity,
+                            const LightShares& light, Sides sides) {
+    constexpr double nearly_all = 0.9;
+    const bool lit = anything_is_lit(mesh, radiosity);
+    if (lit && light.backs + light.escaped <= nearly_all)
+        return "";
+    if (!lit && !anything_reflects(mesh))
+        return "nothing is lit: all reflectances are 0; --reflectance 'MATERIAL=R,G,B' changes "
+               "them";
+    std::string text = (lit ? "hardly anything is lit: " : "nothing is lit: ") +
+                       percent(light.backs) + " of the emitted light fell on backs of faces, " +
+                       percent(light.escaped) + " left the scene; ";
+    if (light.backs < light.escaped)
+        return text + "turn the lamp to the scene or move it, or try --sides both";
+    return text + (sides == Sides::front ? "--sides auto turns faces that look away, --sides both "
+                                           "lets both sides emit and reflect"
+                                         : "--sides both lets both sides emit and reflect");
 }
 
 } // namespace hemilux

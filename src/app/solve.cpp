@@ -4,13 +4,13 @@
 #include "app/commands.h"
 #include "app/exit_code.h"
 #include "app/load.h"
-#include "app/lost_light.h"
 #include "app/memory.h"
 #include "app/method_options.h"
 #include "app/progress.h"
 #include "app/reference.h"
 #include "app/results.h"
 #include "app/run_notes.h"
+#include "app/sides.h"
 #include "app/signals.h"
 #include "app/step_pictures.h"
 #include "app/stopwatch.h"
@@ -133,7 +133,7 @@ int solve(const SolveSettings& settings) {
 
     Workers(settings.options.threads).start();
     const std::optional<Checkpoint> resumed = read_resumed(settings);
-    const LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk);
+    LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk);
     const Mesh& mesh = loaded.mesh;
     check_exact(settings.options, mesh.patches().size());
     const StopRule stop = stop_rule(settings, mesh.patches().size());
@@ -142,7 +142,7 @@ int solve(const SolveSettings& settings) {
     std::optional<Reference> reference;
     if (!settings.reference.empty())
         reference = read_reference(settings.reference, mesh, std::move(detail));
-    const Prepared prepared = prepare(mesh, settings.options);
+    const Prepared prepared = prepare(loaded, settings.options);
     const Needs& needs = prepared.needs;
     const auto& [tracer, tree] = prepared.made;
     statistics.seconds_bvh = prepared.seconds;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 namespace hemilux {
 namespace {
@@ -14,24 +15,73 @@ namespace {
 /// a lamp is from its ceiling.
 constexpr double off_the_plane = 0x1p-23;
 
-Vec3 normal_of(const Mesh& mesh, FacetSide side) {
-    const Vec3 normal = mesh.whole_side(side.facet, false).normal;
-    return side.back ? -normal : normal;
+Ray diffuse_ray_at(const Mesh& mesh, FacetSide side, const Vec3& point, Rng& rng) {
+    const double u = rng.uniform(), angle = 2 * std::numbers::pi * rng.uniform();
+    const Vec3 local(std::sqrt(u) * std::cos(angle), std::sqrt(u) * std::sin(angle),
+                     std::sqrt(1 - u));
+    const Vec3 normal = mesh.whole_side(side.facet, side.back).normal;
+    const Vec3 direction = Frame::from_normal(normal).to_world(local);
+    return {.origin = point, .direction = direction, .t_min = off_the_plane, .from = side.facet};
+}
+
+Vec3 random_point(const Mesh& mesh, std::uint32_t facet, Rng& rng) {
+    const Vec2 u(rng.uniform(), rng.uniform());
+    return mesh.whole_side(facet, false).shape.sample(u);
+}
+
+/// From surface to surface, for as long as arrive(side) says so; `side` is empty where the path
+/// leaves the scene.
+template <class Arrive>
+void follow(const Mesh& mesh, const Tracer& tracer, Ray ray, Rng& rng, const Arrive& arrive) {
+    for (;;) {
+        const std::optional<Hit> hit = tracer.closest(ray);
+        const auto side = hit ? std::optional(FacetSide{hit->facet, !hit->front}) : std::nullopt;
+        if (!arrive(side) || !side)
+            return;
+        ray = diffuse_ray_at(mesh, *side, ray.origin + hit->t * ray.direction, rng);
+    }
+}
+
+template <class Emit>
+void for_each_path(const std::vector<double>& weights, std::uint32_t count, const Emit& emit) {
+    const std::vector<std::uint32_t> shares = shares_of(weights, count);
+    for (std::uint32_t f = 0; f < shares.size(); ++f)
+        for (std::uint32_t k = 0; k < shares[f]; ++k)
+            emit(f, k);
+}
+
+std::vector<double> powers_of(const Mesh& mesh) {
+    std::vector<double> power(mesh.scene().facets.size());
+    for (std::uint32_t f = 0; f < power.size(); ++f)
+        power[f] = power_of(mesh, f);
+    return power;
 }
 
 } // namespace
 
-Ray diffuse_ray(const Mesh& mesh, FacetSide side, const Vec3& point, Rng& rng) {
-    const double u = rng.uniform(), angle = 2 * std::numbers::pi * rng.uniform();
-    const Vec3 local(std::sqrt(u) * std::cos(angle), std::sqrt(u) * std::sin(angle),
-                     std::sqrt(1 - u));
-    const Vec3 direction = Frame::from_normal(normal_of(mesh, side)).to_world(local);
-    return {.origin = point, .direction = direction, .t_min = off_the_plane, .from = side.facet};
+Ray diffuse_ray(const Mesh& mesh, FacetSide side, Rng& rng) {
+    const Vec3 point = random_point(mesh, side.facet, rng);
+    return diffuse_ray_at(mesh, side, point, rng);
 }
 
-Ray diffuse_ray(const Mesh& mesh, FacetSide side, Rng& rng) {
-    const Vec2 u(rng.uniform(), rng.uniform());
-    return diffuse_ray(mesh, side, mesh.whole_side(side.facet, false).shape.sample(u), rng);
+Targets::Targets(const Mesh& mesh) : mesh_(mesh) {
+    double sum = 0;
+    for (std::uint32_t f = 0; f < mesh.scene().facets.size(); ++f)
+        area_sums_.push_back(sum += power_of(mesh, f) > 0 ? 0 : mesh.whole_side(f, false).area);
+}
+
+std::optional<Ray> Targets::ray_from(FacetSide side, Rng& rng) const {
+    const auto place = std::ranges::upper_bound(area_sums_, rng.uniform() * area_sums_.back());
+    const auto facet =
+        static_cast<std::uint32_t>(std::min(place, area_sums_.end() - 1) - area_sums_.begin());
+    const Vec3 from = random_point(mesh_, side.facet, rng);
+    const Vec3 way = random_point(mesh_, facet, rng) - from;
+    if (!(glm::dot(way, mesh_.whole_side(side.facet, side.back).normal) > off_the_plane))
+        return std::nullopt;
+    return Ray{.origin = from,
+               .direction = glm::normalize(way),
+               .t_min = off_the_plane,
+               .from = side.facet};
 }
 
 double power_of(const Mesh& mesh, std::uint32_t facet) {
@@ -54,6 +104,64 @@ std::vector<std::uint32_t> shares_of(const std::vector<double>& weights, std::ui
         before = after;
     }
     return shares;
+}
+
+std::vector<SideLight> light_on_sides(const Mesh& mesh, const Tracer& tracer,
+                                      const std::vector<bool>& shines_back) {
+    constexpr std::uint32_t paths = 1u << 14;
+    constexpr double reflected = 0.5;
+    std::vector<double> power = powers_of(mesh);
+    std::vector<double> area(power.size());
+    for (std::uint32_t f = 0; f < area.size(); ++f)
+        area[f] = power[f] > 0 ? mesh.whole_side(f, false).area : 0;
+
+    const Targets targets(mesh);
+    Rng rng(1);
+    std::vector<SideLight> light(power.size(), SideLight{});
+    const auto arrive = [&](std::optional<FacetSide> side) {
+        if (side)
+            light[side->facet][side->back] += 1;
+        return rng.uniform() < reflected;
+    };
+    // Half by power and half by area, as a dim lamp counts too; every other one towards a target.
+    for (const auto* weights : {&power, &area})
+        for_each_path(*weights, paths / 2, [&](std::uint32_t f, std::uint32_t k) {
+            const FacetSide side{f, shines_back[f]};
+            const std::optional<Ray> aimed =
+                k % 2 == 1 ? targets.ray_from(side, rng) : std::nullopt;
+            follow(mesh, tracer, aimed ? *aimed : diffuse_ray(mesh, side, rng), rng, arrive);
+        });
+    return light;
+}
+
+LightShares find_light_shares(const Mesh& mesh, const Tracer& tracer) {
+    constexpr std::uint32_t paths = 4096;
+    constexpr double longest = 0.99; // of the chances to go on
+    const bool two_sided = std::ranges::any_of(mesh.patches(), &Patch::back);
+    const auto material = [&](std::uint32_t f) -> const Material& {
+        return mesh.scene().materials[mesh.scene().facets[f].material];
+    };
+    LightShares sum;
+    Rng rng(2);
+    for_each_path(powers_of(mesh), paths, [&](std::uint32_t f, std::uint32_t k) {
+        const Vec3& e = material(f).emission;
+        Vec3 weight = e / (e.r + e.g + e.b) / double{paths};
+        const FacetSide source{f, two_sided && k % 2 == 1};
+        // Until the light falls on a back, leaves, or is absorbed by chance.
+        const auto arrive = [&](std::optional<FacetSide> side) {
+            if (!side || (side->back && !two_sided)) {
+                (side ? sum.backs : sum.escaped) += weight.r + weight.g + weight.b;
+                return false;
+            }
+            const Vec3& reflectance = material(side->facet).reflectance;
+            const double survival =
+                std::min(std::max({reflectance.r, reflectance.g, reflectance.b}), longest);
+            weight *= reflectance / survival;
+            return rng.uniform() < survival;
+        };
+        follow(mesh, tracer, diffuse_ray(mesh, source, rng), rng, arrive);
+    });
+    return sum;
 }
 
 } // namespace hemilux

@@ -1,11 +1,12 @@
 #pragma once
-// Paths of light as a quick look at a scene needs them: from emitters into the room, with
-// directions by the cosine law, facet by facet and not patch by patch.
+// Where light goes, as a quick look at a scene needs it: a few thousand paths from the emitters,
+// facet by facet and not patch by patch.
 
 #include "bvh/tracer.h"
 #include "radiosity/mesh.h"
 #include "radiosity/rng.h"
 
+#include <array>
 #include <vector>
 
 namespace hemilux {
@@ -16,14 +17,22 @@ struct FacetSide {
     bool back;
 };
 
-/// What leaves a point of a side, by the cosine law. It starts a little off the plane, so that
-/// layers that lie in one place (stacked_facets.h) do not hide each other.
-[[nodiscard]] Ray diffuse_ray(const Mesh& mesh, FacetSide side, const Vec3& point, Rng& rng);
-/// The same from a random point of the side.
+/// What leaves a random point of a side, by the cosine law. It starts a little off the plane, so
+/// that layers that lie in one place (stacked_facets.h) do not hide each other.
 [[nodiscard]] Ray diffuse_ray(const Mesh& mesh, FacetSide side, Rng& rng);
-[[nodiscard]] inline Vec3 point_of(const Ray& ray, const Hit& hit) {
-    return ray.origin + hit.t * ray.direction;
-}
+
+/// Points of all facets that do not shine, by area. Rays towards them find the ground below a sun, which hardly any
+/// ray by the cosine law does.
+class Targets {
+  public:
+    explicit Targets(const Mesh& mesh);
+    /// From a random point of a side; empty where the target is behind it.
+    [[nodiscard]] std::optional<Ray> ray_from(FacetSide side, Rng& rng) const;
+
+  private:
+    const Mesh& mesh_;
+    std::vector<double> area_sums_;
+};
 
 /// What a facet emits on one side, all channels together, in the local frame; 0 for what is no
 /// finite number.
@@ -33,5 +42,24 @@ struct FacetSide {
 /// sampling, so each has its share to within one.
 [[nodiscard]] std::vector<std::uint32_t> shares_of(const std::vector<double>& weights,
                                                    std::uint32_t count);
+
+/// Light that arrives on a facet, front and back as the scene has them, in rays.
+using SideLight = std::array<double, 2>;
+
+/// By facet, if all facets reflect half of the light on both sides: an estimate by which sides can
+/// be judged before they are known. `shines_back`: by facet, whether an emitting one shines to its
+/// back.
+[[nodiscard]] std::vector<SideLight> light_on_sides(const Mesh& mesh, const Tracer& tracer,
+                                                    const std::vector<bool>& shines_back);
+
+/// Shares of the emitted light, all channels together; the rest is absorbed by fronts. 0 where
+/// nothing emits.
+struct LightShares {
+    double backs = 0;   ///< falls on backs of one-sided faces, which absorb it
+    double escaped = 0; ///< leaves the scene
+};
+
+/// By 4096 paths, so to within 1 % (one standard error: 0.8 %). Deterministic.
+[[nodiscard]] LightShares find_light_shares(const Mesh& mesh, const Tracer& tracer);
 
 } // namespace hemilux

@@ -1,58 +1,55 @@
 #include "radiosity/orientation.h"
 
 #include "radiosity/lamp_sides.h"
-#include "radiosity/light_paths.h"
-#include "radiosity/lit_sides.h"
 #include "radiosity/make_tracer.h"
 #include "radiosity/needs.h"
 
 #include <algorithm>
-#include <cmath>
+#include <tuple>
 
 namespace hemilux {
 namespace {
 
-/// Shares of light that fall on backs. Of a shell:
-constexpr double hardly_any = 0.02;
-constexpr double enough_closed = 0.9, enough_open = 0.98;
-/// Of the scene: from here on small open shells are turned too; from here on the file is taken to
-/// be inside out, if this holds without the shell in question, and more light on the backs than on
-/// the fronts is enough.
-constexpr double much = 0.3, most = 0.5;
-/// What makes a shell a small one: its part of the light of the scene, or of
-/// what is emitted.
-constexpr double small_part = 1.0 / 400;
-/// A few: that part of a shell's area.
-constexpr double few_faces = 0.05;
+/// A file is disordered if so much of its lit area is lit from behind, or if so many of the edges
+/// that two facets share clash.
+constexpr double much_area = 0.5, many_edges = 0.05;
+/// Backs that get so much of a surface's light: of a surface that is lit from behind, and of one in
+/// a file that is disordered.
+constexpr double nearly_all = 0.9, the_greater_part = 0.5;
+/// Rays that reached a shell: fewer tell nothing.
+constexpr double few_rays = 4;
+/// Part of the light of a scene: a surface that gets less is not worth a risk or a warning.
+constexpr double large_part = 1.0 / 20;
+/// Part of what is emitted: where fewer lamps face a wall, the others show that they may be meant
+/// to.
+constexpr double many_lamps = 0.25;
+/// Parts of a shell's area that disagree: so little that a closed one may be meant so; so much that
+/// it is not clear which of an open one are wrong.
+constexpr double few_faces = 0.01, many_faces = 0.1;
 
-struct ShellLight {
-    double front = 0, back = 0;
-    void add(const SideLight& light, bool reversed) {
-        front += light[reversed];
-        back += light[!reversed];
-    }
-    [[nodiscard]] double all() const { return front + back; }
-};
+double sum_of(const SideLight& light) { return light[0] + light[1]; }
+bool falls_on_backs(const SideLight& light, double share) {
+    return sum_of(light) >= few_rays && light[1] > share * sum_of(light);
+}
 
 class Judge {
   public:
-    Judge(const Scene& scene, unsigned threads)
-        : scene_(scene), shells_(find_shells(scene)), mesh_(scene),
-          made_(make_tracer(mesh_, needs_tree(mesh_), threads)), shell_of_(scene.facets.size()) {
-        for (std::uint32_t s = 0; s < shells_.all.size(); ++s)
-            for (const std::uint32_t f : shells_.facets_of(shells_.all[s]))
-                shell_of_[f] = s;
-    }
+    Judge(const Mesh& mesh, const Tracer& tracer)
+        : scene_(mesh.scene()), mesh_(mesh), tracer_(tracer), shells_(find_shells(scene_)) {}
 
     Orientation find() {
         find_lamps();
-        sum_light();
-        result_.looks_away.assign(scene_.faces, false);
+        find_light();
+        result_.light = find_light_shares(mesh_, tracer_);
         result_.clashing_edges = shells_.clashing_edges;
-        result_.light = find_light_shares(mesh_, *made_.tracer);
+        looks_away_.assign(scene_.faces, false);
+        in_doubt_.assign(scene_.faces, false);
         for (std::uint32_t s = 0; s < shells_.all.size(); ++s)
             judge(s);
-        count_faces();
+        std::tie(result_.faces, result_.groups) = count(looks_away_);
+        std::tie(result_.in_doubt, result_.groups_in_doubt) = count(in_doubt_);
+        if (result_.faces > 0)
+            result_.looks_away = std::move(looks_away_);
         return std::move(result_);
     }
 
@@ -60,169 +57,176 @@ class Judge {
     void find_lamps() {
         lamp_.resize(shells_.all.size());
         std::vector<double> power(shells_.all.size(), 0.0);
-        double all = 0, wrong = 0;
-        for (std::uint32_t s = 0; s < shells_.all.size(); ++s) {
-            for (const std::uint32_t f : shells_.facets_of(shells_.all[s]))
-                power[s] += power_of(mesh_, f);
-            if (shells_.all[s].orientable && power[s] > 0)
-                lamp_[s] = shines_to_backs(mesh_, *made_.tracer, shells_, shell_of_, s);
-            all += power[s];
-            wrong += lamp_[s].value_or(false) ? power[s] : 0;
+        double all = 0;
+        for (std::uint32_t f = 0; f < scene_.facets.size(); ++f) {
+            power[shells_.of[f]] += power_of(mesh_, f);
+            all += power_of(mesh_, f);
         }
-        for (std::uint32_t s = 0; s < shells_.all.size(); ++s)
-            if (wrong < much * all && power[s] < small_part * all)
-                lamp_[s].reset();
-        for (const double p : power)
-            emits_.push_back(p > 0);
+        const Targets targets(mesh_);
+        double wrong = 0;
+        for (std::uint32_t s = 0; s < shells_.all.size(); ++s) {
+            emits_.push_back(power[s] > 0);
+            if (shells_.all[s].orientable && emits_[s])
+                lamp_[s] = find_lamp_side(mesh_, tracer_, targets, shells_, s);
+            if (lamp_[s] && lamp_[s]->certain && lamp_[s]->back)
+                wrong += power[s];
+        }
+        if (wrong < many_lamps * all)
+            for (std::optional<LampSide>& lamp : lamp_)
+                if (lamp)
+                    lamp->certain = false;
     }
 
     /// Light is found by facet and judged by face: the facets of a face are turned together.
-    void sum_light() {
+    void find_light() {
         std::vector<bool> shines_back(scene_.facets.size(), false);
         for (std::uint32_t f = 0; f < shines_back.size(); ++f)
-            if (shells_.all[shell_of_[f]].orientable)
-                shines_back[f] = shells_.against[f] != lamp_[shell_of_[f]].value_or(false);
-        light_ = light_on_sides(mesh_, *made_.tracer, shells_, shines_back);
-        for (const SideLight& light : light_)
-            all_light_.add(light, false);
+            if (const Shell& shell = shells_.all[shells_.of[f]]; shell.orientable)
+                shines_back[f] = shells_.against[f] != shines_to_backs(shells_.of[f]);
+        light_ = light_on_sides(mesh_, tracer_, shines_back);
         light_of_face_.assign(scene_.faces, SideLight{});
-        for (std::uint32_t f = 0; f < light_.size(); ++f)
-            for (const std::size_t side : {0u, 1u})
-                light_of_face_[scene_.facets[f].face][side] += light_[f][side];
+        double lit = 0, from_behind = 0;
+        for (std::uint32_t f = 0; f < light_.size(); ++f) {
+            add(light_[f], false, light_of_face_[scene_.facets[f].face]);
+            all_light_ += sum_of(light_[f]);
+            if (emits_[shells_.of[f]] || sum_of(light_[f]) == 0)
+                continue;
+            const double area = mesh_.whole_side(f, false).area;
+            lit += area;
+            from_behind += area * light_[f][1] / sum_of(light_[f]);
+        }
+        const auto edges = static_cast<double>(shells_.shared_edges);
+        const auto clashing = static_cast<double>(shells_.clashing_edges);
+        disordered_ = (lit > 0 && from_behind > much_area * lit) ||
+                      (clashing > 0 && clashing > many_edges * edges);
     }
 
-    [[nodiscard]] ShellLight light_of(const Shell& shell, bool agreed) const {
-        ShellLight light;
+    static void add(const SideLight& light, bool reversed, SideLight& sum) {
+        sum[0] += light[reversed];
+        sum[1] += light[!reversed];
+    }
+    /// Once the shell is consistent.
+    [[nodiscard]] SideLight light_of(const Shell& shell) const {
+        SideLight light{};
         for (const std::uint32_t f : shells_.facets_of(shell))
-            light.add(light_[f], agreed && shells_.against[f]);
+            add(light_[f], shells_.against[f], light);
         return light;
     }
+    [[nodiscard]] bool shines_to_backs(std::uint32_t s) const { return lamp_[s] && lamp_[s]->back; }
 
     void judge(std::uint32_t s) {
         const Shell& shell = shells_.all[s];
-        const ShellLight light = light_of(shell, false);
         if (!shell.orientable)
             ++result_.one_sided;
-        else if (shell.consistent)
-            judge_consistent(s, light);
-        else if (lamp_[s] || encloses(shell) || matters(light))
+        else if (!shell.consistent)
             turn_some(s);
+        else if (emits_[s]) {
+            if (shines_to_backs(s))
+                turn_all(s, lamp_[s]->certain || disordered_, result_.lamps);
+        } else
+            judge_consistent(s);
     }
 
-    /// Whether an open shell is worth the risk to turn what is meant to be as it is.
-    [[nodiscard]] bool matters(const ShellLight& light) const {
-        return light.back > hardly_any * light.all() &&
-               (all_light_.back >= much * all_light_.all() ||
-                light.back >= small_part * all_light_.all());
-    }
-
-    void judge_consistent(std::uint32_t s, const ShellLight& light) {
+    void judge_consistent(std::uint32_t s) {
         const Shell& shell = shells_.all[s];
-        const double others = all_light_.all() - light.all();
-        const bool inside_out_file = others > 0 && all_light_.back - light.back >= most * others;
-        const double enough = inside_out_file ? 0.5 : (shell.closed ? enough_closed : enough_open);
-        const bool dark_front = light.all() > 0 && light.back >= enough * light.all() &&
-                                (shell.closed || matters(light));
-        const bool is_lamp = emits_[s];
-        if (!lamp_[s].value_or(dark_front && !is_lamp))
-            return;
-        for (const std::uint32_t f : shells_.facets_of(shell))
-            turn(f);
-        ++(is_lamp ? result_.lamps : shell.closed ? result_.inside_out : result_.from_behind);
-    }
-
-    /// A closed shell that is no folded sheet: its facets cannot be meant to disagree.
-    [[nodiscard]] bool encloses(const Shell& shell) const {
-        constexpr double flat = 1e-6;
-        double area = 0;
-        for (const std::uint32_t f : shells_.facets_of(shell))
-            area += mesh_.whole_side(f, false).area;
-        return shell.closed &&
-               std::abs(signed_volume(mesh_, shells_, shell)) > flat * std::pow(area, 1.5);
-    }
-
-    /// Whether the majority of an inconsistent shell looks away. Without light, a closed one is
-    /// taken for a thing, not for a room.
-    [[nodiscard]] bool majority_away(std::uint32_t s) const {
-        const Shell& shell = shells_.all[s];
-        const ShellLight light = light_of(shell, true);
-        if (lamp_[s])
-            return *lamp_[s];
-        return light.all() > 0 ? light.back > light.front
-                               : signed_volume(mesh_, shells_, shell) < 0;
-    }
-
-    /// Whether so much of a shell disagrees that light need not confirm each face. A few faces may
-    /// only seem to, as where a tile is folded over its own edge.
-    [[nodiscard]] bool disagrees_widely(const Shell& shell) const {
-        double area = 0, against = 0;
-        for (const std::uint32_t f : shells_.facets_of(shell)) {
-            const double own = mesh_.whole_side(f, false).area;
-            area += own;
-            against += shells_.against[f] ? own : 0;
+        const SideLight light = light_of(shell);
+        if (sum_of(light) < few_rays) {
+            // What is dark in a disordered file is taken for a thing, not for a room.
+            if (disordered_ && shell.outwards < 0)
+                turn_all(s, true, result_.inside_out);
+        } else if (falls_on_backs(light, disordered_ ? the_greater_part : nearly_all)) {
+            if (shell.closed || disordered_)
+                turn_all(s, true, shell.closed ? result_.inside_out : result_.from_behind);
+            else if (sum_of(light) > large_part * all_light_)
+                turn_all(s, false, result_.from_behind);
         }
-        return against > few_faces * area;
     }
 
+    void turn_all(std::uint32_t s, bool certain, std::size_t& kind) {
+        for (const std::uint32_t f : shells_.facets_of(shells_.all[s]))
+            (certain ? looks_away_ : in_doubt_)[scene_.facets[f].face] = true;
+        kind += certain;
+    }
+
+    /// Whether the majority of a shell looks away.
+    [[nodiscard]] bool majority_away(std::uint32_t s) const {
+        if (lamp_[s])
+            return lamp_[s]->back;
+        const SideLight light = light_of(shells_.all[s]);
+        return sum_of(light) < few_rays ? shells_.all[s].outwards < 0 : light[1] > light[0];
+    }
+
+    /// The facets of a shell that encloses something cannot be meant to disagree, but for a few, as
+    /// where a tile is folded over its own edge. Elsewhere light must confirm what is turned.
     void turn_some(std::uint32_t s) {
         const Shell& shell = shells_.all[s];
-        const bool away = majority_away(s), widely = disagrees_widely(shell);
-        const bool certain = widely && encloses(shell);
+        const bool away = majority_away(s);
+        const bool encloses = shell.outwards != 0 && (disordered_ || shell.against > few_faces);
+        const bool matters = emits_[s] || sum_of(light_of(shell)) > large_part * all_light_;
+        const bool clear =
+            encloses || disordered_ || (matters && !away && shell.against < many_faces);
+        if (!clear && !matters)
+            return;
         bool any = false;
         for (const std::uint32_t f : shells_.facets_of(shell)) {
-            const auto& [front, back] = light_of_face_[scene_.facets[f].face];
-            const bool may_turn = certain || back > front || (widely && back == front);
-            if (shells_.against[f] == away || !may_turn)
+            const SideLight& light = light_of_face_[scene_.facets[f].face];
+            const bool told = encloses || lamp_[s] || (disordered_ && sum_of(light) < few_rays) ||
+                              falls_on_backs(light, disordered_ ? the_greater_part : nearly_all);
+            if (shells_.against[f] == away || !told)
                 continue;
-            turn(f);
-            any = true;
+            (clear ? looks_away_ : in_doubt_)[scene_.facets[f].face] = true;
+            any = clear;
         }
         result_.mixed += any;
     }
 
-    void turn(std::uint32_t f) { result_.looks_away[scene_.facets[f].face] = true; }
-
-    void count_faces() {
-        result_.faces = static_cast<std::size_t>(std::ranges::count(result_.looks_away, true));
+    /// Of marked faces, with the groups they are in.
+    [[nodiscard]] std::pair<std::size_t, std::vector<std::uint32_t>>
+    count(const std::vector<bool>& marked) const {
         std::vector<bool> listed(scene_.groups.size(), false);
         for (const Facet& facet : scene_.facets)
-            if (result_.looks_away[facet.face])
+            if (marked[facet.face])
                 listed[facet.group] = true;
+        std::vector<std::uint32_t> groups;
         for (std::uint32_t g = 0; g < listed.size(); ++g)
             if (listed[g])
-                result_.groups.push_back(g);
-        if (result_.faces == 0)
-            result_.looks_away.clear();
+                groups.push_back(g);
+        return {static_cast<std::size_t>(std::ranges::count(marked, true)), groups};
     }
 
     const Scene& scene_;
+    const Mesh& mesh_;
+    const Tracer& tracer_;
     Shells shells_;
-    Mesh mesh_;
-    MadeTracer made_;
-    std::vector<std::uint32_t> shell_of_;   ///< by facet
-    std::vector<std::optional<bool>> lamp_; ///< by shell
-    std::vector<bool> emits_;               ///< by shell
-    std::vector<SideLight> light_;          ///< by facet
+    std::vector<std::optional<LampSide>> lamp_; ///< by shell
+    std::vector<bool> emits_;                   ///< by shell
+    std::vector<SideLight> light_;              ///< by facet
     std::vector<SideLight> light_of_face_;
-    ShellLight all_light_; ///< as the file has it
+    double all_light_ = 0;
+    bool disordered_ = false;
+    std::vector<bool> looks_away_, in_doubt_; ///< by face
     Orientation result_;
 };
 
-bool anything_emits(const Scene& scene) {
-    return std::ranges::any_of(scene.facets, [&](const Facet& facet) {
-        const Vec3& e = scene.materials[facet.material].emission;
-        return e.r + e.g + e.b > 0;
-    });
-}
-
 } // namespace
 
-Orientation find_orientation(const Scene& scene, unsigned threads) {
-    if (anything_emits(scene))
-        return Judge(scene, threads).find();
+Orientation find_orientation(const Mesh& mesh, const Tracer& tracer) {
+    const auto emits = [&](const Facet& facet) {
+        const Vec3& e = mesh.scene().materials[facet.material].emission;
+        return e.r + e.g + e.b > 0;
+    };
+    if (std::ranges::any_of(mesh.scene().facets, emits))
+        return Judge(mesh, tracer).find();
     Orientation unknown;
-    unknown.clashing_edges = find_shells(scene).clashing_edges;
+    unknown.clashing_edges = find_shells(mesh.scene()).clashing_edges;
     return unknown;
+}
+
+Orientation find_orientation(const Scene& scene) {
+    if (scene.facets.empty())
+        return {};
+    const Mesh mesh(scene);
+    return find_orientation(mesh, *make_tracer(mesh, needs_tree(mesh)).tracer);
 }
 
 void turn_faces(Scene& scene, const Orientation& orientation) {

@@ -2,15 +2,16 @@
 // Faces that look away from the light, as those of a room modelled from outside do.
 //
 // Facets are gathered into shells (shells.h). Which side of a shell is its front follows from where
-// lamps find something to light (lamp_sides.h) and from where light arrives (lit_sides.h). What the
-// evidence leaves open stays as it is:
-// - A shell whose fronts get nearly all of its light stays, and so does one without light.
-// - A consistent shell is turned as a whole, and only if nearly all of its light falls on its
-//   backs. For an open one that is a stricter limit: more of them are meant to be lit from behind.
-// - In a shell whose facets do not agree, those faces are turned that are in the minority, or unlit
-//   where the others are lit. Faces on whose fronts most of their own light falls stay.
+// lamps find something to light (lamp_sides.h) and from where light arrives (light_paths.h). A
+// surface may be meant to be lit from behind, as a lamp shade is that faces outwards. So:
+// - A closed shell is turned if nearly all of its light falls on its backs, and a lamp if it faces
+//   a wall at once or nothing. If its facets disagree, some are turned first.
+// - An open shell is turned only if the file is disordered, as one is that is reversed as a whole
+//   or in many of its faces: then its backs need more light than its fronts. In a file that is
+//   right elsewhere only a few faces are turned, those that disagree with a large shell.
+// - What else gets nearly all of its light on its backs stays, and is counted as in doubt.
 
-#include "radiosity/light_shares.h"
+#include "radiosity/light_paths.h"
 #include "radiosity/scene.h"
 
 #include <cstddef>
@@ -30,11 +31,14 @@ struct Orientation {
     std::size_t clashing_edges = 0;    ///< that two facets run along in the same direction
     std::size_t one_sided = 0;         ///< shells that cannot be oriented: Moebius strips
     LightShares light;                 ///< with the faces as they are
+    std::size_t in_doubt = 0; ///< faces that stay, although much light falls on their backs
+    std::vector<std::uint32_t> groups_in_doubt; ///< ascending
 };
 
-/// Deterministic. In a scene in which nothing emits no face looks away. `threads`: 0 for one per
-/// core; the result does not depend on it.
-[[nodiscard]] Orientation find_orientation(const Scene& scene, unsigned threads = 0);
+/// Deterministic. In a scene in which nothing emits no face looks away. The mesh has no backs.
+[[nodiscard]] Orientation find_orientation(const Mesh& mesh, const Tracer& tracer);
+/// The same by a mesh and a tracer of its own.
+[[nodiscard]] Orientation find_orientation(const Scene& scene);
 
 /// Turns all faces that look away.
 void turn_faces(Scene& scene, const Orientation& orientation);

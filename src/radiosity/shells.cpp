@@ -1,19 +1,19 @@
 #include "radiosity/shells.h"
 
 #include "geometry/polygon.h"
-#include "radiosity/mesh.h"
 #include "radiosity/welded_edges.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hemilux {
 namespace {
 
-Vec3 area_vector_of(const Scene& scene, std::uint32_t f) {
+Polygon shape_of(const Scene& scene, std::uint32_t f) {
     Polygon shape;
     for (std::size_t i = 0; i < 4; ++i)
         shape.corner[i] = scene.vertices[scene.facets[f].vertex[i]];
-    return shape.area_vector();
+    return shape;
 }
 
 /// Two facets that run along their common edge in the same direction, and face the same way: one
@@ -22,7 +22,8 @@ bool are_layers(const Scene& scene, const Edge& a, const Edge& b) {
     constexpr double parallel = 0.999; // cosine
     if (a.forward != b.forward)
         return false;
-    const Vec3 n = area_vector_of(scene, a.facet), m = area_vector_of(scene, b.facet);
+    const Vec3 n = shape_of(scene, a.facet).area_vector();
+    const Vec3 m = shape_of(scene, b.facet).area_vector();
     return glm::dot(n, m) > parallel * glm::length(n) * glm::length(m);
 }
 
@@ -43,6 +44,7 @@ class Neighbours {
                 const bool agrees = first[0].forward != first[1].forward;
                 add(first[0].facet, {first[1].facet, agrees});
                 add(first[1].facet, {first[0].facet, agrees});
+                ++shells.shared_edges;
                 shells.clashing_edges += !agrees;
             } else
                 for (auto edge = first; edge != last; ++edge)
@@ -89,38 +91,44 @@ Shell fill_from(std::uint32_t start, const Neighbours& neighbours, std::vector<b
 }
 
 /// The side of the larger area stays; of two equal ones that of the first facet.
-void turn_smaller_part(const Scene& scene, const Shell& shell, Shells& shells) {
-    double turned = 0, kept = 0;
-    for (const std::uint32_t f : shells.facets_of(shell))
-        (shells.against[f] ? turned : kept) += glm::length(area_vector_of(scene, f));
-    if (turned > kept)
+void measure(const Scene& scene, Shell& shell, Shells& shells) {
+    constexpr double flat = 1e-6;
+    const Vec3 origin = shape_of(scene, shells.facets[shell.begin]).centre();
+    double turned = 0, kept = 0, volume = 0;
+    for (const std::uint32_t f : shells.facets_of(shell)) {
+        const Polygon shape = shape_of(scene, f);
+        const Vec3 area = shape.area_vector();
+        const double cone = glm::dot(shape.centre() - origin, area) / 3;
+        (shells.against[f] ? turned : kept) += glm::length(area);
+        volume += shells.against[f] ? -cone : cone;
+    }
+    if (turned > kept) {
         for (const std::uint32_t f : shells.facets_of(shell))
             shells.against[f] = !shells.against[f];
+        std::swap(turned, kept);
+        volume = -volume;
+    }
+    shell.against = turned / (turned + kept);
+    if (shell.closed && std::abs(volume) > flat * std::pow(turned + kept, 1.5))
+        shell.outwards = volume > 0 ? 1 : -1;
 }
 
 } // namespace
 
-double signed_volume(const Mesh& mesh, const Shells& shells, const Shell& shell) {
-    double volume = 0;
-    for (const std::uint32_t f : shells.facets_of(shell)) {
-        const Polygon shape = mesh.whole_side(f, false).shape;
-        const double part = glm::dot(shape.centre(), shape.area_vector()) / 3;
-        volume += shells.against[f] ? -part : part;
-    }
-    return volume;
-}
-
 Shells find_shells(const Scene& scene) {
     Shells shells;
     shells.against.assign(scene.facets.size(), false);
+    shells.of.resize(scene.facets.size());
     shells.facets.reserve(scene.facets.size());
     const Neighbours neighbours(scene, shells);
     std::vector<bool> found(scene.facets.size(), false);
     for (std::uint32_t f = 0; f < scene.facets.size(); ++f)
         if (!found[f]) {
-            shells.all.push_back(fill_from(f, neighbours, found, shells));
-            if (!shells.all.back().consistent)
-                turn_smaller_part(scene, shells.all.back(), shells);
+            Shell shell = fill_from(f, neighbours, found, shells);
+            measure(scene, shell, shells);
+            for (const std::uint32_t g : shells.facets_of(shell))
+                shells.of[g] = static_cast<std::uint32_t>(shells.all.size());
+            shells.all.push_back(shell);
         }
     return shells;
 }

@@ -17,26 +17,26 @@ struct Shell {
     bool closed = true;     ///< every edge has exactly two facets
     bool consistent = true; ///< all neighbours agree
     bool orientable = true; ///< they would, if some were turned; not so for a Moebius strip
+    double against = 0;     ///< the part of its area that would be turned, at most a half
+    /// Of a closed one, once it is consistent: 1 faces outwards, -1 inwards, 0 encloses nothing, as
+    /// a folded sheet.
+    int outwards = 0;
 };
 
 struct Shells {
     std::vector<Shell> all;
     std::vector<std::uint32_t> facets; ///< shell after shell
+    std::vector<std::uint32_t> of;     ///< the shell of a facet
     /// By facet: to be turned so that its shell becomes consistent, with as little area turned as
     /// possible.
     std::vector<bool> against;
-    std::size_t clashing_edges = 0; ///< of two facets that do not agree
+    std::size_t shared_edges = 0;   ///< of two facets
+    std::size_t clashing_edges = 0; ///< of these, where the two do not agree
 
     [[nodiscard]] std::span<const std::uint32_t> facets_of(const Shell& shell) const {
         return std::span(facets).subspan(shell.begin, shell.end - shell.begin);
     }
 };
-
-class Mesh;
-
-/// What a closed shell encloses, in the local frame and once it is consistent; negative where it is
-/// inside out. About 0 for a folded sheet.
-[[nodiscard]] double signed_volume(const Mesh& mesh, const Shells& shells, const Shell& shell);
 
 /// O(n log n) in the facets.
 [[nodiscard]] Shells find_shells(const Scene& scene);
