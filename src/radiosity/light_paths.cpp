@@ -67,7 +67,7 @@ Ray diffuse_ray(const Mesh& mesh, FacetSide side, Rng& rng) {
 Targets::Targets(const Mesh& mesh) : mesh_(mesh) {
     double sum = 0;
     for (std::uint32_t f = 0; f < mesh.scene().facets.size(); ++f)
-        area_sums_.push_back(sum += power_of(mesh, f) > 0 ? 0 : mesh.whole_side(f, false).area);
+        area_sums_.push_back(sum += power_of(mesh, f) > 0 ? 0 : area_of(mesh, f));
 }
 
 std::optional<Ray> Targets::ray_from(FacetSide side, Rng& rng) const {
@@ -84,12 +84,20 @@ std::optional<Ray> Targets::ray_from(FacetSide side, Rng& rng) const {
                .from = side.facet};
 }
 
+double area_of(const Mesh& mesh, std::uint32_t facet) {
+    const FacetSoup soup = mesh.soup();
+    Polygon shape;
+    for (std::size_t i = 0; i < 4; ++i)
+        shape.corner[i] = soup.vertices[soup.facets[facet][i]];
+    return shape.area();
+}
+
 double power_of(const Mesh& mesh, std::uint32_t facet) {
     const Vec3& e = mesh.scene().materials[mesh.scene().facets[facet].material].emission;
     const double sum = e.r + e.g + e.b;
     if (!(sum > 0) || !std::isfinite(sum))
         return 0;
-    return sum * mesh.whole_side(facet, false).area;
+    return sum * area_of(mesh, facet);
 }
 
 std::vector<std::uint32_t> shares_of(const std::vector<double>& weights, std::uint32_t count) {
@@ -107,15 +115,15 @@ std::vector<std::uint32_t> shares_of(const std::vector<double>& weights, std::ui
 }
 
 std::vector<SideLight> light_on_sides(const Mesh& mesh, const Tracer& tracer,
+                                      const Targets& targets,
                                       const std::vector<bool>& shines_back) {
-    constexpr std::uint32_t paths = 1u << 14;
+    constexpr std::uint32_t paths = 1u << 13;
     constexpr double reflected = 0.5;
     std::vector<double> power = powers_of(mesh);
     std::vector<double> area(power.size());
     for (std::uint32_t f = 0; f < area.size(); ++f)
-        area[f] = power[f] > 0 ? mesh.whole_side(f, false).area : 0;
+        area[f] = power[f] > 0 ? area_of(mesh, f) : 0;
 
-    const Targets targets(mesh);
     Rng rng(1);
     std::vector<SideLight> light(power.size(), SideLight{});
     const auto arrive = [&](std::optional<FacetSide> side) {

@@ -21,8 +21,8 @@ struct FacetSide {
 /// that layers that lie in one place (stacked_facets.h) do not hide each other.
 [[nodiscard]] Ray diffuse_ray(const Mesh& mesh, FacetSide side, Rng& rng);
 
-/// Points of all facets that do not shine, by area. Rays towards them find the ground below a sun, which hardly any
-/// ray by the cosine law does.
+/// Points of all facets that do not shine, by area. Rays towards them find the ground below a sun,
+/// which hardly any ray by the cosine law does.
 class Targets {
   public:
     explicit Targets(const Mesh& mesh);
@@ -33,6 +33,9 @@ class Targets {
     const Mesh& mesh_;
     std::vector<double> area_sums_;
 };
+
+/// In the local frame.
+[[nodiscard]] double area_of(const Mesh& mesh, std::uint32_t facet);
 
 /// What a facet emits on one side, all channels together, in the local frame; 0 for what is no
 /// finite number.
@@ -50,6 +53,7 @@ using SideLight = std::array<double, 2>;
 /// be judged before they are known. `shines_back`: by facet, whether an emitting one shines to its
 /// back.
 [[nodiscard]] std::vector<SideLight> light_on_sides(const Mesh& mesh, const Tracer& tracer,
+                                                    const Targets& targets,
                                                     const std::vector<bool>& shines_back);
 
 /// Shares of the emitted light, all channels together; the rest is absorbed by fronts. 0 where

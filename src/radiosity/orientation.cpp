@@ -23,9 +23,8 @@ constexpr double large_part = 1.0 / 20;
 /// Part of what is emitted: where fewer lamps face a wall, the others show that they may be meant
 /// to.
 constexpr double many_lamps = 0.25;
-/// Parts of a shell's area that disagree: so little that a closed one may be meant so; so much that
-/// it is not clear which of an open one are wrong.
-constexpr double few_faces = 0.01, many_faces = 0.1;
+/// Part of a shell's area: if more disagrees, it is not clear which faces of an open one are wrong.
+constexpr double many_faces = 0.1;
 
 double sum_of(const SideLight& light) { return light[0] + light[1]; }
 bool falls_on_backs(const SideLight& light, double share) {
@@ -35,7 +34,8 @@ bool falls_on_backs(const SideLight& light, double share) {
 class Judge {
   public:
     Judge(const Mesh& mesh, const Tracer& tracer)
-        : scene_(mesh.scene()), mesh_(mesh), tracer_(tracer), shells_(find_shells(scene_)) {}
+        : scene_(mesh.scene()), mesh_(mesh), tracer_(tracer), shells_(find_shells(scene_)),
+          targets_(mesh) {}
 
     Orientation find() {
         find_lamps();
@@ -43,7 +43,7 @@ class Judge {
         result_.light = find_light_shares(mesh_, tracer_);
         result_.clashing_edges = shells_.clashing_edges;
         looks_away_.assign(scene_.faces, false);
-        in_doubt_.assign(scene_.faces, false);
+        in_doubt_ = stays_ = looks_away_;
         for (std::uint32_t s = 0; s < shells_.all.size(); ++s)
             judge(s);
         std::tie(result_.faces, result_.groups) = count(looks_away_);
@@ -59,15 +59,15 @@ class Judge {
         std::vector<double> power(shells_.all.size(), 0.0);
         double all = 0;
         for (std::uint32_t f = 0; f < scene_.facets.size(); ++f) {
-            power[shells_.of[f]] += power_of(mesh_, f);
-            all += power_of(mesh_, f);
+            const double own = power_of(mesh_, f);
+            power[shells_.of[f]] += own;
+            all += own;
         }
-        const Targets targets(mesh_);
         double wrong = 0;
         for (std::uint32_t s = 0; s < shells_.all.size(); ++s) {
             emits_.push_back(power[s] > 0);
             if (shells_.all[s].orientable && emits_[s])
-                lamp_[s] = find_lamp_side(mesh_, tracer_, targets, shells_, s);
+                lamp_[s] = find_lamp_side(mesh_, tracer_, targets_, shells_, s);
             if (lamp_[s] && lamp_[s]->certain && lamp_[s]->back)
                 wrong += power[s];
         }
@@ -83,7 +83,7 @@ class Judge {
         for (std::uint32_t f = 0; f < shines_back.size(); ++f)
             if (const Shell& shell = shells_.all[shells_.of[f]]; shell.orientable)
                 shines_back[f] = shells_.against[f] != shines_to_backs(shells_.of[f]);
-        light_ = light_on_sides(mesh_, tracer_, shines_back);
+        light_ = light_on_sides(mesh_, tracer_, targets_, shines_back);
         light_of_face_.assign(scene_.faces, SideLight{});
         double lit = 0, from_behind = 0;
         for (std::uint32_t f = 0; f < light_.size(); ++f) {
@@ -91,14 +91,14 @@ class Judge {
             all_light_ += sum_of(light_[f]);
             if (emits_[shells_.of[f]] || sum_of(light_[f]) == 0)
                 continue;
-            const double area = mesh_.whole_side(f, false).area;
+            const double area = area_of(mesh_, f);
             lit += area;
             from_behind += area * light_[f][1] / sum_of(light_[f]);
         }
         const auto edges = static_cast<double>(shells_.shared_edges);
         const auto clashing = static_cast<double>(shells_.clashing_edges);
-        disordered_ = (lit > 0 && from_behind > much_area * lit) ||
-                      (clashing > 0 && clashing > many_edges * edges);
+        reversed_ = lit > 0 && from_behind > much_area * lit;
+        disordered_ = reversed_ || (clashing > 0 && clashing > many_edges * edges);
     }
 
     static void add(const SideLight& light, bool reversed, SideLight& sum) {
@@ -131,9 +131,9 @@ class Judge {
         const Shell& shell = shells_.all[s];
         const SideLight light = light_of(shell);
         if (sum_of(light) < few_rays) {
-            // What is dark in a disordered file is taken for a thing, not for a room.
-            if (disordered_ && shell.outwards < 0)
-                turn_all(s, true, result_.inside_out);
+            // What is dark and closed is taken for a thing, not for a room.
+            if (shell.outwards != 0 ? disordered_ && shell.outwards < 0 : reversed_)
+                turn_all(s, true, shell.closed ? result_.inside_out : result_.from_behind);
         } else if (falls_on_backs(light, disordered_ ? the_greater_part : nearly_all)) {
             if (shell.closed || disordered_)
                 turn_all(s, true, shell.closed ? result_.inside_out : result_.from_behind);
@@ -156,23 +156,26 @@ class Judge {
         return sum_of(light) < few_rays ? shells_.all[s].outwards < 0 : light[1] > light[0];
     }
 
-    /// The facets of a shell that encloses something cannot be meant to disagree, but for a few, as
-    /// where a tile is folded over its own edge. Elsewhere light must confirm what is turned.
+    /// The faces of a shell that encloses something cannot be meant to disagree; elsewhere light
+    /// must confirm what is turned. A face whose own facets disagree, as one that is folded, stays.
     void turn_some(std::uint32_t s) {
         const Shell& shell = shells_.all[s];
         const bool away = majority_away(s);
-        const bool encloses = shell.outwards != 0 && (disordered_ || shell.against > few_faces);
+        const bool encloses = shell.outwards != 0;
         const bool matters = emits_[s] || sum_of(light_of(shell)) > large_part * all_light_;
         const bool clear =
             encloses || disordered_ || (matters && !away && shell.against < many_faces);
         if (!clear && !matters)
             return;
+        for (const std::uint32_t f : shells_.facets_of(shell))
+            if (shells_.against[f] == away)
+                stays_[scene_.facets[f].face] = true;
         bool any = false;
         for (const std::uint32_t f : shells_.facets_of(shell)) {
             const SideLight& light = light_of_face_[scene_.facets[f].face];
             const bool told = encloses || lamp_[s] || (disordered_ && sum_of(light) < few_rays) ||
                               falls_on_backs(light, disordered_ ? the_greater_part : nearly_all);
-            if (shells_.against[f] == away || !told)
+            if (stays_[scene_.facets[f].face] || !told)
                 continue;
             (clear ? looks_away_ : in_doubt_)[scene_.facets[f].face] = true;
             any = clear;
@@ -198,13 +201,14 @@ class Judge {
     const Mesh& mesh_;
     const Tracer& tracer_;
     Shells shells_;
+    Targets targets_;
     std::vector<std::optional<LampSide>> lamp_; ///< by shell
     std::vector<bool> emits_;                   ///< by shell
     std::vector<SideLight> light_;              ///< by facet
     std::vector<SideLight> light_of_face_;
     double all_light_ = 0;
-    bool disordered_ = false;
-    std::vector<bool> looks_away_, in_doubt_; ///< by face
+    bool reversed_ = false, disordered_ = false; ///< the file: the second follows from the first
+    std::vector<bool> looks_away_, in_doubt_, stays_; ///< by face
     Orientation result_;
 };
 
