@@ -40,7 +40,6 @@ class Judge {
     Orientation find() {
         find_lamps();
         find_light();
-        result_.light = find_light_shares(mesh_, tracer_);
         result_.clashing_edges = shells_.clashing_edges;
         looks_away_.assign(scene_.faces, false);
         in_doubt_ = stays_ = looks_away_;
@@ -48,8 +47,10 @@ class Judge {
             judge(s);
         std::tie(result_.faces, result_.groups) = count(looks_away_);
         std::tie(result_.in_doubt, result_.groups_in_doubt) = count(in_doubt_);
-        if (result_.faces > 0)
+        if (result_.faces > 0) {
             result_.looks_away = std::move(looks_away_);
+            result_.light = find_light_shares(mesh_, tracer_);
+        }
         return std::move(result_);
     }
 
@@ -230,7 +231,11 @@ Orientation find_orientation(const Scene& scene) {
     if (scene.facets.empty())
         return {};
     const Mesh mesh(scene);
-    return find_orientation(mesh, *make_tracer(mesh, needs_tree(mesh)).tracer);
+    const MadeTracer made = make_tracer(mesh, needs_tree(mesh));
+    Orientation found = find_orientation(mesh, *made.tracer);
+    if (found.faces == 0)
+        found.light = find_light_shares(mesh, *made.tracer);
+    return found;
 }
 
 void turn_faces(Scene& scene, const Orientation& orientation) {

@@ -30,14 +30,14 @@ struct Orientation {
     std::size_t mixed = 0;             ///< shells of which some faces look away
     std::size_t clashing_edges = 0;    ///< that two facets run along in the same direction
     std::size_t one_sided = 0;         ///< shells that cannot be oriented: Moebius strips
-    LightShares light;                 ///< with the faces as they are
+    LightShares light;                 ///< with the faces as they are, if some look away
     std::size_t in_doubt = 0; ///< faces that stay, although much light falls on their backs
     std::vector<std::uint32_t> groups_in_doubt; ///< ascending
 };
 
 /// Deterministic. In a scene in which nothing emits no face looks away. The mesh has no backs.
 [[nodiscard]] Orientation find_orientation(const Mesh& mesh, const Tracer& tracer);
-/// The same by a mesh and a tracer of its own.
+/// The same by a mesh and a tracer of its own, with the light in any case.
 [[nodiscard]] Orientation find_orientation(const Scene& scene);
 
 /// Turns all faces that look away.
