@@ -119,26 +119,19 @@ std::vector<SideLight> light_on_sides(const Mesh& mesh, const Tracer& tracer,
                                       const std::vector<bool>& shines_back) {
     constexpr std::uint32_t paths = 1u << 13;
     constexpr double reflected = 0.5;
-    std::vector<double> power = powers_of(mesh);
-    std::vector<double> area(power.size());
-    for (std::uint32_t f = 0; f < area.size(); ++f)
-        area[f] = power[f] > 0 ? area_of(mesh, f) : 0;
-
     Rng rng(1);
-    std::vector<SideLight> light(power.size(), SideLight{});
+    std::vector<SideLight> light(shines_back.size(), SideLight{});
     const auto arrive = [&](std::optional<FacetSide> side) {
         if (side)
             light[side->facet][side->back] += 1;
         return rng.uniform() < reflected;
     };
-    // Half by power and half by area, as a dim lamp counts too; every other one towards a target.
-    for (const auto* weights : {&power, &area})
-        for_each_path(*weights, paths / 2, [&](std::uint32_t f, std::uint32_t k) {
-            const FacetSide side{f, shines_back[f]};
-            const std::optional<Ray> aimed =
-                k % 2 == 1 ? targets.ray_from(side, rng) : std::nullopt;
-            follow(mesh, tracer, aimed ? *aimed : diffuse_ray(mesh, side, rng), rng, arrive);
-        });
+    // Every other path starts towards a target.
+    for_each_path(powers_of(mesh), paths, [&](std::uint32_t f, std::uint32_t k) {
+        const FacetSide side{f, shines_back[f]};
+        const std::optional<Ray> aimed = k % 2 == 1 ? targets.ray_from(side, rng) : std::nullopt;
+        follow(mesh, tracer, aimed ? *aimed : diffuse_ray(mesh, side, rng), rng, arrive);
+    });
     return light;
 }
 

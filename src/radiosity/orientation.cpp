@@ -12,7 +12,7 @@ namespace {
 
 /// A file is disordered if so much of its lit area is lit from behind, or if so many of the edges
 /// that two facets share clash.
-constexpr double much_area = 0.5, many_edges = 0.05;
+constexpr double much_area = 0.4, many_edges = 0.05;
 /// Backs that get so much of a surface's light: of a surface that is lit from behind, and of one in
 /// a file that is disordered.
 constexpr double nearly_all = 0.9, the_greater_part = 0.5;
