@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,7 @@ bool contains_one(const std::string& text, const std::vector<std::string>& parts
 }
 
 double percent(std::size_t part, std::size_t all) {
-    return all > 0 ? 100 * double(part) / double(all) : 0;
+    return all > 0 ? 100 * double(part) / double(all) : std::numeric_limits<double>::quiet_NaN();
 }
 
 constexpr const char* explanation =
