@@ -7,7 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,7 @@ using namespace hemilux::test;
 namespace {
 
 struct Settings {
-    std::string family, scene;
+    std::vector<std::string> families, scenes;
     std::vector<std::string> methods{"gathering"};
     std::size_t seeds = 40;
     std::uint64_t first_seed = 1;
@@ -27,12 +29,15 @@ struct Settings {
     bool list = false, every_run = false;
 };
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+/// Without parts every text does.
+bool contains_one(const std::string& text, const std::vector<std::string>& parts) {
+    return parts.empty() || std::ranges::any_of(parts, [&](const std::string& part) {
+               return text.find(part) != std::string::npos;
+           });
 }
 
 double percent(std::size_t part, std::size_t all) {
-    return all > 0 ? 100 * double(part) / double(all) : 0;
+    return all > 0 ? 100 * double(part) / double(all) : std::numeric_limits<double>::quiet_NaN();
 }
 
 constexpr const char* explanation =
@@ -87,8 +92,10 @@ void judge_scene(const HardSceneEntry& entry, const Settings& settings) {
 }
 
 void add_options(CLI::App& app, Settings& settings) {
-    app.add_option("--family", settings.family, "only families whose name contains this");
-    app.add_option("--scene", settings.scene, "only scenes whose name contains this");
+    app.add_option("--family", settings.families, "only families whose name contains one of these")
+        ->delimiter(',');
+    app.add_option("--scene", settings.scenes,
+                   "only scenes whose name contains one of these; names may contain commas");
     app.add_option("--method", settings.methods, "one or several; all: all of them")
         ->delimiter(',');
     app.add_option("--seeds", settings.seeds, "runs of each scene and method");
@@ -123,7 +130,8 @@ int main(int count, char** arguments) {
     if (!settings.list)
         print_head();
     for (const HardSceneEntry& entry : hard_scenes())
-        if (contains(entry.family, settings.family) && contains(entry.name, settings.scene)) {
+        if (contains_one(entry.family, settings.families) &&
+            contains_one(entry.name, settings.scenes)) {
             if (settings.list)
                 std::printf("%s: %s\n", entry.family.c_str(), entry.name.c_str());
             else

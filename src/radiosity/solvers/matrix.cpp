@@ -64,6 +64,7 @@ class MatrixSolver final : public Solver {
             exact_.emplace(input.mesh, workers_, input.monitor);
         else
             emitters = few_emitters(input.mesh);
+        rays_find_emission_ = emitters.empty();
         // Exact factors are put together with those of all patches.
         const Needs& needs = exact_ ? everything_needed : input.needs;
         for (std::uint64_t r = 0; r < replicates; ++r)
@@ -257,6 +258,7 @@ class MatrixSolver final : public Solver {
     }
 
     /// What dark patches may receive besides; by contour integration nothing is left to chance.
+    /// Emission with a closed form does not wait for a ray to find it.
     [[nodiscard]] std::vector<Vec3> unseen_light() const {
         const std::size_t n = solution_.radiosity.size();
         std::vector<double> area(n), rays(n, double(rays_) * replicates);
@@ -269,13 +271,15 @@ class MatrixSolver final : public Solver {
         }
         if (exact_ || input_.needs.closed)
             return std::vector<Vec3>(n, Vec3(0.0));
-        return unseen_sights({area, reflectance, incident, solution_.radiosity, rays});
+        const std::vector<Vec3>& leaving = rays_find_emission_ ? solution_.radiosity : incident;
+        return unseen_sights({area, reflectance, incident, leaving, rays});
     }
 
     SolverInput input_;
     Workers workers_;
     std::vector<SampledFormFactors> factors_;
     std::optional<ExactFormFactors> exact_;
+    bool rays_find_emission_ = true;         ///< no column has the closed form
     std::vector<std::vector<Vec3>> guesses_; ///< solution of each replicate
     std::uint32_t rays_ = 0;                 ///< per patch and replicate
     std::uint32_t rays_of_step_ = 0;         ///< those of the step under way
