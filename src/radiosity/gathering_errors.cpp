@@ -151,7 +151,7 @@ class Account {
 /// it is pooled over neighbours; where they err together (0 to 1) that does not help, and it is
 /// raised as Student's t asks for, so that hardly any error is beyond three of them.
 double raised(double together) {
-    constexpr double of_few = 1.8; // (t / 3)^2 with seven degrees of freedom, .5 of 100 beyond
+    constexpr double of_few = 3; // of t with three degrees of freedom 96 of 100 are below 2 sqrt(3)
     return 1 + (of_few - 1) * together;
 }
 
@@ -215,6 +215,6 @@ GatheringErrors errors_of(const GatheringResult& result, const Workers& workers)
     return errors;
 }
 
-template GatheringErrors errors_of<8>(const GatheringResult& result, const Workers& workers);
+template GatheringErrors errors_of<4>(const GatheringResult& result, const Workers& workers);
 
 } // namespace hemilux

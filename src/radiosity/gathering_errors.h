@@ -47,6 +47,6 @@ struct GatheringResult {
 template <std::size_t Sets>
 [[nodiscard]] GatheringErrors errors_of(const GatheringResult& result, const Workers& workers);
 
-extern template GatheringErrors errors_of<8>(const GatheringResult& result, const Workers& workers);
+extern template GatheringErrors errors_of<4>(const GatheringResult& result, const Workers& workers);
 
 } // namespace hemilux

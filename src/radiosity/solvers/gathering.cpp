@@ -8,7 +8,7 @@
 //
 // Parameter: --rays, of the first step, half of them random, half to the lamps. Each step adds as
 // many, or as many as there are, or as many as an error asked for will take (gathering_plan.h), of
-// the kind that the error comes from. Eight independent sets of both give eight solutions, whose
+// the kind that the error comes from. Four independent sets of both give four solutions, whose
 // spread is the standard error; the result is the solution of all rays together.
 //
 // Consistent: the solution depends on what was counted in a non-linear way, so its bias falls as
@@ -44,7 +44,7 @@
 namespace hemilux {
 namespace {
 
-constexpr unsigned sets = 8;
+constexpr unsigned sets = 4;
 
 constexpr std::size_t patches_per_chunk = 512;
 
