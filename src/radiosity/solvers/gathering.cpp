@@ -205,6 +205,7 @@ class GatheringSolver final : public Solver {
         variance_ = std::max(errors.variance + errors.unseen, direct_variance_);
         solution_.standard_error = std::move(errors.standard_error);
         solution_.variance = errors.variance;
+        solution_.variance_of_level = errors.of_losses;
         solution_.unseen = errors.unseen + errors.unseen_by_shadow_rays;
         solution_.error_samples = sets;
         solution_.error_parts = error_parts(spread.products, sets);
