@@ -23,7 +23,10 @@ constexpr double fall = 1.5;
 constexpr double most_growth = 4;
 
 /// The part of an error asked for that a step is to reach, so that the run seldom takes one more.
-constexpr double aim_below = 1;
+constexpr double aim_below = .97;
+
+/// Of all rays in a step towards an error, the least; and from one number to the next that is tried.
+constexpr double least_step = 1.1, try_next = 1.04;
 
 /// The share of the weights that is measured; and what a patch's area counts.
 constexpr double trust = .5, area_exponent = .42;
@@ -79,10 +82,10 @@ void GatheringPlan::choose(const KnownError& known) {
         return split(rays + first_.random + first_.to_lamps, known);
     if (!(pace_.aim > 0))
         return split(2 * rays, known);
-    double factor = least_growth;
+    double factor = least_step;
     do
         split(factor * rays, known);
-    while (!(predicted(known) <= aim_below * pace_.aim) && (factor *= least_growth) <= most_growth);
+    while (!(predicted(known) <= aim_below * pace_.aim) && (factor *= try_next) <= most_growth);
 }
 
 /// So many rays in all go to the two kinds so that the error is least, as far as variances fall
