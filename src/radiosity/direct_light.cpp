@@ -50,7 +50,7 @@ std::vector<Patch> whole_sides(const Mesh& mesh, std::span<const std::uint32_t> 
 /// Samples whose rays are not traced yet, the first `size` of each array.
 struct DirectLight::Volley {
     struct Sample {
-        std::uint32_t patch, estimate;
+        std::uint32_t patch, estimate, emitter;
         Vec3 light; ///< if the ray arrives
     };
     std::size_t size = 0;
@@ -73,7 +73,7 @@ DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& ne
       emitters_(whole_sides(mesh, patch_of_emitter_)), choice_(mesh, emitters_),
       seeds_(std::move(seeds)), sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)),
       samples_(mesh.patches().size()), hits_(mesh.patches().size()),
-      unblocked_(mesh.patches().size()) {
+      bright_(mesh.patches().size()), unblocked_(mesh.patches().size()) {
     for (const Patch& emitter : emitters_)
         lamps_.push_back(
             {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});
@@ -111,7 +111,7 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
 void DirectLight::sample(std::uint32_t patch, std::uint32_t end, Volley& volley) {
     const std::uint32_t begin = std::exchange(samples_[patch], end);
     EmitterChoice::Cut& cut = volley.cut;
-    choice_.weigh(patch, cut);
+    choice_.weigh(patch, bright_[patch], cut);
     if (cut.dark())
         return;
     if (!cut.pays()) {
@@ -144,7 +144,8 @@ void DirectLight::look(std::uint32_t patch, std::uint32_t estimate, const Shape&
                                   {u[0], u[1], u[2], u[3]}, emitter.near, volley.rays[next]);
     if (!(factor > 0))
         return;
-    volley.samples[next] = {patch, estimate, factor / choice.chance * emitter.emission};
+    volley.samples[next] = {patch, estimate, choice.emitter,
+                            factor / choice.chance * emitter.emission};
     volley.targets[next] = emitter.patch->facet;
     ++volley.size;
 }
@@ -160,11 +161,12 @@ void DirectLight::send(Volley& volley) {
         std::ranges::fill(blocked, std::uint8_t{0});
     }
     for (std::size_t k = 0; k < size; ++k) {
-        const auto& [patch, estimate, light] = volley.samples[k];
+        const auto& [patch, estimate, emitter, light] = volley.samples[k];
         unblocked_[patch] += mean_of_channels(light);
         if (!blocked[k]) {
             sum_[patch * seeds_.size() + estimate] += light;
             ++hits_[patch];
+            bright_[patch] |= EmitterChoice::bit_of(emitter);
         }
     }
 }
@@ -173,6 +175,7 @@ void DirectLight::save(StateWriter& state) const {
     state.add(std::span<const Vec3>(sum_));
     state.add(std::span<const std::uint32_t>(samples_));
     state.add(std::span<const std::uint32_t>(hits_));
+    state.add(std::span<const std::uint64_t>(bright_));
     state.add(std::span<const double>(unblocked_));
     state.add(std::uint64_t{!part_.empty()});
     state.add(std::span<const std::uint32_t>(part_));
@@ -182,6 +185,7 @@ void DirectLight::load(StateReader& state) {
     state.get(std::span(sum_));
     state.get(std::span(samples_));
     state.get(std::span(hits_));
+    state.get(std::span(bright_));
     state.get(std::span(unblocked_));
     part_.resize(state.whole() != 0 ? hits_.size() : 0);
     state.get(std::span(part_));

@@ -162,7 +162,7 @@ double EmitterChoice::nearness(std::uint32_t receiver, const Cluster& cluster) c
     return cluster.left == 0 ? 0 : cluster.radius / std::max(gap, 1e-3 * cluster.radius);
 }
 
-void EmitterChoice::weigh(std::uint32_t receiver, Cut& cut) const {
+void EmitterChoice::weigh(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const {
     if (order_.size() <= most_emitters) {
         cut.sums.resize(order_.size() + 1);
         cut.found.resize(order_.size());
@@ -173,7 +173,7 @@ void EmitterChoice::weigh(std::uint32_t receiver, Cut& cut) const {
         weigh_clusters(receiver, cut);
     }
     if (!part_.empty())
-        doubt_others(receiver, cut);
+        doubt_others(receiver, bright, cut);
     cut.sum = cut.sums[0] = 0;
     for (std::size_t k = 1; k < cut.sums.size(); ++k)
         cut.sums[k] = cut.sum += cut.sums[k];
@@ -190,12 +190,15 @@ void EmitterChoice::set_parts(std::span<const std::uint32_t> part,
 }
 
 /// A cluster of several emitters may belong to several parts and is not doubted.
-void EmitterChoice::doubt_others(std::uint32_t receiver, Cut& cut) const {
+void EmitterChoice::doubt_others(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const {
+    const auto is_dark = [&](std::uint32_t place) {
+        return part_of_emitter_[place] != part_[receiver] && (bright & bit_of(place)) == 0;
+    };
     const auto is_doubtful = [&](std::size_t k) {
         if (cut.clusters.empty())
-            return part_of_emitter_[order_[k]] != part_[receiver];
+            return is_dark(order_[k]);
         const Cluster& cluster = clusters_[cut.clusters[k]];
-        return cluster.left == 0 && part_of_emitter_[order_[cluster.begin]] != part_[receiver];
+        return cluster.left == 0 && is_dark(order_[cluster.begin]);
     };
     double linked = 0, doubtful = 0;
     const std::size_t count = cut.found.size();

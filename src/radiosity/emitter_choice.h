@@ -48,11 +48,16 @@ class EmitterChoice {
         /// just those: what such a ray brings varies more than what one finds by chance.
         [[nodiscard]] bool pays() const { return sum * sum <= 4 * square_found; }
     };
-    /// For choose().
-    void weigh(std::uint32_t receiver, Cut& cut) const;
+    /// For choose(). `bright`: the bits of emitters from which light has reached the receiver.
+    void weigh(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const;
+    /// Of the emitter at this place; others have the same if there are many.
+    [[nodiscard]] static std::uint64_t bit_of(std::uint32_t place) {
+        return std::uint64_t{1} << place % 64;
+    }
 
-    /// From now on emitters that are not of the receiver's part of the scene, `part` by patch, get
-    /// few of the rays: no light was seen to pass there. `patches`: of each emitter, one patch.
+    /// From now on emitters that are neither bright nor of the receiver's part of the scene, `part`
+    /// by patch, get few of the rays: no light was seen to pass there. `patches`: of each emitter,
+    /// one patch.
     void set_parts(std::span<const std::uint32_t> part, std::span<const std::uint32_t> patches);
 
     struct Choice {
@@ -79,7 +84,7 @@ class EmitterChoice {
     [[nodiscard]] EmitterArrays arrays_from(std::size_t k) const;
     [[nodiscard]] EmitterReceiver receiver_at(std::uint32_t patch) const;
     void choose_clusters(std::uint32_t receiver, Cut& cut) const;
-    void doubt_others(std::uint32_t receiver, Cut& cut) const;
+    void doubt_others(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const;
     void weigh_clusters(std::uint32_t receiver, Cut& cut) const;
     [[nodiscard]] Choice choose_within(const Cluster& cluster, double share) const;
     [[nodiscard]] double light_of(std::uint32_t place) const;

@@ -20,7 +20,8 @@ struct ErrorSpread {
 
     /// Relative standard deviation of the estimated error.
     [[nodiscard]] double uncertainty() const;
-    /// In about 97 of 100 runs the true error is below so many times the estimated one.
+    /// In 39 of 40 runs the true error is below so many times the estimated one: the ratio of their
+    /// squares has Fisher's F distribution.
     [[nodiscard]] double bound() const;
     /// What an error is multiplied with before it is reported, so that the true one is below 1.5
     /// times the reported one in as many runs; 1 where there are more than some ten parts.

@@ -21,10 +21,11 @@ namespace {
 bool any(const Vec3& v) { return v != Vec3(0.0); }
 /// Sums over the patches of a linked part, by channel.
 struct PartLedger {
-    Vec3 used{0.0};     ///< power that ends there: absorbed, or lost
-    Vec3 leaving{0.0};  ///< power that rays at random stand for
-    Vec3 one_ray{0.0};  ///< its mean per ray, weighted by itself
-    Vec3 appetite{0.0}; ///< area times absorptance
+    Vec3 used{0.0};          ///< power that ends there: absorbed, or lost
+    Vec3 leaving{0.0};       ///< power that rays at random stand for
+    Vec3 one_ray{0.0};       ///< its mean per ray, weighted by itself
+    Vec3 loss_variance{0.0}; ///< of the power that random rays lose
+    Vec3 appetite{0.0};      ///< area times absorptance
     double area = 0;
     double rays = 0, lost = 0; ///< numbers of rays
     bool lit = false;
@@ -64,9 +65,11 @@ class Account {
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
             const Vec3 level = lit_[i] ? unseen_loss(i) + unseen_sights_[i] : unseen_light(i);
             errors.unseen += area_[i] * glm::dot(level, level);
+            const Vec3 loss = known_loss(i);
+            errors.of_losses += area_[i] * glm::dot(loss, loss);
             const Vec3 sample = one_shadow_ray(i);
             const bool dark = result_.direct.hits(i) == 0;
-            const Vec3 one = glm::max(one_ray(i), dark ? sample : Vec3(0.0));
+            const Vec3 one = glm::max(glm::max(one_ray(i), loss), dark ? sample : Vec3(0.0));
             Vec3& sigma = errors.standard_error[i];
             sigma = glm::sqrt(glm::max(sigma * sigma, one * one) + level * level);
             const double share =
@@ -97,7 +100,16 @@ class Account {
             const Vec3 kept = (1 - escaped - absorbed) * power;
             part.leaving += power;
             part.one_ray += kept * power / rays_[i];
+            part.loss_variance += power * power * variance_of_loss(i);
         }
+    }
+    /// Of the share of a patch's rays that are lost. Where few are, each is lost by chance; of many
+    /// well-distributed ones only those at the edge of an opening are.
+    [[nodiscard]] double variance_of_loss(std::uint32_t i) const {
+        const auto sets = static_cast<double>(result_.light.sets());
+        const double share = result_.factors.lost()[i].escaped + result_.factors.lost()[i].absorbed;
+        const double of_set = std::max(rays_[i] * std::min(share, 1 - share) / sets, 0.0);
+        return sets * std::min(of_set, std::sqrt(of_set)) / (rays_[i] * rays_[i]);
     }
     [[nodiscard]] const PartLedger& ledger(std::uint32_t i) const { return ledgers_[parts_.of[i]]; }
 
@@ -109,6 +121,15 @@ class Account {
         const PartLedger& part = ledger(i);
         const Vec3 share = rule_of_three / (1 + part.lost) * ratio_or_zero(part.one_ray, part.used);
         return share * rho_[i] * incident_[i];
+    }
+
+    /// One standard error of the light, as all of a part is the brighter the less light is lost: by
+    /// the numbers of rays that were lost, however alike the sets may be by chance.
+    [[nodiscard]] Vec3 known_loss(std::uint32_t i) const {
+        if (result_.system.closed())
+            return Vec3(0.0);
+        const PartLedger& part = ledger(i);
+        return ratio_or_zero(glm::sqrt(part.loss_variance), part.used) * rho_[i] * incident_[i];
     }
 
     /// If rays had passed between a dark part and a lit one: what the part would hold then. Neither
@@ -151,7 +172,7 @@ class Account {
 /// it is pooled over neighbours; where they err together (0 to 1) that does not help, and it is
 /// raised as Student's t asks for, so that hardly any error is beyond three of them.
 double raised(double together) {
-    constexpr double of_few = 1.8; // (t / 3)^2 with seven degrees of freedom, .5 of 100 beyond
+    constexpr double of_few = 3; // of t with three degrees of freedom 96 of 100 are below 2 sqrt(3)
     return 1 + (of_few - 1) * together;
 }
 
@@ -215,6 +236,6 @@ GatheringErrors errors_of(const GatheringResult& result, const Workers& workers)
     return errors;
 }
 
-template GatheringErrors errors_of<8>(const GatheringResult& result, const Workers& workers);
+template GatheringErrors errors_of<4>(const GatheringResult& result, const Workers& workers);
 
 } // namespace hemilux

@@ -26,7 +26,8 @@ struct RowSpread;
 
 struct GatheringErrors {
     std::vector<Vec3> standard_error; ///< of the radiosity by patch [W/m2]
-    double variance = 0; ///< by the sets: sum over patches and channels of area times variance
+    double variance = 0;  ///< by the sets: sum over patches and channels of area times variance
+    double of_losses = 0; ///< the part of it that comes from how many rays were lost, by counting
     /// The same, of what random rays and what shadow rays have not seen.
     double unseen = 0, unseen_by_shadow_rays = 0;
     std::vector<std::uint32_t> part; ///< of each patch, see linked_parts.h
@@ -47,6 +48,6 @@ struct GatheringResult {
 template <std::size_t Sets>
 [[nodiscard]] GatheringErrors errors_of(const GatheringResult& result, const Workers& workers);
 
-extern template GatheringErrors errors_of<8>(const GatheringResult& result, const Workers& workers);
+extern template GatheringErrors errors_of<4>(const GatheringResult& result, const Workers& workers);
 
 } // namespace hemilux

@@ -6,6 +6,7 @@
 #include "radiosity/state.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -23,14 +24,18 @@ constexpr double fall = 1.5;
 constexpr double most_growth = 4;
 
 /// The part of an error asked for that a step is to reach, so that the run seldom takes one more.
-constexpr double aim_below = 1;
+constexpr double aim_below = .97;
+
+/// Of all rays in a step towards an error, the least; and from one number to the next that is
+/// tried.
+constexpr double least_step = 1.1, try_next = 1.04;
 
 /// The share of the weights that is measured; and what a patch's area counts.
 constexpr double trust = .5, area_exponent = .42;
 
-/// Of the shadow rays that it had got, what a patch keeps that no light has reached: few, but not
-/// none, as a lamp may shine through a gap that all of them have missed.
-constexpr double weight_of_unlit = 1e-3;
+/// Of the mean of shadow rays, what a patch gets that no light has reached: few, but not none, as a
+/// lamp may shine through a gap that all of them have missed.
+constexpr double share_of_unlit = 1.0 / 8;
 
 /// Black emitters count as if they reflected this: their rays tell where their light goes.
 constexpr double least_reflectance = .1;
@@ -56,9 +61,24 @@ GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random
     lamp_weights_ = prior_lamp_weights_;
 }
 
+void GatheringPlan::begin() {
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+        now_.rays.random[i] = weights_[i] > 0 ? 1 : 0;
+        now_.rays.to_lamps[i] = first_.to_lamps > 0 && lamp_weights_[i] > 0 ? 1 : 0;
+    }
+}
+
+void GatheringPlan::leave_out(const std::vector<bool>& lit) {
+    if (std::ranges::none_of(lit, std::identity{})) // nothing is known yet
+        return;
+    for (std::size_t i = 0; i < lit.size(); ++i)
+        if (!lit[i])
+            weights_[i] = lamp_weights_[i] = 0;
+}
+
 void GatheringPlan::grow(const KnownError& known, double room, const Workers& workers) {
     before_ = now_;
-    if (now_.random > 0) {
+    if (has_begun()) {
         choose(known);
         now_.random = std::min(now_.random, room * before_.random);
     } else {
@@ -71,6 +91,11 @@ void GatheringPlan::grow(const KnownError& known, double room, const Workers& wo
         else
             now_.rays.to_lamps = deal_rays(lamp_weights_, now_.to_lamps, before_.rays.to_lamps);
     });
+    const auto of_unlit =
+        std::bit_floor(static_cast<std::uint32_t>(share_of_unlit * now_.to_lamps));
+    for (std::size_t i = 0; i < lamp_weights_.size(); ++i)
+        if (lamp_weights_[i] == 0 && prior_lamp_weights_[i] > 0)
+            now_.rays.to_lamps[i] = std::max(of_unlit, before_.rays.to_lamps[i]);
 }
 
 void GatheringPlan::choose(const KnownError& known) {
@@ -79,10 +104,10 @@ void GatheringPlan::choose(const KnownError& known) {
         return split(rays + first_.random + first_.to_lamps, known);
     if (!(pace_.aim > 0))
         return split(2 * rays, known);
-    double factor = least_growth;
+    double factor = least_step;
     do
         split(factor * rays, known);
-    while (!(predicted(known) <= aim_below * pace_.aim) && (factor *= least_growth) <= most_growth);
+    while (!(predicted(known) <= aim_below * pace_.aim) && (factor *= try_next) <= most_growth);
 }
 
 /// So many rays in all go to the two kinds so that the error is least, as far as variances fall
@@ -170,8 +195,8 @@ void GatheringPlan::weigh_lamps(std::span<const double> variance, const std::vec
         if (variance[i] < 0)
             prior_lamp_weights_[i] = prior[i] = 0;
         if (!lit[i])
-            prior[i] *= weight_of_unlit;
-        if (prior_lamp_weights_[i] > 0)
+            prior[i] = 0;
+        if (prior[i] > 0)
             known[i] =
                 std::pow(variance[i] * std::pow(now_.rays.to_lamps[i], fall), 1 / (1 + fall));
     }

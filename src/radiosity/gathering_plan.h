@@ -43,6 +43,11 @@ class GatheringPlan {
     GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps,
                   const Pace& pace);
 
+    /// Plans a few rays of each patch, which tell what light can reach: leave_out.
+    void begin();
+    /// From the first step on, patches that no light has reached by these rays get no more.
+    void leave_out(const std::vector<bool>& lit);
+
     /// Plans more rays than before, at most `room` times as many random ones; `known` is not used
     /// for the first step.
     void grow(const KnownError& known, double room, const Workers& workers);
@@ -52,6 +57,8 @@ class GatheringPlan {
     /// In all until the next step ends.
     [[nodiscard]] const GatheringRays& rays() const { return now_.rays; }
     [[nodiscard]] bool at_most() const;
+    /// Whether the first step was planned.
+    [[nodiscard]] bool has_begun() const { return now_.random > 0; }
 
     /// From now on more to patches to which light comes that is uneven; none to those that no light
     /// reaches (`lit`), as far as all rays know. `variance`: of the light over the directions of
@@ -74,7 +81,7 @@ class GatheringPlan {
 
   private:
     struct Stage {
-        double random = 0, to_lamps = 0; ///< means
+        double random = 0, to_lamps = 0; ///< means over the patches that are to get more
         GatheringRays rays;
     };
     [[nodiscard]] double of_neighbours(std::uint32_t patch, std::span<const double> known) const;

@@ -1,7 +1,9 @@
 #include "radiosity/linked_parts.h"
 
 #include "radiosity/exchange_matrix.h"
+#include "radiosity/ray_counts.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace hemilux {
@@ -18,11 +20,17 @@ class DisjointSets {
             i = parent_[i] = parent_[parent_[i]];
         return i;
     }
-    void join(std::uint32_t a, std::uint32_t b) {
-        if (a < b)
-            parent_[b] = a;
-        else
-            parent_[a] = b;
+    void join(std::uint32_t i, std::uint32_t j) {
+        const std::uint32_t a = find(i), b = find(j);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+    [[nodiscard]] LinkedParts parts() {
+        LinkedParts parts;
+        for (std::uint32_t i = 0; i < parent_.size(); ++i) {
+            const std::uint32_t first = find(i);
+            parts.of.push_back(first == i ? parts.count++ : parts.of[first]);
+        }
+        return parts;
     }
 
   private:
@@ -34,22 +42,20 @@ class DisjointSets {
 LinkedParts find_linked_parts(const ExchangeMatrix& factors) {
     const auto n = static_cast<std::uint32_t>(factors.lost().size());
     DisjointSets sets(n);
-    for (std::uint32_t i = 0; i < n; ++i) {
-        std::uint32_t own = sets.find(i);
-        for (const MatrixEntry& entry : factors.row(i)) {
-            if (entry.column > i) // the matrix is symmetric
-                continue;
-            const std::uint32_t other = sets.find(entry.column);
-            sets.join(own, other);
-            own = std::min(own, other);
-        }
-    }
-    LinkedParts parts;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t first = sets.find(i);
-        parts.of.push_back(first == i ? parts.count++ : parts.of[first]);
-    }
-    return parts;
+    for (std::uint32_t i = 0; i < n; ++i)
+        for (const MatrixEntry& entry : factors.row(i))
+            if (entry.column < i) // the matrix is symmetric
+                sets.join(i, entry.column);
+    return sets.parts();
+}
+
+LinkedParts find_linked_parts(std::span<const RayCounts> sets_of_rays) {
+    DisjointSets sets(sets_of_rays[0].patches());
+    for (const RayCounts& set : sets_of_rays)
+        for (std::uint32_t i = 0; i < set.patches(); ++i)
+            for (const RayCounts::Count& seen : set.row(i))
+                sets.join(i, seen.patch);
+    return sets.parts();
 }
 
 } // namespace hemilux

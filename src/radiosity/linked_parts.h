@@ -3,11 +3,13 @@
 // rays know.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hemilux {
 
 class ExchangeMatrix;
+class RayCounts;
 
 struct LinkedParts {
     std::vector<std::uint32_t> of; ///< part of each patch
@@ -17,5 +19,7 @@ struct LinkedParts {
 /// Two patches are of one part if a ray has passed between them, or between each of them and a
 /// third. Parts are numbered in the order of their first patches. O(entries).
 [[nodiscard]] LinkedParts find_linked_parts(const ExchangeMatrix& factors);
+/// The same of several sets of rays.
+[[nodiscard]] LinkedParts find_linked_parts(std::span<const RayCounts> sets);
 
 } // namespace hemilux

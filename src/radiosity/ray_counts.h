@@ -37,6 +37,7 @@ class RayCounts {
     static std::uint64_t trace_up_to(std::span<RayCounts> sets, std::span<const std::uint32_t> rays,
                                      const Workers& workers, Monitor& monitor, double share);
 
+    [[nodiscard]] std::uint32_t patches() const { return static_cast<std::uint32_t>(rows_.size()); }
     /// Of this patch.
     [[nodiscard]] std::uint32_t rays(std::uint32_t patch) const { return rows_[patch].rays; }
     /// Each patch once, in the order in which they were first struck.

@@ -56,6 +56,9 @@ RelativeError true_error(const Mesh& mesh, std::span<const Vec3> radiosity,
     return {all.root(), inside.root(), outside.root()};
 }
 
+/// One error in all, which is normally distributed with a known variance.
+constexpr ErrorSpread known_spread_of_one_part{1, std::numeric_limits<double>::infinity()};
+
 double estimated_error(const Mesh& mesh, const Solution& solution) {
     Ratio all;
     for (std::uint32_t i = 0; i < solution.radiosity.size(); ++i) {
@@ -69,7 +72,10 @@ double estimated_error(const Mesh& mesh, const Solution& solution) {
     all.value -= all.error; // the square of an estimate is too large by its variance
     if (all.error > 0) {
         const double more = error_spread(mesh, solution).reported();
-        all.error *= more * more;
+        const double of_level = known_spread_of_one_part.reported();
+        const double rest = std::max(all.error - solution.variance_of_level, 0.0);
+        all.error = std::max(all.error,
+                             more * more * rest + of_level * of_level * solution.variance_of_level);
     }
     all.error += solution.unseen;
     return !solution.may_find_light && all.error == 0 ? 0 : all.root();

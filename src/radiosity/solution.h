@@ -33,6 +33,9 @@ struct Solution {
     /// Sum over patches and channels of area times the variance of B, where that is known better
     /// than from standard_error, which is on the safe side where few rays arrive.
     std::optional<double> variance;
+    /// The part of that sum by which all light of a part of the scene is off together, where it is
+    /// known by counting and not from a few samples.
+    double variance_of_level = 0;
     /// The same sum for what no ray may have seen so far: the squared error by the rule of three,
     /// which counts besides the variance.
     double unseen = 0;

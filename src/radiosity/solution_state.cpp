@@ -21,6 +21,7 @@ void save_solution(const Solution& solution, StateWriter& state) {
     state.add(solution.error_samples);
     state.add(solution.error_parts.value_or(0));
     state.add(solution.variance.value_or(-1));
+    state.add(solution.variance_of_level);
     state.add(solution.unseen);
     state.add(std::uint64_t{solution.unlit});
     save_energy(solution.energy, state);
@@ -38,6 +39,7 @@ void load_solution(Solution& solution, StateReader& state) {
     solution.error_parts = parts > 0 ? std::optional(parts) : std::nullopt;
     const double variance = state.number();
     solution.variance = variance >= 0 ? std::optional(variance) : std::nullopt;
+    state.get(solution.variance_of_level);
     state.get(solution.unseen);
     solution.unlit = state.whole();
     load_energy(solution.energy, state);

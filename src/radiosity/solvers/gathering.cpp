@@ -8,7 +8,7 @@
 //
 // Parameter: --rays, of the first step, half of them random, half to the lamps. Each step adds as
 // many, or as many as there are, or as many as an error asked for will take (gathering_plan.h), of
-// the kind that the error comes from. Eight independent sets of both give eight solutions, whose
+// the kind that the error comes from. Four independent sets of both give four solutions, whose
 // spread is the standard error; the result is the solution of all rays together.
 //
 // Consistent: the solution depends on what was counted in a non-linear way, so its bias falls as
@@ -25,6 +25,7 @@
 #include "radiosity/gathering_errors.h"
 #include "radiosity/gathering_plan.h"
 #include "radiosity/gathering_system.h"
+#include "radiosity/linked_parts.h"
 #include "radiosity/mesh.h"
 #include "radiosity/ray_counts.h"
 #include "radiosity/rng.h"
@@ -44,7 +45,7 @@
 namespace hemilux {
 namespace {
 
-constexpr unsigned sets = 8;
+constexpr unsigned sets = 4;
 
 constexpr std::size_t patches_per_chunk = 512;
 
@@ -70,6 +71,8 @@ class GatheringSolver final : public Solver {
     }
 
     bool step() override {
+        if (!plan_.has_begun() && !begin())
+            return false;
         plan();
         const auto& [rays, samples] = plan_.rays();
         input_.monitor.phase = "rays";
@@ -134,6 +137,26 @@ class GatheringSolver final : public Solver {
         const double each = input.options.rays / (lamps ? 2 * sets : sets);
         return {input.mesh, input.needs, each, lamps ? each : 0,
                 Pace{input.options.growing_steps, input.options.aim}};
+    }
+
+    /// A few rays find the parts of the scene that light can reach, which alone get more.
+    [[nodiscard]] bool begin() {
+        plan_.begin();
+        input_.monitor.phase = "rays";
+        traced_ +=
+            RayCounts::trace_up_to(counts_, plan_.rays().random, workers_, input_.monitor, 0);
+        traced_ += direct_->sample_up_to(plan_.rays().to_lamps, workers_, input_.monitor);
+        if (input_.monitor.interrupted)
+            return false;
+        const LinkedParts parts = find_linked_parts(counts_);
+        std::vector<bool> lit_part(parts.count), lit;
+        for (std::uint32_t i = 0; i < parts.of.size(); ++i)
+            if (system_.emission()[i] != Vec3(0.0) || direct_->hits(i) > 0)
+                lit_part[parts.of[i]] = true;
+        for (const std::uint32_t part : parts.of)
+            lit.push_back(lit_part[part]);
+        plan_.leave_out(lit);
+        return true;
     }
 
     /// Unless an interrupted step is to be taken up.
@@ -205,6 +228,7 @@ class GatheringSolver final : public Solver {
         variance_ = std::max(errors.variance + errors.unseen, direct_variance_);
         solution_.standard_error = std::move(errors.standard_error);
         solution_.variance = errors.variance;
+        solution_.variance_of_level = errors.of_losses;
         solution_.unseen = errors.unseen + errors.unseen_by_shadow_rays;
         solution_.error_samples = sets;
         solution_.error_parts = error_parts(spread.products, sets);
