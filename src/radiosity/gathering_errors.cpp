@@ -59,24 +59,26 @@ class Account {
     }
 
     void add_unseen(GatheringErrors& errors) const {
-        double unblocked = 0; // power
+        std::vector<double> dark(parts_.count); // one of them at a time has got those few rays
+        double shadow_rays = 0;                 // that arrive if nothing is in their way
         for (std::uint32_t i = 0; i < area_.size(); ++i)
-            unblocked += area_[i] * result_.direct.unblocked(i);
+            shadow_rays += shadow_rays_of(i);
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
             const Vec3 level = lit_[i] ? unseen_loss(i) + unseen_sights_[i] : unseen_light(i);
-            errors.unseen += area_[i] * glm::dot(level, level);
+            (lit_[i] ? errors.unseen : dark[parts_.of[i]]) += area_[i] * glm::dot(level, level);
             const Vec3 loss = known_loss(i);
             errors.of_losses += area_[i] * glm::dot(loss, loss);
             const Vec3 sample = one_shadow_ray(i);
-            const bool dark = result_.direct.hits(i) == 0;
-            const Vec3 one = glm::max(glm::max(one_ray(i), loss), dark ? sample : Vec3(0.0));
+            const bool missed = result_.direct.hits(i) == 0;
+            const Vec3 one = glm::max(glm::max(one_ray(i), loss), missed ? sample : Vec3(0.0));
             Vec3& sigma = errors.standard_error[i];
             sigma = glm::sqrt(glm::max(sigma * sigma, one * one) + level * level);
-            const double share =
-                unblocked > 0 ? area_[i] * result_.direct.unblocked(i) / unblocked : 0;
+            const double share = shadow_rays > 0 ? shadow_rays_of(i) / shadow_rays : 0;
             errors.unseen_by_shadow_rays +=
-                rule_of_three * rule_of_three * share * area_[i] * glm::dot(sample, sample);
+                rule_of_three * share * area_[i] * glm::dot(sample, sample);
         }
+        if (!dark.empty())
+            errors.unseen += std::ranges::max(dark);
         errors.part = parts_.of;
         errors.lit = lit_;
     }
@@ -144,9 +146,16 @@ class Account {
         return rho_[i] * ratio_or_zero(power, part.appetite);
     }
 
-    /// What a single ray at random stands for, where light comes from.
+    /// What a single ray at random stands for, where light comes from: one of the patch's own rays,
+    /// or of those that others of its part send.
     [[nodiscard]] Vec3 one_ray(std::uint32_t i) const {
-        return rays_[i] > 0 ? rho_[i] * result_.rows.typical[i] / rays_[i] : Vec3(0.0);
+        if (!(rays_[i] > 0))
+            return Vec3(0.0);
+        const double of_others = ledger(i).rays / ledger(i).area * area_[i];
+        return rho_[i] * result_.rows.typical[i] / (rays_[i] + of_others);
+    }
+    [[nodiscard]] double shadow_rays_of(std::uint32_t i) const {
+        return result_.direct.unblocked(i) > 0 ? double(result_.direct.samples(i)) : 0;
     }
     /// The light that one shadow ray more or less would bring: through a gap that all have missed,
     /// or behind a thing that none has met.

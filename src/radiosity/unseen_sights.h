@@ -25,8 +25,8 @@ struct PatchLight {
 /// The mean of what leaves, weighted by itself: that of the patches that most light comes from.
 [[nodiscard]] Vec3 bright_radiosity(const PatchLight& light);
 
-/// By patch [W/m2 leaving]: what it would reflect if three of the rays of all patches that are not
-/// brighter than it had met something bright.
+/// By patch [W/m2 leaving]: what it would reflect if three rays had met something bright, of those
+/// of all patches that are not brighter than it, and of those by which bright patches look at it.
 [[nodiscard]] std::vector<Vec3> unseen_sights(const PatchLight& light);
 
 } // namespace hemilux
