@@ -117,7 +117,8 @@ std::vector<std::uint32_t> shares_of(const std::vector<double>& weights, std::ui
 std::vector<SideLight> light_on_sides(const Mesh& mesh, const Tracer& tracer,
                                       const Targets& targets,
                                       const std::vector<bool>& shines_back) {
-    constexpr std::uint32_t paths = 1u << 13;
+    // Most files are in order: their backs stay dark, and the first paths show it.
+    constexpr std::uint32_t first_paths = 1u << 11, more_paths = 3u << 11;
     constexpr double reflected = 0.5;
     Rng rng(1);
     std::vector<SideLight> light(shines_back.size(), SideLight{});
@@ -127,16 +128,20 @@ std::vector<SideLight> light_on_sides(const Mesh& mesh, const Tracer& tracer,
         return rng.uniform() < reflected;
     };
     // Every other path starts towards a target.
-    for_each_path(powers_of(mesh), paths, [&](std::uint32_t f, std::uint32_t k) {
+    const auto emit = [&](std::uint32_t f, std::uint32_t k) {
         const FacetSide side{f, shines_back[f]};
         const std::optional<Ray> aimed = k % 2 == 1 ? targets.ray_from(side, rng) : std::nullopt;
         follow(mesh, tracer, aimed ? *aimed : diffuse_ray(mesh, side, rng), rng, arrive);
-    });
+    };
+    const std::vector<double> power = powers_of(mesh);
+    for_each_path(power, first_paths, emit);
+    if (std::ranges::any_of(light, [](const SideLight& side) { return side[1] > 0; }))
+        for_each_path(power, more_paths, emit);
     return light;
 }
 
 LightShares find_light_shares(const Mesh& mesh, const Tracer& tracer) {
-    constexpr std::uint32_t paths = 4096;
+    constexpr std::uint32_t paths = 1024;
     constexpr double longest = 0.99; // of the chances to go on
     const bool two_sided = std::ranges::any_of(mesh.patches(), &Patch::back);
     const auto material = [&](std::uint32_t f) -> const Material& {
