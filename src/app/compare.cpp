@@ -6,6 +6,7 @@
 #include "app/compare_summary.h"
 #include "app/exit_code.h"
 #include "app/load.h"
+#include "app/memory.h"
 #include "app/method_options.h"
 #include "app/progress.h"
 #include "app/signals.h"
@@ -127,7 +128,8 @@ int run_comparison(const CompareSettings& settings) {
     make_folder(settings.folder);
     Monitor monitor;
     InterruptGuard guard;
-    LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk);
+    LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk,
+                                  bytes_of_compared_pictures(settings.view.size));
     const Mesh& mesh = loaded.mesh;
     check_exact(settings.options, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);

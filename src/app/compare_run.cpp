@@ -1,7 +1,9 @@
 #include "app/compare_run.h"
 
 #include "app/memory.h"
+#include "app/step_size.h"
 #include "app/stopwatch.h"
+#include "radiosity/time_limit.h"
 
 #include <algorithm>
 #include <memory>
@@ -25,6 +27,8 @@ class Runner {
     Runner(const Contest& contest, const Entrant& entrant, std::uint32_t run, const Budget& budget)
         : contest_(contest), entrant_(entrant), run_(run), budget_(budget),
           options_(with_memory(contest.settings.options, contest.settings.scene)) {
+        options_.rays = rays_of_step(options_.rays, budget.seconds, *entrant.method,
+                                     contest.mesh.patches().size());
         options_.seed += run;
         options_.literal = options_.literal && entrant.method->has_literal;
         options_.guide = entrant.guide.value_or(options_.guide);
@@ -34,12 +38,15 @@ class Runner {
         seconds_ = preparing.seconds();
     }
 
-    /// False when it was interrupted.
+    /// False when it was interrupted, or cut short as it took much longer than the budget.
     bool step() {
         const double before = used();
         const Stopwatch stepping;
-        if (!solver_->step())
+        const TimeLimit limit(contest_.monitor.interrupted, seconds_left());
+        if (!solver_->step()) {
+            cut_short_ = !contest_.monitor.interrupted.load();
             return false;
+        }
         seconds_ += stepping.seconds();
         step_before_ = last_step_;
         last_step_ = used() - before;
@@ -49,6 +56,8 @@ class Runner {
 
     /// Whether the next step would end farther from the budget than the last one did.
     [[nodiscard]] bool done() const {
+        if (cut_short_)
+            return true;
         if (result_.rows.empty())
             return false;
         const double growth =
@@ -67,6 +76,13 @@ class Runner {
     }
 
   private:
+    /// A step may end as far behind the budget as another would end before it.
+    [[nodiscard]] std::optional<double> seconds_left() const {
+        constexpr double least = 1;
+        if (!budget_.seconds)
+            return std::nullopt;
+        return std::max(2 * *budget_.seconds - seconds_, least);
+    }
     [[nodiscard]] double limit() const { return budget_.rays ? *budget_.rays : *budget_.seconds; }
     [[nodiscard]] double used() const {
         return budget_.rays ? static_cast<double>(rays()) : seconds_;
@@ -88,6 +104,7 @@ class Runner {
     Budget budget_;
     SolveOptions options_;
     std::unique_ptr<Solver> solver_;
+    bool cut_short_ = false;
     double seconds_ = 0;
     double last_step_ = 0, step_before_ = 0; ///< of the budget
     MethodRun result_;
@@ -116,8 +133,10 @@ void run_once(const Contest& contest, std::uint32_t run, Runners& runners,
     while (!contest.monitor.interrupted) {
         const auto least = std::ranges::min_element(
             runners, {}, [](const auto& runner) { return runner->share(); });
-        if ((*least)->done() || !(*least)->step())
+        if ((*least)->done())
             break;
+        if (!(*least)->step())
+            continue;
         after_step((*least)->last_row(), mean_share(runners, entrants.size()));
     }
 }

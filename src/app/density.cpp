@@ -165,7 +165,7 @@ int density(const DensitySettings& settings) {
     const InterruptGuard guard(monitor.interrupted);
     const Mesh mesh = load_geometry(settings.scene, settings.talk);
     check_patch(settings, mesh);
-    const WideBvh bvh(mesh.soup(), {.threads = settings.options.threads});
+    const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     const Hemisphere hemisphere(settings.options.depth);
     const DensityMap map(mesh, bvh, hemisphere, settings.options.threshold,
                          Workers(settings.options.threads), monitor);

@@ -72,7 +72,7 @@ int formfactors(const FormFactorSettings& settings) {
     const InterruptGuard guard(monitor.interrupted);
     const Mesh mesh = load_geometry(settings.scene, settings.talk);
     check_size(settings, mesh.patches().size());
-    const WideBvh bvh(mesh.soup(), {.threads = settings.options.threads});
+    const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     const Workers workers(settings.options.threads);
     SampledFormFactors samples(mesh, bvh, {}, settings.options.seed);
     const auto matrix = compute(settings, mesh, samples, workers, monitor);

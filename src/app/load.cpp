@@ -55,7 +55,7 @@ ReadResult load_scene(const SceneSettings& settings) {
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension != ".obj")
         throw InputError(settings.path, "not a kind of scene that can be read; .obj can");
-    ReadResult read = read_obj(settings.path);
+    ReadResult read = read_obj(settings.path, memory_guard(settings.path, settings.memory));
     apply_overrides(read.scene, &Material::emission, settings.emission);
     apply_overrides(read.scene, &Material::reflectance, settings.reflectance);
     return read;
@@ -117,18 +117,24 @@ Prepared prepare(LoadedMesh& loaded, const SolveOptions& options) {
 }
 
 LoadedMesh load_mesh(const SceneSettings& settings, const SolveOptions& options,
-                     std::span<const Method* const> methods, Talk talk) {
+                     std::span<const Method* const> methods, Talk talk, double bytes_of_pictures) {
     const Stopwatch reading;
     check_memory_to_read(settings.path, settings.memory);
     ReadResult read = load_scene(settings);
     say_warnings(talk, read.warnings);
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
-    check_memory(memory_need(read.scene, settings.mesh, options, methods), settings.memory,
-                 settings.path);
+    MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods);
+    need.pictures = bytes_of_pictures;
+    check_memory(need, settings.memory, settings.path);
     const Stopwatch dividing;
     SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, talk);
     LoadedMesh loaded{std::move(sided.mesh), std::move(sided.made), seconds, dividing.seconds()};
+    if (!loaded.mesh.is_laid_apart())
+        say(talk, Talk::normal,
+            "warning: " + settings.path +
+                ": very many faces lie over each other in one plane; for some of them it was not "
+                "found out which of two covers the other, and rays meet either");
     say(talk, Talk::verbose, mesh_text(loaded.mesh));
     return loaded;
 }

@@ -30,7 +30,8 @@ struct LoadedMesh {
 /// All of this together, with what there is to say about it. Throws MemoryError where the methods
 /// would need more than they may.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const SolveOptions& options,
-                                   std::span<const Method* const> methods, Talk talk);
+                                   std::span<const Method* const> methods, Talk talk,
+                                   double bytes_of_pictures);
 
 struct Prepared {
     Needs needs; ///< everything with --keep-all

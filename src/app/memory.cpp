@@ -1,6 +1,7 @@
 #include "app/memory.h"
 
 #include "app/text.h"
+#include "radiosity/coplanar_overlaps.h"
 #include "radiosity/hemisphere.h"
 
 #include <algorithm>
@@ -31,6 +32,11 @@ constexpr double replicates = 8;
 /// What `gathering` may use for its rays where --memory says nothing: a scene of a million patches
 /// then stays within 4 GiB.
 constexpr std::uint64_t usual_transport = std::uint64_t{5} << 29;
+/// Corners, planes and boxes of both sides of a facet, and its edges.
+constexpr double bytes_of_analysis = 350;
+/// Per pixel: the picture, its bytes, the rows that are compressed, and the file. For `compare`
+/// there are the reference, the method and their difference.
+constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
 /// Rays that wait to be summed.
 constexpr double bytes_of_volleys = 32e6;
 
@@ -120,6 +126,9 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
     need.scene = bytes_of_program + growth * (sizeof(Vec3) * vertices + sizeof(Facet) * facets);
     need.mesh =
         sizeof(Patch) * patches + sizeof(Vec3) * vertices + (sizeof(FacetCorners) + 48) * facets;
+    need.pairs =
+        OverlapLimits::bytes_per_pair * static_cast<double>(OverlapLimits::of(scene).pairs);
+    need.analysis = bytes_of_analysis * facets;
     for (const Facet& facet : scene.facets)
         need.tree += bytes_per_triangle * (facet.is_triangle() ? 1 : 2);
     for (const Method* const method : methods)
@@ -132,14 +141,40 @@ SolveOptions with_memory(SolveOptions options, const SceneSettings& scene) {
     return options;
 }
 
+double bytes_of_picture(PixelSize size) {
+    return bytes_per_pixel * static_cast<double>(size.width) * size.height;
+}
+
+double bytes_of_compared_pictures(PixelSize size) {
+    return bytes_per_compared_pixel * static_cast<double>(size.width) * size.height;
+}
+
+namespace {
+
+/// Reading takes more than it may.
+MemoryError too_large_to_read(const std::string& path, double need, std::uint64_t limit) {
+    return MemoryError(path + ": needs " + rounded(need) + " to be read alone, and --memory is " +
+                       rounded(static_cast<double>(limit)));
+}
+
+} // namespace
+
+std::function<void(double bytes)> memory_guard(const std::string& path,
+                                               std::optional<std::uint64_t> limit) {
+    if (!limit)
+        return {};
+    return [path, limit](double bytes) {
+        if (const double need = bytes_of_program + bytes; need > static_cast<double>(*limit))
+            throw too_large_to_read(path, need, *limit);
+    };
+}
+
 void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     const double need = bytes_of_program + (error ? 0 : static_cast<double>(size));
     if (limit && need > static_cast<double>(*limit))
-        throw MemoryError(path + ": needs " + rounded(need) +
-                          " to be read alone, and --memory is " +
-                          rounded(static_cast<double>(*limit)));
+        throw too_large_to_read(path, need, *limit);
 }
 
 void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
@@ -148,9 +183,10 @@ void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
         return;
     throw MemoryError(path + ": needs about " + rounded(need.all()) + " (scene " +
                       rounded(need.scene) + ", patches " + rounded(need.mesh) + ", tree " +
-                      rounded(need.tree) + ", method " + rounded(need.method) +
-                      "), and --memory is " + rounded(static_cast<double>(*limit)) +
-                      "; a larger --max-edge or fewer --rays need less");
+                      rounded(need.tree) + ", method " + rounded(need.method) + ", pictures " +
+                      rounded(need.pictures) + "), and --memory is " +
+                      rounded(static_cast<double>(*limit)) +
+                      "; a larger --max-edge, fewer --rays or a smaller --size need less");
 }
 
 } // namespace hemilux

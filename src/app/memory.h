@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -19,12 +20,18 @@ namespace hemilux {
 
 /// What a run needs at its peak, by parts [bytes].
 struct MemoryNeed {
-    double scene = 0;  ///< as read
-    double mesh = 0;   ///< patches
-    double tree = 0;   ///< for the rays
-    double method = 0; ///< of several, the greediest
+    double scene = 0;    ///< as read
+    double mesh = 0;     ///< patches
+    double tree = 0;     ///< for the rays
+    double pairs = 0;    ///< of facets in one plane, until they are laid apart
+    double analysis = 0; ///< which sides face the light, what light may reach
+    double method = 0;   ///< of several, the greediest
+    double pictures = 0; ///< while they are written
     /// The list of patches grows by being copied, before there is anything else.
-    [[nodiscard]] double all() const { return scene + std::max(2 * mesh, mesh + tree + method); }
+    [[nodiscard]] double all() const {
+        return scene +
+               std::max(2 * mesh + pairs, mesh + tree + std::max(analysis, method + pictures));
+    }
 };
 
 /// Patches that a division of the faces will make, at the most.
@@ -40,6 +47,13 @@ struct MemoryNeed {
 struct MemoryError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
+/// Bytes at the peak of writing a picture of so many pixels, or for `compare` all of its pictures.
+[[nodiscard]] double bytes_of_picture(PixelSize size);
+[[nodiscard]] double bytes_of_compared_pictures(PixelSize size);
+
+/// While the file is read: throws MemoryError once that takes more.
+[[nodiscard]] std::function<void(double bytes)> memory_guard(const std::string& path,
+                                                             std::optional<std::uint64_t> limit);
 /// Before the file is read, by its size.
 void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit);
 /// Before the faces are divided. Throws MemoryError, which says what is needed for what.

@@ -13,6 +13,7 @@
 #include "app/sides.h"
 #include "app/signals.h"
 #include "app/step_pictures.h"
+#include "app/step_size.h"
 #include "app/stopwatch.h"
 #include "app/summary.h"
 #include "app/talk.h"
@@ -99,6 +100,10 @@ int finish(const SolveSettings& settings, const Results& results, const WriteRep
         say(settings.talk, Talk::normal, "warning: " + note);
     if (results.solution.steps > 0)
         say_lost_light(settings, results);
+    else if (!interrupted)
+        say(settings.talk, Talk::quiet,
+            "warning: the time ended before the first step was done; the outputs hold emission "
+            "alone; a longer --time or fewer --rays give a solution");
     say(settings.talk, Talk::verbose, memory_text(results.statistics));
     if (reference) {
         const Solution& solution = results.solution;
@@ -133,7 +138,10 @@ int solve(const SolveSettings& settings) {
 
     Workers(settings.options.threads).start();
     const std::optional<Checkpoint> resumed = read_resumed(settings);
-    LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk);
+    LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk,
+                                  std::ranges::any_of(settings.outputs, is_picture, &Output::kind)
+                                      ? bytes_of_picture(settings.view.size)
+                                      : 0);
     const Mesh& mesh = loaded.mesh;
     check_exact(settings.options, mesh.patches().size());
     const StopRule stop = stop_rule(settings, mesh.patches().size());
@@ -153,6 +161,9 @@ int solve(const SolveSettings& settings) {
                       settings.talk != Talk::quiet && stderr_is_terminal());
     const Stopwatch solving;
     SolveOptions options = with_memory(settings.options, settings.scene);
+    options.rays =
+        rays_of_step(options.rays, settings.stop.seconds, *settings.method, mesh.patches().size());
+    say_rays_of_step(settings.talk, settings.options.rays, options.rays);
     options.growing_steps = !stop.steps;
     options.aim = stop.error.value_or(0);
     options.expected_steps = expected_steps(stop);

@@ -8,7 +8,10 @@
 namespace hemilux {
 namespace {
 
-using Meet = std::function<bool(std::uint32_t, std::uint32_t)>;
+struct Meet {
+    const std::function<bool(std::uint32_t, std::uint32_t)>& call;
+    std::size_t left; ///< comparisons
+};
 
 /// A half-open part of the plane.
 struct Part {
@@ -27,13 +30,17 @@ bool belongs_to(const Rectangle& a, const Rectangle& b, const Part& part) {
            begin.y < part.high.y;
 }
 
-bool compare_all(const std::vector<Rectangle>& rectangles, const Part& part, const Meet& meet) {
-    for (std::size_t i = 1; i < rectangles.size(); ++i)
+bool compare_all(const std::vector<Rectangle>& rectangles, const Part& part, Meet& meet) {
+    for (std::size_t i = 1; i < rectangles.size(); ++i) {
+        if (meet.left < i)
+            return false;
+        meet.left -= i;
         for (std::size_t j = 0; j < i; ++j) {
             const Rectangle &a = rectangles[i], &b = rectangles[j];
-            if (overlap(a, b) && belongs_to(a, b, part) && !meet(a.index, b.index))
+            if (overlap(a, b) && belongs_to(a, b, part) && !meet.call(a.index, b.index))
                 return false;
         }
+    }
     return true;
 }
 
@@ -77,7 +84,7 @@ Halves halve(const std::vector<Rectangle>& rectangles, const Part& part, int axi
     return halves;
 }
 
-bool search(std::vector<Rectangle> rectangles, const Part& part, int axis, const Meet& meet) {
+bool search(std::vector<Rectangle> rectangles, const Part& part, int axis, Meet& meet) {
     constexpr std::size_t few = 64;
     if (rectangles.size() < few)
         return compare_all(rectangles, part, meet);
@@ -95,8 +102,11 @@ bool search(std::vector<Rectangle> rectangles, const Part& part, int axis, const
 
 } // namespace
 
-void for_each_overlap(std::vector<Rectangle> rectangles, const Meet& meet) {
-    search(std::move(rectangles), {}, 0, meet);
+bool for_each_overlap(std::vector<Rectangle> rectangles,
+                      const std::function<bool(std::uint32_t, std::uint32_t)>& meet,
+                      std::size_t most) {
+    Meet counted{meet, most};
+    return search(std::move(rectangles), {}, 0, counted);
 }
 
 } // namespace hemilux

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace hemilux {
@@ -17,8 +18,10 @@ struct Rectangle {
 
 /// Calls meet(a, b) with the indices of every pair whose insides overlap, once each, until it
 /// answers false. The plane is halved until few rectangles are in a part: O(n log n + pairs). Where
-/// halving does not part them all are compared with all, unless they are of one set.
-void for_each_overlap(std::vector<Rectangle> rectangles,
-                      const std::function<bool(std::uint32_t, std::uint32_t)>& meet);
+/// halving does not part them all are compared with all, unless they are of one set. False where
+/// meet() answered so, or where more than `most` comparisons were left.
+bool for_each_overlap(std::vector<Rectangle> rectangles,
+                      const std::function<bool(std::uint32_t, std::uint32_t)>& meet,
+                      std::size_t most = std::numeric_limits<std::size_t>::max());
 
 } // namespace hemilux

@@ -9,6 +9,8 @@ namespace hemilux {
 void EarClipper::start(std::span<const Vec2> corners, double rounding) {
     const auto n = static_cast<std::uint32_t>(corners.size());
     corner_ = corners;
+    straight_.clear();
+    left_turns_.clear();
     rounding_ = rounding;
     node_.clear();
     blockers_.clear();
@@ -24,18 +26,19 @@ void EarClipper::start(std::span<const Vec2> corners, double rounding) {
     for (std::uint32_t i = 0; i < n && left_ > 2; ++i)
         if (!node_[i].cut && node_[i].turn == Turn::back)
             (void)unlink(i);
+    std::vector<std::uint32_t> blockers;
     for (std::uint32_t i = 0; i < n; ++i)
         if (!node_[i].cut && node_[i].turn != Turn::left)
-            blockers_.push_back(i);
-    std::sort(blockers_.begin(), blockers_.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return corner_[a].x < corner_[b].x; });
+            blockers.push_back(i);
+    blockers_.build(corners, std::move(blockers));
     for (std::uint32_t i = 0; i < n; ++i)
         if (!node_[i].cut)
             enqueue_if_ear(i);
 }
 
 std::span<const EarClipper::Triangle> EarClipper::clip(std::span<const Vec2> corners,
-                                                       double rounding) {
+                                                       double rounding, std::uint64_t& work) {
+    work_ = &work;
     start(corners, rounding);
     for (std::size_t front = 0; left_ >= 3;) {
         if (front == queue_.size()) {
@@ -62,27 +65,24 @@ void EarClipper::find_turn(std::uint32_t i) {
                 : goes_on  ? Turn::straight
                            : Turn::back;
     ++node.version;
+    blockers_.set(i, !node.cut && node.turn != Turn::left);
+    if (node.turn == Turn::straight)
+        straight_.push_back(i);
+    else if (node.turn == Turn::left)
+        left_turns_.push_back(i);
 }
 
 /// Only corners that are not convex need be looked at: where any lies inside, the one farthest from
 /// the diagonal is not convex. Those at the place of a corner of the triangle itself do not count;
 /// polygons with a hole visit the ends of the bridge to it twice.
-bool EarClipper::has_corner_inside(std::uint32_t i) const {
-    const Vec2 a = corner_[node_[i].previous], b = corner_[i], c = corner_[node_[i].next];
-    const Vec2 low = glm::min(glm::min(a, b), c), high = glm::max(glm::max(a, b), c);
-    auto k = std::lower_bound(blockers_.begin(), blockers_.end(), low.x - rounding_,
-                              [&](std::uint32_t j, double x) { return corner_[j].x < x; });
-    for (; k != blockers_.end() && corner_[*k].x <= high.x + rounding_; ++k) {
-        const Vec2 p = corner_[*k];
-        if (p.y < low.y - rounding_ || p.y > high.y + rounding_)
-            continue;
-        if (node_[*k].cut || node_[*k].turn == Turn::left || p == a || p == b || p == c)
-            continue;
-        if (turn_at(a, b, p, rounding_) >= 0 && turn_at(b, c, p, rounding_) >= 0 &&
-            turn_at(c, a, p, rounding_) >= 0)
-            return true;
-    }
-    return false;
+bool EarClipper::has_corner_inside(std::uint32_t i) {
+    if (*work_ == 0)
+        return false;
+    const std::uint64_t before = blockers_.visits();
+    const bool found = blockers_.any_inside(
+        {corner_[node_[i].previous], corner_[i], corner_[node_[i].next]}, rounding_);
+    *work_ -= std::min(*work_, blockers_.visits() - before);
+    return found;
 }
 
 void EarClipper::enqueue_if_ear(std::uint32_t i) {
@@ -105,6 +105,7 @@ std::array<std::uint32_t, 2> EarClipper::unlink(std::uint32_t i) {
     for (;;) {
         const std::uint32_t previous = node_[i].previous, next = node_[i].next;
         node_[i].cut = true;
+        blockers_.set(i, false);
         node_[previous].next = next;
         node_[next].previous = previous;
         some_ = next;
@@ -120,22 +121,28 @@ std::array<std::uint32_t, 2> EarClipper::unlink(std::uint32_t i) {
     }
 }
 
+/// One that lies near the last that was cut, else any.
+std::optional<std::uint32_t> EarClipper::find(Turn turn) {
+    constexpr std::size_t near = 64;
+    std::uint32_t i = some_;
+    for (std::size_t k = 0; k < std::min(left_, near); ++k, i = node_[i].next)
+        if (node_[i].turn == turn)
+            return i;
+    std::vector<std::uint32_t>& known = turn == Turn::straight ? straight_ : left_turns_;
+    while (!known.empty() && !is_at(known.back(), turn))
+        known.pop_back();
+    return known.empty() ? std::nullopt : std::optional(known.back());
+}
+
 /// Without ears left: a straight corner goes without a triangle, as it has no area. In a polygon
 /// that crosses itself any convex corner is cut, else any at all, its triangle turned to the front.
 void EarClipper::force_one() {
-    const auto find = [&](Turn turn) {
-        std::uint32_t i = some_;
-        for (std::size_t k = 0; k < left_ && node_[i].turn != turn; ++k)
-            i = node_[i].next;
-        return node_[i].turn == turn ? i : static_cast<std::uint32_t>(node_.size());
-    };
-    const auto missing = static_cast<std::uint32_t>(node_.size());
-    if (const std::uint32_t i = find(Turn::straight); i != missing)
-        return remove(i);
+    if (const auto i = find(Turn::straight))
+        return remove(*i);
     ran_out_ = true;
-    if (const std::uint32_t i = find(Turn::left); i != missing) {
-        emit(i);
-        return remove(i);
+    if (const auto i = find(Turn::left)) {
+        emit(*i);
+        return remove(*i);
     }
     emit(some_);
     std::swap(triangles_.back()[1], triangles_.back()[2]);

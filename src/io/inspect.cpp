@@ -154,7 +154,8 @@ std::string describe(const SceneInfo& info) {
               "facets in the place of another that faces the same way, wholly or in part; one of "
               "them is seen");
     if (!info.all_compared)
-        add_line(text, "covered", "perhaps more: there are too many slivers over each other");
+        add_line(text, "covered",
+                 "perhaps more: too many facets lie over each other to compare them all");
     for (const std::string& message : info.bad_reflectances)
         add_line(text, "bad reflectance", message);
     return text;

@@ -96,6 +96,11 @@ void MaterialTable::read_library(const std::string& file) {
     const std::filesystem::path identity = std::filesystem::weakly_canonical(file, error);
     if (!libraries_read_.insert(error ? std::filesystem::path(file) : identity).second)
         return;
+    /// Of the shortest statements that make a material.
+    constexpr double bytes_per_character = 16;
+    if (const std::uintmax_t size = std::filesystem::file_size(file, error);
+        before_library_ && !error)
+        before_library_(bytes_per_character * static_cast<double>(size));
     for (const MtlMaterial& material : read_mtl(file))
         define(file, material);
 }

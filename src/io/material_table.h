@@ -7,10 +7,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -18,7 +20,11 @@ namespace hemilux {
 class MaterialTable {
   public:
     /// `path` of the OBJ file; libraries are looked for in its folder.
-    explicit MaterialTable(const std::string& path) : path_(path) {}
+    /// Before a library is read `before_library` is called with about the bytes that it will take;
+    /// what that throws ends the reading.
+    explicit MaterialTable(const std::string& path,
+                           std::function<void(double bytes)> before_library = {})
+        : path_(path), before_library_(std::move(before_library)) {}
 
     /// The material's index. `line` of the OBJ file is for messages.
     [[nodiscard]] std::uint32_t use(const std::string& name, std::size_t line);
@@ -46,6 +52,7 @@ class MaterialTable {
     void warn_of_textures();
 
     std::string path_;
+    std::function<void(double bytes)> before_library_;
     std::set<std::filesystem::path> libraries_read_;
     std::set<std::string> libraries_missed_; ///< which was said
     std::unordered_map<std::string, std::uint32_t> index_;

@@ -43,7 +43,11 @@ struct Tally {
 
 class ObjReader {
   public:
-    explicit ObjReader(const std::string& path) : path_(path), materials_(path) {}
+    ObjReader(const std::string& path, const ReadGuard& guard)
+        : path_(path), guard_(guard), materials_(path, [this](double bytes) {
+              libraries_ += bytes;
+              check_memory();
+          }) {}
     ReadResult read();
 
   private:
@@ -58,9 +62,18 @@ class ObjReader {
     std::span<const std::uint32_t> corners_of(std::size_t face) const;
     void warn(const Tally& tally, const std::string& one, const std::string& many);
     void collect_warnings();
+    void check_memory() const;
+    void count_statement() {
+        constexpr std::size_t often = 1u << 12;
+        if (++statements_ % often == 0)
+            check_memory();
+    }
     std::string rounding_of_places() const;
 
     std::string path_;
+    const ReadGuard& guard_;
+    double text_ = 0, libraries_ = 0; ///< bytes
+    std::size_t statements_ = 0;
     MaterialTable materials_;
     std::unordered_map<std::string, std::uint32_t> group_index_;
     std::vector<std::uint32_t> corners_;
@@ -73,14 +86,18 @@ class ObjReader {
 
     PolygonDivision division_;
     std::vector<Vec3> shape_;
-    Tally few_corners_, no_area_, crossing_, free_form_, lines_and_points_;
+    Tally few_corners_, no_area_, crossing_, unchecked_, free_form_, lines_and_points_;
 };
 
 ReadResult ObjReader::read() {
-    TextReader reader(read_text_file(path_));
+    std::string text = read_text_file(path_);
+    text_ = static_cast<double>(text.size());
+    TextReader reader(std::move(text));
     Statement statement;
-    while (reader.next(statement))
+    while (reader.next(statement)) {
         read_statement(statement);
+        count_statement();
+    }
     if (faces_.empty())
         throw InputError(path_, "no faces; expected an OBJ file with statements such as f 1 2 3");
     check_corners();
@@ -232,6 +249,14 @@ void ObjReader::divide_faces() {
             no_area_.add(faces_[f].line);
         if (flags.crossing)
             crossing_.add(faces_[f].line);
+        if (flags.unchecked)
+            unchecked_.add(faces_[f].line);
+        if (flags.unfinished)
+            throw InputError(path_, faces_[f].line,
+                             "a face of " + std::to_string(corner.size()) +
+                                 " corners is too intricate to be divided into triangles; expected "
+                                 "a face that does not cross itself, or smaller faces");
+        count_statement();
     }
 }
 
@@ -242,6 +267,20 @@ void ObjReader::warn(const Tally& tally, const std::string& one, const std::stri
         result_.warnings.push_back(path_ + ":" + std::to_string(tally.first_line) + ": " +
                                    std::to_string(tally.count) + " " + many +
                                    " (this is the first)");
+}
+
+/// A vector that grows keeps the old one until the new one is filled.
+void ObjReader::check_memory() const {
+    if (!guard_)
+        return;
+    constexpr double growing = 1.5, per_group = 160;
+    const auto bytes = [](const auto& list) {
+        return growing * static_cast<double>(list.capacity() * sizeof(list[0]));
+    };
+    guard_(text_ + libraries_ + bytes(corners_) + bytes(faces_) + bytes(result_.scene.vertices) +
+           bytes(result_.scene.facets) +
+           per_group *
+               static_cast<double>(result_.scene.groups.size() + materials_.materials.size()));
 }
 
 /// What there is to say where doubles hardly tell the scene's places from each other, because it is
@@ -277,6 +316,9 @@ void ObjReader::collect_warnings() {
     warn(no_area_, "a face without area is left out", "faces without area are left out");
     warn(crossing_, "a face crosses itself; its area is not well defined",
          "faces cross themselves; their areas are not well defined");
+    warn(unchecked_,
+         "a face has so many long edges that it was not found out whether it crosses itself",
+         "faces have so many long edges that it was not found out whether they cross themselves");
     warn(lines_and_points_, "a line or point is left out", "lines and points are left out");
     warn(free_form_, "a statement of a free-form curve or surface is left out",
          "statements of free-form curves and surfaces are left out");
@@ -284,7 +326,9 @@ void ObjReader::collect_warnings() {
 
 } // namespace
 
-ReadResult read_obj(const std::string& path) { return ObjReader(path).read(); }
+ReadResult read_obj(const std::string& path, const ReadGuard& guard) {
+    return ObjReader(path, guard).read();
+}
 
 std::size_t line_of_face(const std::string& path, std::uint32_t face) {
     try {

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,13 @@ struct ReadResult {
     std::size_t concave_faces = 0;
 };
 
+/// Called now and then while a scene is read, with about the bytes that reading it takes so far or
+/// will take next. What it throws ends the reading.
+using ReadGuard = std::function<void(double bytes)>;
+
 /// Throws InputError for a file that cannot be read, with file and line for what is wrong in it,
 /// and where no face has an area.
-[[nodiscard]] ReadResult read_obj(const std::string& path);
+[[nodiscard]] ReadResult read_obj(const std::string& path, const ReadGuard& guard = {});
 
 /// Where a face stands, from 1; 0 where there is no such face any more, or no file.
 [[nodiscard]] std::size_t line_of_face(const std::string& path, std::uint32_t face);

@@ -28,7 +28,7 @@ PolygonFlags PolygonDivision::divide(std::span<const Vec3> corners) {
     if (turn.strictly_convex() && !flags.nonplanar)
         add_strips();
     else if (n > 4 || !add_quad_cut_in_two())
-        flags.crossing = !clip_ears();
+        clip_ears(flags);
     return flags;
 }
 
@@ -169,11 +169,18 @@ bool PolygonDivision::add_quad_cut_in_two() {
     return false;
 }
 
-/// False for a polygon that crosses itself.
-bool PolygonDivision::clip_ears() {
-    for (const EarClipper::Triangle& t : clipper_.clip(flat_, rounding_))
+void PolygonDivision::clip_ears(PolygonFlags& flags) {
+    work.divide += DivisionWork::divide_each * flat_.size();
+    work.compare += DivisionWork::compare_each * flat_.size();
+    for (const EarClipper::Triangle& t : clipper_.clip(flat_, rounding_, work.divide))
         add_triangle(t[0], t[1], t[2]);
-    return !clipper_.ran_out_of_ears() && !crosses_itself(flat_, rounding_);
+    flags.unfinished = work.divide == 0;
+    flags.crossing = clipper_.ran_out_of_ears();
+    if (flags.crossing)
+        return;
+    const std::optional<bool> crosses = crosses_itself(flat_, rounding_, work.compare);
+    flags.crossing = crosses.value_or(false);
+    flags.unchecked = !crosses;
 }
 
 } // namespace hemilux

@@ -25,7 +25,16 @@ struct PolygonFlags {
     bool degenerate = false; ///< no wider than the rounding of its coordinates: it has no pieces
     bool nonplanar = false;
     bool concave = false;
-    bool crossing = false; ///< crosses itself: its pieces overlap, or miss a part
+    bool crossing = false;   ///< crosses itself: its pieces overlap, or miss a part
+    bool unchecked = false;  ///< may cross itself: it has too many long edges to compare them all
+    bool unfinished = false; ///< too intricate: its pieces may overlap
+};
+
+/// How much work faces may cause, counted in visits of nodes and in pairs of edges. Simple faces
+/// of any number of corners take a few hundred per corner; the rest is for a few intricate ones.
+struct DivisionWork {
+    std::uint64_t divide = 50'000'000, compare = 100'000'000;
+    static constexpr std::uint64_t divide_each = 1000, compare_each = 256; ///< more, for a corner
 };
 
 class PolygonDivision {
@@ -37,6 +46,8 @@ class PolygonDivision {
     PolygonFlags divide(std::span<const Vec3> corners);
     /// Of the last polygon.
     [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
+    /// That all polygons together may still cause; each brings some of its own.
+    DivisionWork work;
 
   private:
     void keep_distinct(std::span<const Vec3> corners);
@@ -55,7 +66,7 @@ class PolygonDivision {
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
     void add_strips();
     [[nodiscard]] bool add_quad_cut_in_two();
-    [[nodiscard]] bool clip_ears();
+    void clip_ears(PolygonFlags& flags);
 
     std::vector<std::uint32_t> kept_; ///< corner of the polygon for each of the following points
     std::vector<Vec3> point_;         ///< relative to the first and scaled: within [-1,1]^3

@@ -21,6 +21,8 @@ namespace {
 constexpr double pieces_of_rest = 32, least_piece = 256, largest_piece = 8192;
 constexpr std::uint32_t patches_per_piece = 32;
 constexpr double rays_per_batch = 2e6;
+/// Pieces that are listed at a time: a step of 1e9 rays per patch has millions.
+constexpr std::size_t most_pieces = 4096;
 /// A thread that works alone takes pieces of so many together: tracing likes many rays at once.
 constexpr double rays_at_least = 4096;
 /// Fewer rays than this are traced sooner than others would have come to help.
@@ -31,6 +33,11 @@ constexpr double rays_for_one_thread = 500;
 constexpr double literal_rest = 1e-4;
 
 constexpr std::size_t bits_of_word = 64;
+
+/// Of a ray among those of its patch. After 2^32 rays of one patch they begin anew.
+std::uint32_t ray_number(double rays_before) {
+    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(rays_before));
+}
 
 } // namespace
 
@@ -76,11 +83,18 @@ void Bounces::add_sender(std::uint32_t patch, const Vec3& power) {
 
 std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
     plan(stream);
-    cut();
     const std::uint64_t before = result.rays;
     const bool few = rays_before_.back() - rays_before_[0] < rays_for_one_thread;
     const Workers workers = few ? Workers(1) : task_->workers;
-    share_out(workers.threads() > 1 ? 0 : rays_at_least);
+    Place next{0, input_.options.literal ? 0 : whole_below(rays_before_[0])};
+    while (cut(next) && !input_.monitor.interrupted) {
+        share_out(workers.threads() > 1 ? 0 : rays_at_least);
+        shoot_shares(workers, stream, result);
+    }
+    return result.rays - before;
+}
+
+void Bounces::shoot_shares(const Workers& workers, std::uint64_t stream, StepResult& result) {
     const auto most = static_cast<std::size_t>(rays_per_batch / largest_piece);
     volleys_.resize(std::min(most, shares_.size()));
     for (std::size_t begin = 0; begin < shares_.size(); begin += most) {
@@ -97,7 +111,6 @@ std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
             std::min(1.0, static_cast<double>(result.rays) /
                               (input_.options.rays * static_cast<double>(unshot_.size())));
     }
-    return result.rays - before;
 }
 
 /// Pieces in their order to shares of so many rays at least.
@@ -131,7 +144,7 @@ void Bounces::order(const Piece& piece, std::vector<Burst>& bursts) const {
     const auto deal = [&](std::size_t k) { return tools_.strategy->deal(senders_[k], memory); };
     if (input_.options.literal) {
         for (std::size_t k = piece.first; k < piece.last; ++k)
-            order_as_printed(senders_[k], deal(k), bursts);
+            order_as_printed(senders_[k], piece, deal(k), bursts);
         return;
     }
     double last = whole_below(rays_before_[piece.first]);
@@ -233,25 +246,41 @@ void Bounces::plan(std::uint64_t stream) {
 
 /// By numbers of rays, as a lamp may shoot half of a bounce. Pieces do not depend on the number of
 /// threads.
-void Bounces::cut() {
+bool Bounces::cut(Place& next) {
     pieces_.clear();
-    const auto senders = static_cast<std::uint32_t>(senders_.size());
-    if (input_.options.literal) { // rays do not stand on the line
-        for (std::uint32_t k = 0; k < senders; k += patches_per_piece)
-            pieces_.push_back({k, std::min(k + patches_per_piece, senders), 0,
-                               std::numeric_limits<double>::infinity()});
-        return;
-    }
-    const double first = whole_below(rays_before_[0]), end = whole_below(rays_before_.back());
+    if (input_.options.literal)
+        cut_as_printed(next);
+    else
+        cut_line(next);
+    return !pieces_.empty();
+}
+
+void Bounces::cut_line(Place& next) {
+    const double end = whole_below(rays_before_.back());
     const auto sender_of = [&](double ray) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(rays_before_, ray) -
                                           rays_before_.begin() - 1);
     };
-    for (double from = first; from < end; from = pieces_.back().to) {
+    for (double& from = next.ray; from < end && pieces_.size() < most_pieces;) {
         const double size =
             std::clamp(std::ceil((end - from) / pieces_of_rest), least_piece, largest_piece);
         const double to = std::min(from + size, end);
         pieces_.push_back({sender_of(from + 1), sender_of(to) + 1, from, to});
+        from = to;
+    }
+}
+
+/// Rays do not stand on the line: each sender has as many, which are counted from 0. Where these
+/// are many a piece is a part of them.
+void Bounces::cut_as_printed(Place& next) {
+    const auto senders = static_cast<std::uint32_t>(senders_.size());
+    const bool whole = input_.options.rays <= largest_piece;
+    while (next.sender < senders && pieces_.size() < most_pieces) {
+        const std::uint32_t last = std::min(next.sender + (whole ? patches_per_piece : 1), senders);
+        const double end = std::numeric_limits<double>::infinity();
+        const bool is_last = whole || next.ray + largest_piece >= input_.options.rays;
+        pieces_.push_back({next.sender, last, next.ray, is_last ? end : next.ray + largest_piece});
+        next = is_last ? Place{last, 0} : Place{next.sender, next.ray + largest_piece};
     }
 }
 
@@ -265,21 +294,22 @@ void Bounces::order(std::size_t sender, const Piece& piece, const Dealing& deali
         // Below one ray per cell, the ray that is shot carries the power of those that are not.
         const double sharing = expected >= 1 ? high - low : expected;
         if (here > 0)
-            bursts.push_back({patch, cell, static_cast<std::uint32_t>(first - before),
+            bursts.push_back({patch, cell, ray_number(first - before),
                               static_cast<std::uint32_t>(here), 1 / sharing});
     });
 }
 
-void Bounces::order_as_printed(std::uint32_t patch, const Dealing& dealing,
+void Bounces::order_as_printed(std::uint32_t patch, const Piece& piece, const Dealing& dealing,
                                std::vector<Burst>& bursts) const {
-    std::uint32_t before = 0;
+    double before = 0;
     for (std::size_t k = 0; k < dealing.cells.size(); ++k) {
         const double rays = std::round(input_.options.rays * dealing.rays(k)); // N_tr
-        if (rays > 0) {
-            bursts.push_back(
-                {patch, dealing.cells[k], before, static_cast<std::uint32_t>(rays), 1 / rays});
-            before += bursts.back().rays;
-        }
+        const double first = std::max(before, piece.from);
+        const double here = std::min(before + rays, piece.to) - first;
+        if (here > 0)
+            bursts.push_back({patch, dealing.cells[k], ray_number(first),
+                              static_cast<std::uint32_t>(here), 1 / rays});
+        before += rays;
     }
 }
 

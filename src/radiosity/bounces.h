@@ -45,6 +45,11 @@ class Bounces {
         std::uint32_t first, last;
         double from, to;
     };
+    /// Where the next piece begins: behind so many rays, or, as printed, of the sender's.
+    struct Place {
+        std::uint32_t sender;
+        double ray;
+    };
     /// Pieces that one thread takes together.
     struct Share {
         std::size_t first, last;
@@ -66,14 +71,18 @@ class Bounces {
     /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
     std::uint64_t bounce(std::uint64_t stream, StepResult& result);
     void plan(std::uint64_t stream);
-    void cut();
+    /// Lists some pieces from the place on, which is moved behind them; false if none are left.
+    bool cut(Place& next);
+    void cut_line(Place& next);
+    void cut_as_printed(Place& next);
     void share_out(double rays);
+    void shoot_shares(const Workers& workers, std::uint64_t stream, StepResult& result);
     void fire(const Share& share, std::uint64_t stream, Volley& volley) const;
     // What is to be drawn is added to `bursts`.
     void order(const Piece& piece, std::vector<Burst>& bursts) const;
     void order(std::size_t sender, const Piece& piece, const Dealing& dealing,
                std::vector<Burst>& bursts) const;
-    void order_as_printed(std::uint32_t patch, const Dealing& dealing,
+    void order_as_printed(std::uint32_t patch, const Piece& piece, const Dealing& dealing,
                           std::vector<Burst>& bursts) const;
     void trace(std::uint64_t stream, Volley& volley) const;
 

@@ -6,8 +6,8 @@
 // more than 1. All three channels go in step, so that F is read once for all.
 
 #include "radiosity/exchange_matrix.h"
+#include "radiosity/stop_flag.h"
 
-#include <atomic>
 #include <span>
 #include <vector>
 
@@ -18,8 +18,8 @@ struct GradientOptions {
     /// square over the area that is lit. So a faint room beside a bright one is solved to its own
     /// scale.
     double tolerance = 1e-9;
-    int most = 1000;                                ///< iterations
-    const std::atomic<bool>* interrupted = nullptr; ///< ends them; h is void then
+    int most = 1000;                       ///< iterations
+    const StopFlag* interrupted = nullptr; ///< ends them; h is void then
 };
 
 /// h and how it was found.

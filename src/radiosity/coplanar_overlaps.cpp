@@ -136,12 +136,100 @@ bool lie_in_one_place(const Polygon& a, const Polygon& b) {
                        });
 }
 
+/// The corners in an order that does not depend on where a facet begins or which way it faces.
+std::array<Vec3, 4> sorted_corners(const Facet& facet, std::span<const Vec3> vertices) {
+    std::array<Vec3, 4> corners = shape_of(facet, vertices).corner;
+    std::sort(corners.begin(), corners.end() - (facet.is_triangle() ? 1 : 0),
+              [](const Vec3& a, const Vec3& b) {
+                  return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
+              });
+    if (facet.is_triangle())
+        corners[3] = corners[2];
+    return corners;
+}
+
+/// Equal for facets with the same corners.
+std::uint64_t hash_of(const Facet& facet, std::span<const Vec3> vertices) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // of -0, too
+    std::uint64_t hash = 0;
+    for (std::size_t i = 0; i < (facet.is_triangle() ? 3 : 4); ++i) {
+        const Vec3& p = vertices[facet.vertex[i]];
+        hash += mix_bits(bits(p.x) + mix_bits(bits(p.y) + mix_bits(bits(p.z))));
+    }
+    return hash;
+}
+
+/// Those that may have many of their corners: a count by hash leaves out most others at once.
+std::vector<std::uint32_t> perhaps_many(const Scene& scene, std::span<const Vec3> vertices) {
+    const std::size_t slots = std::bit_ceil(2 * scene.facets.size() + 64);
+    std::vector<std::uint32_t> count(slots, 0), many;
+    const auto slot_of = [&](const Facet& f) { return hash_of(f, vertices) & (slots - 1); };
+    for (const Facet& facet : scene.facets)
+        ++count[slot_of(facet)];
+    if (std::ranges::none_of(count, [](std::uint32_t c) { return c > kept_alike; }))
+        return many;
+    for (std::uint32_t f = 0; f < scene.facets.size(); ++f)
+        if (count[slot_of(scene.facets[f])] > kept_alike)
+            many.push_back(f);
+    return many;
+}
+
+/// One of many facets with the same corners.
+struct Alike {
+    std::array<Vec3, 4> corners;
+    bool turned; ///< faces the other way than most of its normal's axis does
+    double glow;
+    std::uint32_t facet;
+
+    Alike(const Scene& scene, std::span<const Vec3> vertices, std::uint32_t f)
+        : corners(sorted_corners(scene.facets[f], vertices)), facet(f) {
+        const Vec3 normal = shape_of(scene.facets[f], vertices).area_vector();
+        turned = normal[largest_axis(normal)] < 0;
+        const Vec3& e = scene.materials[scene.facets[f].material].emission;
+        glow = e.x + e.y + e.z;
+    }
+    /// By shape and side; then what is to lie on top first.
+    [[nodiscard]] bool operator<(const Alike& other) const {
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                if (corners[i][axis] != other.corners[i][axis])
+                    return corners[i][axis] < other.corners[i][axis];
+        if (turned != other.turned)
+            return turned < other.turned;
+        return glow != other.glow ? glow > other.glow : facet < other.facet;
+    }
+    [[nodiscard]] bool has_shape_of(const Alike& other) const {
+        return corners == other.corners && turned == other.turned;
+    }
+};
+
+std::vector<Buried> find_buried(const Scene& scene, std::span<const Vec3> vertices) {
+    std::vector<Alike> alike;
+    for (const std::uint32_t f : perhaps_many(scene, vertices))
+        alike.emplace_back(scene, vertices, f);
+    std::ranges::sort(alike, [](const Alike& a, const Alike& b) { return a < b; });
+    std::vector<Buried> buried;
+    for (std::size_t first = 0, k = 0; k < alike.size(); ++k) {
+        if (!alike[k].has_shape_of(alike[first]))
+            first = k;
+        if (k - first >= kept_alike)
+            buried.push_back({alike[k].facet, alike[first + kept_alike - 1].facet});
+    }
+    return buried;
+}
+
 class Finder {
   public:
-    Finder(const Scene& scene, std::span<const Vec3> vertices, std::size_t most)
-        : scene_(scene), vertices_(vertices), left_(most) {}
+    Finder(const Scene& scene, std::span<const Vec3> vertices, const OverlapLimits& limits)
+        : scene_(scene), vertices_(vertices), left_(limits.comparisons), most_pairs_(limits.pairs) {
+    }
 
     Overlaps find() {
+        found_.buried = find_buried(scene_, vertices_);
+        if (!found_.buried.empty())
+            is_buried_.assign(scene_.facets.size(), false);
+        for (const Buried& buried : found_.buried)
+            is_buried_[buried.facet] = true;
         std::vector<Entry> entries = facets_by_plane();
         for (auto begin = entries.begin(); begin != entries.end();) {
             const auto end = std::find_if(begin, entries.end(),
@@ -173,11 +261,14 @@ class Finder {
         const std::size_t slots = std::bit_ceil(2 * scene_.facets.size() + 64);
         const auto slot_of = [&](const Entry& e) { return mix_bits(e.cell) & (slots - 1); };
         std::vector<std::uint32_t> end(slots, 0);
-        for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
+        for (std::uint32_t f = 0; f < scene_.facets.size(); ++f) {
+            if (!is_buried_.empty() && is_buried_[f])
+                continue;
             PlaneCells(shape(f)).for_each([&](std::uint64_t cell) {
                 entries.push_back({cell, f});
                 ++end[slot_of(entries.back())];
             });
+        }
         std::erase_if(entries, [&](const Entry& e) { return end[slot_of(e)] == 1; });
         for (std::uint32_t sum = 0; std::uint32_t & count : end)
             count = sum += count == 1 ? 0 : count;
@@ -230,9 +321,13 @@ class Finder {
                         rectangle(bounds, entry.facet, axis));
         }
         for (std::vector<Rectangle>& rectangles : seen)
-            for_each_overlap(std::move(rectangles), [&](std::uint32_t a, std::uint32_t b) {
-                return compare(std::min(a, b), std::max(a, b));
-            });
+            if (!for_each_overlap(
+                    std::move(rectangles),
+                    [&](std::uint32_t a, std::uint32_t b) {
+                        return compare(std::min(a, b), std::max(a, b));
+                    },
+                    boxes_per_comparison * left_))
+                found_.complete = false;
     }
 
     /// Smaller by what may be rounding, so that most neighbours are apart.
@@ -244,7 +339,7 @@ class Finder {
 
     /// False where enough has been compared.
     bool compare(std::uint32_t a, std::uint32_t b) {
-        if (left_ == 0)
+        if (left_ == 0 || found_.pairs.size() >= most_pairs_)
             return found_.complete = false;
         --left_;
         if (lie_in_one_place(shape(a), shape(b)))
@@ -254,14 +349,18 @@ class Finder {
 
     const Scene& scene_;
     std::span<const Vec3> vertices_;
-    std::size_t left_;
+    /// Boxes are compared sooner than shapes.
+    static constexpr std::size_t boxes_per_comparison = 16;
+    std::size_t left_, most_pairs_;
+    std::vector<bool> is_buried_; ///< by facet; empty where none is
     Overlaps found_;
 };
 
 } // namespace
 
-Overlaps find_overlaps(const Scene& scene, std::span<const Vec3> vertices, std::size_t most) {
-    return Finder(scene, vertices, most).find();
+Overlaps find_overlaps(const Scene& scene, std::span<const Vec3> vertices,
+                       const OverlapLimits& limits) {
+    return Finder(scene, vertices, limits).find();
 }
 
 } // namespace hemilux

@@ -51,8 +51,7 @@ GatheringSystem::GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t
 /// Each set by a thread of its own; then the whole by all threads, from where their mean is.
 ExchangeMatrix GatheringSystem::solve(const Rays& rays, std::optional<double> error,
                                       std::vector<GatheredLight::Light>& light,
-                                      const Workers& workers,
-                                      const std::atomic<bool>& interrupted) const {
+                                      const Workers& workers, const StopFlag& interrupted) const {
     const std::size_t sets = rays.counts.size();
     std::vector<ExchangeMatrix> parts(sets);
     std::vector<Direct> direct(sets);
@@ -88,7 +87,7 @@ Transport GatheringSystem::transport(const ExchangeMatrix& factors) const {
 /// What arrives at each patch in the end, from what `light` holds on.
 void GatheringSystem::solve(const ExchangeMatrix& factors, Direct direct,
                             GatheredLight::Light& light, const Workers& workers, double residual,
-                            const std::atomic<bool>& interrupted) const {
+                            const StopFlag& interrupted) const {
     scale_direct_light(transport(factors), direct.variance, direct.light);
     solve_by_gradients(factors, area_, reflectance_, direct.light, light.incident, workers,
                        {.tolerance = residual, .interrupted = &interrupted});

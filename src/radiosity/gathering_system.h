@@ -7,9 +7,9 @@
 #include "radiosity/energy_closing.h"
 #include "radiosity/exchange_matrix.h"
 #include "radiosity/gathered_light.h"
+#include "radiosity/stop_flag.h"
 #include "radiosity/workers.h"
 
-#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -45,7 +45,7 @@ class GatheringSystem {
     /// known so far, if anything is. Where it is interrupted nothing is changed.
     ExchangeMatrix solve(const Rays& rays, std::optional<double> error,
                          std::vector<GatheredLight::Light>& light, const Workers& workers,
-                         const std::atomic<bool>& interrupted) const;
+                         const StopFlag& interrupted) const;
 
   private:
     /// Light that comes straight from the emitters, and the variance of its power by channel.
@@ -54,7 +54,7 @@ class GatheringSystem {
         Vec3 variance{0.0};
     };
     void solve(const ExchangeMatrix& factors, Direct direct, GatheredLight::Light& light,
-               const Workers& workers, double residual, const std::atomic<bool>& interrupted) const;
+               const Workers& workers, double residual, const StopFlag& interrupted) const;
     [[nodiscard]] Transport transport(const ExchangeMatrix& factors) const;
     double average(std::vector<GatheredLight::Light>& light) const;
     std::vector<Vec3> straight_light(const ExchangeMatrix& factors, const DirectLight& shadow_rays,

@@ -6,7 +6,7 @@
 namespace hemilux {
 
 MadeTracer make_tracer(const Mesh& mesh, bool tree, unsigned threads) {
-    auto tracer = std::make_unique<WideBvh>(mesh.soup(),
+    auto tracer = std::make_unique<WideBvh>(mesh.soup_to_trace(),
                                             WideBvhOptions{.threads = threads, .hierarchy = tree});
     const auto quality = tree ? std::optional(tracer->quality()) : std::nullopt;
     return {std::move(tracer), quality};

@@ -137,6 +137,10 @@ Frame Mesh::hemisphere_frame(std::uint32_t patch) const {
 
 FacetSoup Mesh::soup() const { return {vertices_, corners_}; }
 
+FacetSoup Mesh::soup_to_trace() const {
+    return {vertices_, corners_to_trace_.empty() ? corners_ : corners_to_trace_};
+}
+
 Polygon Mesh::shape_of(std::uint32_t facet) const {
     Polygon shape;
     for (std::size_t i = 0; i < 4; ++i)
@@ -178,6 +182,11 @@ void Mesh::lay_apart() {
             vertices_.push_back(corner + way);
         corners_[f] = {first, first + 1, first + 2, first + (triangle ? 2 : 3)};
     }
+    laid_apart_ = stacks.complete;
+    if (!stacks.buried.empty())
+        corners_to_trace_ = corners_;
+    for (const std::uint32_t f : stacks.buried)
+        corners_to_trace_[f].fill(corners_[f][0]);
 }
 
 void Mesh::divide(std::uint32_t f, const MeshOptions& options) {

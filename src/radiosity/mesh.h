@@ -77,6 +77,10 @@ class Mesh {
     [[nodiscard]] Frame hemisphere_frame(std::uint32_t patch) const;
     /// The facets for a tracer to copy or to refer to.
     [[nodiscard]] FacetSoup soup() const;
+    /// The same for a tracer, in which no ray can meet what is buried under many others.
+    [[nodiscard]] FacetSoup soup_to_trace() const;
+    /// False where so many facets lie over each other that not all could be laid apart.
+    [[nodiscard]] bool is_laid_apart() const { return laid_apart_; }
     /// One side of a facet as if it were not divided.
     [[nodiscard]] Patch whole_side(std::uint32_t facet, bool back) const;
     /// Whether a facet has more than one patch a side.
@@ -119,6 +123,8 @@ class Mesh {
     LocalFrame frame_;
     std::vector<Vec3> vertices_;
     std::vector<FacetCorners> corners_;
+    std::vector<FacetCorners> corners_to_trace_; ///< empty: as corners_
+    bool laid_apart_ = true;
     std::vector<Patch> patches_;
     std::vector<Division> divisions_;
     std::vector<std::uint32_t>

@@ -1,5 +1,6 @@
 #include "radiosity/mesh.h"
 #include "radiosity/solver.h"
+#include "radiosity/time_limit.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +11,9 @@ namespace {
 
 /// Of the time of a step over that of the longest before, where steps grow.
 constexpr double most_growth = 2;
+
+/// A step that was begun has as long, so that the shortest of times is enough for one.
+constexpr double least_seconds = 1;
 
 } // namespace
 
@@ -38,9 +42,14 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
     if (before.steps > 0 &&
         done(before.steps, last, estimated_error(input.mesh, solver.solution())))
         return true;
+    std::optional<double> time_left;
+    if (stop.seconds)
+        time_left = std::max(*stop.seconds - last, least_seconds);
+    StopFlag& interrupted = input.monitor.interrupted;
+    const TimeLimit limit(interrupted, time_left);
     for (std::uint32_t step = before.steps + 1;; ++step) {
-        if ((input.monitor.interrupted && solver.steps_ready() == 0) || !solver.step())
-            return false;
+        if ((interrupted && solver.steps_ready() == 0) || !solver.step())
+            return !interrupted.load(); // but for the caller's wish the run ends by its rule
         const Solution& solution = solver.solution();
         const StepRecord record{step, solution.rays_energy + solution.rays_density, elapsed(),
                                 estimated_error(input.mesh, solution)};

@@ -5,6 +5,7 @@
 #include "bvh/tracer.h"
 #include "radiosity/needs.h"
 #include "radiosity/solution.h"
+#include "radiosity/stop_flag.h"
 
 #include <atomic>
 #include <cstdint>
@@ -87,7 +88,7 @@ struct StopRule {
 /// How a caller watches a run and ends it early. All members may be used from any thread.
 struct Monitor {
     std::atomic<std::uint64_t> rays{0};         ///< traced so far, density rays included
-    std::atomic<bool> interrupted{false};       ///< set by the caller: stop as soon as possible
+    StopFlag interrupted;                       ///< set by the caller: stop as soon as possible
     std::atomic<double> step_share{0};          ///< how much of the present step is done, 0 to 1
     std::atomic<const char*> phase{"starting"}; ///< a word for the progress bar
 };
@@ -167,7 +168,9 @@ struct Before {
 };
 
 /// Steps until the rule or the monitor ends the run; then still those that are ready. `after_step`
-/// sees each new solution. Returns false when interrupted.
+/// sees each new solution. Returns false when interrupted. At the end of
+/// `stop.seconds`, or of one second where that is later, a step is cut short: if it is the first
+/// there may be no step at all.
 bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
          const std::function<void(const StepRecord&, const Solution&)>& after_step = {},
          const Before& before = {});

@@ -196,8 +196,8 @@ class Stacker {
 
 Stacks find_stacks(const Scene& scene, std::span<const Vec3> vertices) {
     const Overlaps overlaps = find_overlaps(scene, vertices);
-    Stacks stacks{.lift = {}, .covered = 0, .complete = overlaps.complete};
-    if (overlaps.pairs.empty())
+    Stacks stacks{.lift = {}, .buried = {}, .covered = 0, .complete = overlaps.complete};
+    if (overlaps.pairs.empty() && overlaps.buried.empty())
         return stacks;
     const Graph graph(overlaps.pairs);
     Stacker stacker(scene, vertices, graph);
@@ -206,6 +206,11 @@ Stacks find_stacks(const Scene& scene, std::span<const Vec3> vertices) {
     for (std::uint32_t i = 0; i < graph.size(); ++i) {
         stacks.lift[graph.facet(i)] = stacker.lift(i);
         stacks.covered += stacker.is_covered(i);
+    }
+    for (const Buried& buried : overlaps.buried) {
+        stacks.lift[buried.facet] = stacks.lift[buried.under];
+        stacks.buried.push_back(buried.facet);
+        ++stacks.covered;
     }
     return stacks;
 }

@@ -17,6 +17,9 @@ namespace hemilux {
 struct Stacks {
     /// By facet, how many steps it is to be moved to its front; empty where none is to be.
     std::vector<std::int32_t> lift;
+    /// Facets that nothing can reach, as many others of their shape that face their way lie over
+    /// them. They lie beside the lowest of these.
+    std::vector<std::uint32_t> buried;
     std::size_t covered = 0; ///< facets wholly or partly under another that faces the same way
     bool complete = true;    ///< coplanar_overlaps.h
 };

@@ -2,6 +2,7 @@
 
 #include "geometry/frame.h"
 #include "geometry/polygon.h"
+#include "io/ear_clipping.h"
 #include "radiosity/rng.h"
 
 #include <catch2/catch.hpp>
@@ -347,4 +348,77 @@ TEST_CASE("far from the origin polygons keep their area", "[polygon_division]") 
         CHECK_FALSE(flags.nonplanar);
         CHECK(total_area(division, corners) == Approx(shoelace(corners)).epsilon(1e-8));
     }
+}
+
+namespace {
+
+/// Back and forth between two sides, obliquely: each edge's box lies over those of many others.
+Flat saw(std::size_t teeth) {
+    Flat flat;
+    for (std::size_t k = 0; k < teeth; ++k) {
+        const double x = double(k) / double(teeth);
+        flat.emplace_back(x, x + (k % 2 == 0 ? 0 : .5));
+    }
+    flat.emplace_back(2, 0);
+    flat.emplace_back(0, -1);
+    return flat;
+}
+
+/// From near the centre out and back: the box of an edge lies over those of many others.
+Flat spikes(std::size_t n) {
+    Flat flat = regular(n);
+    for (std::size_t k = 0; k < n; k += 2)
+        flat[k] *= .001;
+    return flat;
+}
+
+Flat scribble_of(std::size_t n) {
+    Rng rng(11);
+    Flat flat;
+    for (std::size_t k = 0; k < n; ++k)
+        flat.emplace_back(rng.uniform(), rng.uniform());
+    return flat;
+}
+
+/// Every second corner of a regular polygon but one: each edge crosses almost all others.
+Flat star(std::size_t n) {
+    const Flat round = regular(n);
+    Flat flat;
+    for (std::size_t k = 0; k < n; ++k)
+        flat.push_back(round[k * (n / 2) % n]);
+    return flat;
+}
+
+} // namespace
+
+TEST_CASE("the work of a polygon with many corners grows as their number", "[polygon_division]") {
+    for (const std::size_t n : {10'001u, 40'001u})
+        for (const Flat& flat : {saw(n), scribble_of(n), star(n)}) {
+            PolygonDivision division;
+            const DivisionWork before = division.work;
+            const PolygonFlags flags = division.divide(placed(flat));
+            CHECK_FALSE(flags.unfinished);
+            CHECK(division.pieces().size() + 2 >= flat.size() / 2);
+            CHECK(before.divide + DivisionWork::divide_each * n - division.work.divide <= 600 * n);
+        }
+}
+
+TEST_CASE("a polygon with more long edges than can be compared is reported as unchecked",
+          "[polygon_division]") {
+    PolygonDivision division;
+    CHECK_FALSE(division.divide(placed(spikes(4000))).unchecked);
+    division.work.compare = 0; // as after many such faces
+    const PolygonFlags flags = division.divide(placed(spikes(4000)));
+    CHECK(flags.unchecked);
+    CHECK_FALSE(flags.crossing);
+    CHECK_FALSE(flags.unfinished);
+}
+
+TEST_CASE("ears are cut as far as the work allowed, and then without a search",
+          "[polygon_division]") {
+    const Flat flat = saw(501);
+    EarClipper clipper;
+    std::uint64_t work = 100;
+    CHECK(clipper.clip(flat, 1e-16, work).size() > 10);
+    CHECK(work == 0);
 }

@@ -151,7 +151,8 @@ TEST_CASE("Conjugate gradients end where they are interrupted") {
     const std::vector<double> area(n, 1.0);
     const std::vector<Vec3> half(n, Vec3(.5)), d(n, Vec3(1));
     for (const bool stopped : {false, true}) {
-        const std::atomic<bool> flag(stopped);
+        StopFlag flag;
+        flag = stopped;
         std::vector<Vec3> h(n);
         const GradientResult result =
             solve_by_gradients(f, area, half, d, h, workers, {.interrupted = &flag});

@@ -255,8 +255,8 @@ TEST_CASE("More slivers over each other than can be compared are told of") {
     }
     const std::vector<Vec3> local = LocalFrame::of(scene).to_local(scene.vertices);
     CHECK(find_overlaps(scene, local).complete);
-    CHECK_FALSE(find_overlaps(scene, local, 1000).complete);
+    CHECK_FALSE(find_overlaps(scene, local, {1000, 1000}).complete);
     for (Facet& facet : scene.facets)
         facet.face = 0;
-    CHECK(find_overlaps(scene, local, 1000).complete); // the parts of one polygon
+    CHECK(find_overlaps(scene, local, {1000, 1000}).complete); // the parts of one polygon
 }

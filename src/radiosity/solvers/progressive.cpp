@@ -130,7 +130,8 @@ class ProgressiveSolver final : public Solver {
         input_.monitor.phase = "shooting";
         const double wanted = input_.options.rays * static_cast<double>(hits_.size());
         const std::uint64_t before = points_;
-        while (!finished()) {
+        bool cut_short = false;
+        while (!finished() && !cut_short) {
             if (pass_is_done()) {
                 end_pass();
                 continue;
@@ -140,7 +141,9 @@ class ProgressiveSolver final : public Solver {
             if (used >= wanted)
                 break;
             shoot(static_cast<std::uint32_t>(brightest_.index_of_largest()));
-            if (input_.monitor.interrupted)
+            cut_short = input_.monitor.interrupted;
+            // At the end of the time the shots of this step count.
+            if (cut_short && (input_.monitor.interrupted.load() || points_ == before))
                 return false;
             if (options_.one_shot)
                 break;

@@ -1,0 +1,87 @@
+// --time and --memory hold whatever else is asked for.
+#include "app/program.h"
+#include "app/step_size.h"
+#include "radiosity/solver.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+
+using Catch::Contains;
+using test::Workplace;
+
+namespace {
+
+std::string repeated(const std::string& text, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i)
+        all += text;
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("a step takes no more rays than its time allows") {
+    const auto rays_of_step = [](double rays, std::optional<double> seconds, std::size_t patches,
+                                 const char* method = "gathering") {
+        return hemilux::rays_of_step(rays, seconds, *hemilux::find_method(method), patches);
+    };
+    CHECK(rays_of_step(1e9, std::nullopt, 24) == 1e9);
+    CHECK(rays_of_step(1e9, 5.0, 100) == 12'500);
+    CHECK(rays_of_step(1e9, 16.0, 100, "matrix") == 2500);
+    CHECK(rays_of_step(64, 5.0, 100'000) == 64);
+    CHECK(rays_of_step(1000, 5.0, 100'000) == 64);
+    CHECK(rays_of_step(64, 1.0, 1'000'000) == 2);
+    CHECK(rays_of_step(.5, 1e-9, 1'000'000) == .5);
+}
+
+TEST_CASE("a run to a time ends, whatever --rays asks for") {
+    const Workplace place;
+    place.write_room();
+    for (const hemilux::Method* const method : hemilux::methods()) {
+        CAPTURE(method->name);
+        const auto outcome = place.hemilux("solve room.obj -o a.csv --time .05 --rays 1e9 "
+                                           "--method " +
+                                           std::string(method->name));
+        CHECK(outcome.code == 0);
+        CHECK_THAT(outcome.err, Contains("rays per patch instead of 1e+09"));
+        CHECK(place.has("a.csv"));
+    }
+}
+
+TEST_CASE("a comparison by time ends, whatever --rays asks for") {
+    const Workplace place;
+    place.write_room();
+    CHECK(place.hemilux("solve room.obj -o ref.csv --method gathering --steps 3").code == 0);
+    const auto outcome =
+        place.hemilux("compare room.obj --budget-time .05 --rays 1e9 --runs 1 --size 40x30 "
+                      "--methods monte-carlo,hemisphere --reference ref.csv -o folder");
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+}
+
+TEST_CASE("--memory counts pictures") {
+    const Workplace place;
+    place.write_room();
+    const std::string run = "solve room.obj --steps 1 --memory 100M ";
+    const auto outcome = place.hemilux(run + "--size 4096x4096 -o a.png");
+    CHECK(outcome.code == 3);
+    CHECK_THAT(outcome.err, Contains("pictures 436 MB") && Contains("a smaller --size"));
+    CHECK(place.hemilux(run + "--size 4096x4096 -o a.csv").code == 0);
+    CHECK(place.hemilux(run + "--size 400x300 -o a.png").code == 0);
+    CHECK(place.hemilux("compare room.obj --memory 100M --size 4096x4096 -o b").code == 3);
+}
+
+TEST_CASE("--memory counts what reading takes, libraries included") {
+    const Workplace place;
+    place.write_room();
+    place.write("many.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + repeated("f 1 2 3\n", 300'000));
+    place.write("library.obj", "mtllib big.mtl\n" + place.read("room.obj"));
+    place.write("big.mtl", repeated("newmtl a\n", 100'000));
+    for (const char* scene : {"many.obj", "library.obj"}) {
+        const auto outcome =
+            place.hemilux("solve " + std::string(scene) + " --memory 20M -o a.csv");
+        CHECK(outcome.code == 3);
+        CHECK_THAT(outcome.err, Contains("to be read alone, and --memory is 21.0 MB"));
+    }
+}

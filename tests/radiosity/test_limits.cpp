@@ -1,0 +1,198 @@
+// What a small file or a large option may cost: counted, or ended by the time of the run.
+#include "radiosity/coplanar_overlaps.h"
+#include "radiosity/mesh.h"
+#include "radiosity/rng.h"
+#include "radiosity/stacked_facets.h"
+#include "radiosity/time_limit.h"
+#include "support/after_streams.h"
+
+#include "support/scenes.h"
+#include "support/solve.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <sys/resource.h>
+#include <thread>
+
+using namespace hemilux;
+using test::Model;
+
+namespace {
+
+enum : std::uint32_t { grey, bright };
+
+Scene empty_scene() {
+    Scene scene;
+    scene.materials = {{"grey", Vec3(.5), Vec3(0.0)}, {"bright", Vec3(.5), Vec3(1.0)}};
+    scene.groups = {"default"};
+    return scene;
+}
+
+/// A lamp over n triangles in one place. Each begins at another corner, and every third faces down.
+Scene pile(std::uint32_t n) {
+    Scene scene = empty_scene();
+    test::add_quad(scene, {0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, 1, 1, bright);
+    const auto v = static_cast<std::uint32_t>(scene.vertices.size());
+    scene.vertices.insert(scene.vertices.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    for (std::uint32_t k = 0; k < n; ++k) {
+        std::array<std::uint32_t, 3> c{v + k % 3, v + (k + 1) % 3, v + (k + 2) % 3};
+        if (k % 3 == 2)
+            std::swap(c[0], c[1]);
+        scene.facets.push_back({{c[0], c[1], c[2], c[2]}, scene.faces++, grey, 0});
+    }
+    return scene;
+}
+
+/// Squares of one plane each of which lies over every other, no two in the same place.
+Scene heap(std::uint32_t n) {
+    Scene scene = empty_scene();
+    Rng rng(7);
+    for (std::uint32_t k = 0; k < n; ++k) {
+        const double x = .01 * rng.uniform(), y = .01 * rng.uniform();
+        test::add_quad(scene, {x, y, 0}, {x + 1, y, 0}, {x + 1, y + 1, 0}, {x, y + 1, 0}, 1, 1,
+                       bright);
+    }
+    return scene;
+}
+
+std::vector<Vec3> local(const Scene& scene) {
+    return LocalFrame::of(scene).to_local(scene.vertices);
+}
+
+double peak_megabytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+} // namespace
+
+TEST_CASE("Facets in one place make no more pairs than the few that are kept") {
+    const Scene scene = pile(30'000);
+    const Overlaps overlaps = find_overlaps(scene, local(scene));
+    CHECK(overlaps.complete);
+    CHECK(overlaps.buried.size() == 30'000 - 2 * kept_alike);
+    CHECK(overlaps.pairs.size() == kept_alike * (2 * kept_alike - 1));
+    CHECK(find_stacks(scene, local(scene)).covered == 30'000 - 2);
+    const Mesh mesh(scene);
+    CHECK(mesh.is_laid_apart());
+    CHECK(mesh.patches().size() == 30'001);
+    const FacetSoup traced = mesh.soup_to_trace();
+    CHECK(std::ranges::count_if(traced.facets, [](const FacetCorners& c) {
+              return c[0] == c[1] && c[1] == c[2];
+          }) == 30'000 - 2 * int(kept_alike));
+}
+
+TEST_CASE("Of many facets in one place the first is lit as if it were alone") {
+    const Method& method = *find_method("monte-carlo");
+    const auto solved = [&](std::uint32_t n) {
+        const Model model(pile(n));
+        const SolveOptions options{.rays = 40'000.0 / (n + 1), .threads = 1};
+        return test::solve(model, method, options, test::steps(16)).radiosity[1].x;
+    };
+    const double few = solved(3);
+    CHECK(few > 0);
+    CHECK(solved(100) == Approx(few).epsilon(.05));
+}
+
+TEST_CASE("The brightest of many facets in one place is never buried") {
+    Scene scene = pile(300);
+    scene.facets[200].material = bright;
+    const std::vector<Buried> buried = find_overlaps(scene, local(scene)).buried;
+    CHECK(buried.size() == 300 - 2 * kept_alike);
+    CHECK(std::ranges::none_of(buried, [](const Buried& b) { return b.facet == 200; }));
+}
+
+TEST_CASE("Pairs of facets over each other end at their limit, which is reported") {
+    const Scene scene = heap(1500);
+    const OverlapLimits limits = OverlapLimits::of(scene);
+    const Overlaps overlaps = find_overlaps(scene, local(scene));
+    CHECK(overlaps.pairs.size() <= limits.pairs);
+    CHECK_FALSE(overlaps.complete);
+    CHECK_FALSE(Mesh(scene).is_laid_apart());
+    CHECK(find_overlaps(heap(500), local(heap(500))).complete);
+}
+
+TEST_CASE("Rays of a step are listed in parts, however many there are") {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    const Model model(test::room_with_block());
+    for (const char* name : {"stratified", "hemisphere", "monte-carlo", "hemisphere-1997"})
+        for (const bool literal : {false, true}) {
+            const Method& method = *find_method(name);
+            if (literal && !method.has_literal)
+                continue;
+            CAPTURE(name, literal);
+            Monitor monitor;
+            const test::AfterStreams tracer(model.bvh, 400, [&] { monitor.interrupted = true; });
+            const SolveOptions options{.rays = 1e9, .literal = literal, .threads = 1};
+            const auto solver = method.make({model.mesh, tracer, options, monitor});
+            const double before = peak_megabytes();
+            CHECK_FALSE(solver->step());
+            CHECK(peak_megabytes() - before < 16);
+        }
+#endif
+}
+
+TEST_CASE("At the end of its time every method leaves the step it is in") {
+    const Model model(test::room_with_block());
+    for (const Method* const method : methods()) {
+        CAPTURE(method->name);
+        Monitor monitor;
+        const SolveOptions options{.rays = 4e3, .threads = 2};
+        const test::AfterStreams tracer(model.bvh, 100,
+                                        [&] { monitor.interrupted.set_out_of_time(true); });
+        const auto solver = method->make({model.mesh, tracer, options, monitor});
+        const bool counts = solver->step(); // progressive: the shots that were done
+        CHECK(solver->solution().steps == (counts ? 1 : 0));
+        CHECK_FALSE(monitor.interrupted.load());
+        CHECK(monitor.rays < 4000 * model.mesh.patches().size());
+    }
+}
+
+TEST_CASE("A run to a time ends within its first step", "[slow]") {
+    const Model model(test::room_with_block());
+    for (const Method* const method : methods()) {
+        CAPTURE(method->name);
+        Monitor monitor;
+        const SolveOptions options{.rays = 1e9, .threads = 2};
+        const SolverInput input{model.mesh, model.bvh, options, monitor};
+        const auto solver = method->make(input);
+        CHECK(run(*solver, input, {.steps = {}, .seconds = .01, .error = {}}));
+        CHECK_FALSE(monitor.interrupted);
+    }
+}
+
+TEST_CASE("A step that the time has cut short is taken anew and gives what it would have given") {
+    const Model model(test::room_with_block());
+    for (const char* name : {"hemisphere", "monte-carlo", "gathering"}) {
+        CAPTURE(name);
+        const Method& method = *find_method(name);
+        const SolveOptions options{.rays = 64, .growing_steps = false, .threads = 2};
+        const Solution whole = test::solve(model, method, options, test::steps(2));
+        Monitor monitor;
+        const test::AfterStreams tracer(model.bvh, 3,
+                                        [&] { monitor.interrupted.set_out_of_time(true); });
+        const auto solver = method.make({model.mesh, tracer, options, monitor});
+        while (solver->solution().steps < 2)
+            if (!solver->step())
+                monitor.interrupted.set_out_of_time(false);
+        CHECK(solver->solution().radiosity == whole.radiosity);
+    }
+}
+
+TEST_CASE("A time limit sets its flag once the time is over, and clears it in the end") {
+    StopFlag flag;
+    {
+        const TimeLimit none(flag, std::nullopt), long_one(flag, 1e300);
+        CHECK_FALSE(flag);
+    }
+    {
+        const TimeLimit limit(flag, 0.0);
+        while (!flag)
+            std::this_thread::yield();
+        CHECK(flag.out_of_time());
+        CHECK_FALSE(flag.load());
+    }
+    CHECK_FALSE(flag);
+}
