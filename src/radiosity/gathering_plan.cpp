@@ -57,6 +57,7 @@ GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random
         prior_lamp_weights_.push_back(area * reflectance);
         prior_weights_.push_back(area * std::max(reflectance, least_reflectance));
     }
+    before_ = now_;
     weights_ = learned_weights_ = prior_weights_;
     lamp_weights_ = prior_lamp_weights_;
 }
