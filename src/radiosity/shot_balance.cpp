@@ -55,21 +55,25 @@ ShotShares ShotBalance::settle(const FactorSum& factors, const ShotRays& rays) {
     all_.absorbed += rays.absorbed;
     const double lost = (rays.escaped + rays.absorbed) / rays.count;
     if (!(sum > 0) || at_risk > most_at_risk)
-        return {1, {rays.escaped / rays.count, rays.absorbed / rays.count}, 1 - sum - lost};
+        return {.scale = 1,
+                .lost = {rays.escaped / rays.count, rays.absorbed / rays.count},
+                .by_chance = 1 - sum - lost};
     if (closed_)
-        return {1 / sum, {}, 0};
+        return {1 / sum, {}, 0, true, 0};
     const double variance_of_rays = variance_of_loss(rays.count);
     const double both = variance + variance_of_rays;
     const double joined =
         both > 0 ? ((1 - lost) * variance + sum * variance_of_rays) / both : 1 - lost;
+    const double of_joined = both > 0 ? variance * variance_of_rays / both : 0;
+    const double relative = joined > 0 ? of_joined / (joined * joined) : 0;
     const LostShare kinds{rays.escaped + all_.escaped / all_.count,
                           rays.absorbed + all_.absorbed / all_.count};
     const double known = kinds.escaped + kinds.absorbed;
     // More than all is chance, and evens out: cut off, light would be missing on average.
     if (!(known > 0) || joined >= 1)
-        return {joined / sum, {}, 1 - joined};
+        return {joined / sum, {}, 1 - joined, true, relative};
     const double each = (1 - joined) / known;
-    return {joined / sum, {each * kinds.escaped, each * kinds.absorbed}, 0};
+    return {joined / sum, {each * kinds.escaped, each * kinds.absorbed}, 0, true, relative};
 }
 
 } // namespace hemilux

@@ -34,6 +34,8 @@ class ShotFactors {
     [[nodiscard]] FactorSum sum() const;
 
   private:
+    void guess();
+    [[nodiscard]] bool is_receiver(std::uint32_t patch) const;
     [[nodiscard]] Sight look_from(std::uint32_t receiver, const Vec3& shot, double rays_per_light,
                                   std::uint64_t seed) const;
     [[nodiscard]] double worth(std::uint32_t receiver, double light) const;
@@ -42,6 +44,8 @@ class ShotFactors {
     Workers workers_;
     double mean_reflected_, mean_area_ = 0;
     std::uint32_t shooter_ = 0;
+    std::vector<double> rough_; ///< F_receiver,shooter as guessed
+    double crowding_ = 1;       ///< what the guesses for all receivers sum up to, at least 1
     std::vector<Sight> sights_;
 };
 

@@ -33,8 +33,8 @@ struct Solution {
     /// Sum over patches and channels of area times the variance of B, where that is known better
     /// than from standard_error, which is on the safe side where few rays arrive.
     std::optional<double> variance;
-    /// The same sum for what no ray may have seen so far: the squared error by the rule of three,
-    /// which counts besides the variance.
+    /// The same sum for what no ray may have seen so far, by the rule of three, or for light that
+    /// is still to be shot: a squared error which counts besides the variance.
     double unseen = 0;
     /// False where no light can reach anything that reflects, as the scene itself tells: then
     /// finding none is no lack of knowledge.
