@@ -43,19 +43,21 @@ void ShotFactors::look(std::uint32_t shooter, const Vec3& shot, double rays_per_
         });
 }
 
-/// All factors of a patch sum up to 1 at most. Where the guesses sum up to S > 1, because patches
-/// stand in front of each other, a receiver sees the shooter with a probability of about 1 / S: the
-/// standard deviation of what it sees, to which its rays are to be proportional, is smaller by the
-/// root of S.
+/// No factor to the shooter is more than the ratio of the areas, as no more arrives than is shot;
+/// and all factors of a patch sum up to 1 at most. Where the guesses sum up to S > 1, because
+/// patches stand in front of each other, a receiver sees the shooter with a probability of about 1
+/// / S: the standard deviation of what it sees, to which its rays are to be proportional, is
+/// smaller by the root of S.
 void ShotFactors::guess() {
     const auto patches = input_.mesh.patches();
-    workers_.for_chunks(sights_.size(), receivers_per_chunk,
-                        [&](std::size_t begin, std::size_t end) {
-                            for (std::size_t i = begin; i < end; ++i)
-                                rough_[i] = is_receiver(static_cast<std::uint32_t>(i))
-                                                ? rough_factor(patches[i], patches[shooter_])
-                                                : 0;
-                        });
+    workers_.for_chunks(
+        sights_.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                rough_[i] = is_receiver(static_cast<std::uint32_t>(i))
+                                ? std::min(rough_factor(patches[i], patches[shooter_]),
+                                           patches[shooter_].area / patches[i].area)
+                                : 0;
+        });
     CompensatedSum<double> sum;
     for (std::uint32_t i = 0; i < rough_.size(); ++i)
         sum += rough_[i] * patches[i].area / patches[shooter_].area;
@@ -80,12 +82,15 @@ Sight ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot, double ra
                         worth(receiver, mean_of_channels(rho * glm::abs(shot)) * rough);
     const double chance = std::min(rays / least_worth, 1.0);
     const double at_risk = chance < 1 ? rough / crowding_ : 0;
+    // Of a factor that is `rough` with a probability of 1 / crowding_, looked at with `chance`:
+    // what was looked at would tell it as well, but hardly ever.
+    const double by_chance = (1 - chance) / chance * rough * rough / crowding_;
     if (chance < 1 && !(Rng(hash_words({seed, receiver})).uniform() < chance))
-        return {{}, at_risk};
+        return {{.variance = rays > 0 ? by_chance : 0}, at_risk};
     Sight f{pair_factor(input_.mesh, input_.tracer, receiver, shooter_, rays, seed,
                         input_.needs.visibility),
             at_risk};
-    f.variance = f.variance / chance + (1 - chance) * (f.factor / chance) * (f.factor / chance);
+    f.variance = f.variance / chance + by_chance;
     f.factor /= chance;
     return f;
 }

@@ -133,22 +133,26 @@ class ProgressiveSolver final : public Solver {
         ++solution_.steps;
     }
 
-    /// As error_spread.h has it, a common error of all patches counts as one part.
+    /// Each patch errs for itself, but for the part that is shared: that makes one part of the
+    /// error (error_spread.h), however many patches there are.
     void note_errors(const Estimate& estimate) {
         solution_.standard_error = pooled_over_neighbours(input_.mesh, estimate.variance);
-        double variance = 0, missing = 0;
+        double variance = 0, missing = 0, squares = 0;
         for (std::uint32_t i = 0; i < estimate.radiosity.size(); ++i) {
             const double area = input_.mesh.patches()[i].area;
             const Vec3& light = estimate.missing[i];
-            variance += area * glm::dot(estimate.variance[i], Vec3(1.0));
+            const double here = area * glm::dot(estimate.variance[i], Vec3(1.0));
+            variance += here;
+            squares += here * here;
             missing += area * glm::dot(light, light);
             solution_.standard_error[i] = glm::sqrt(solution_.standard_error[i] + light * light);
         }
         solution_.variance = variance;
         solution_.unseen = missing;
         solution_.error_parts.reset();
-        if (estimate.shared > 0)
-            solution_.error_parts = std::max(std::pow(variance / estimate.shared, 2.0), 1.0);
+        squares = std::max(squares, estimate.shared * estimate.shared);
+        if (squares > 0)
+            solution_.error_parts = std::max(variance * variance / squares, 1.0);
     }
 
     SolverInput input_;
