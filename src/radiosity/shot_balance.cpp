@@ -48,23 +48,33 @@ double ShotBalance::variance_of_loss(double count) const {
     return usual * (1 - usual) / count;
 }
 
+/// As of factors whose points scatter as those of all shots, for the same reason: where by chance
+/// little was seen, little was seen to scatter, and the sum of the factors would be trusted most
+/// when it is too small.
+double ShotBalance::usual_variance(const FactorSum& factors) const {
+    return factors.points > 0 ? variance_of_point_ / shots_ / factors.points : factors.variance;
+}
+
 ShotShares ShotBalance::settle(const FactorSum& factors, const ShotRays& rays) {
-    const auto [sum, variance, at_risk] = factors;
+    const double sum = factors.sum;
+    ++shots_;
+    variance_of_point_ += factors.variance * factors.points;
     all_.count += rays.count;
     all_.escaped += rays.escaped;
     all_.absorbed += rays.absorbed;
     const double lost = (rays.escaped + rays.absorbed) / rays.count;
-    if (!(sum > 0) || at_risk > most_at_risk)
+    if (!(sum > 0) || factors.at_risk > most_at_risk)
         return {.scale = 1,
                 .lost = {rays.escaped / rays.count, rays.absorbed / rays.count},
                 .by_chance = 1 - sum - lost};
     if (closed_)
         return {1 / sum, {}, 0, true, 0};
     const double variance_of_rays = variance_of_loss(rays.count);
-    const double both = variance + variance_of_rays;
-    const double joined =
-        both > 0 ? ((1 - lost) * variance + sum * variance_of_rays) / both : 1 - lost;
-    const double of_joined = both > 0 ? variance * variance_of_rays / both : 0;
+    const double of_sum = usual_variance(factors), both = of_sum + variance_of_rays;
+    const double trust = both > 0 ? of_sum / both : 1; // in the rays
+    const double joined = trust * (1 - lost) + (1 - trust) * sum;
+    const double of_joined =
+        trust * trust * variance_of_rays + (1 - trust) * (1 - trust) * factors.variance;
     const double relative = joined > 0 ? of_joined / (joined * joined) : 0;
     const LostShare kinds{rays.escaped + all_.escaped / all_.count,
                           rays.absorbed + all_.absorbed / all_.count};

@@ -110,6 +110,7 @@ FactorSum ShotFactors::sum() const {
         sum += ratio * sights_[i].factor;
         result.variance += ratio * ratio * sights_[i].variance;
         result.at_risk += ratio * sights_[i].at_risk;
+        result.points += static_cast<double>(sights_[i].points);
     }
     result.sum = sum.value();
     return result;
