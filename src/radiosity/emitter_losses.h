@@ -19,9 +19,9 @@ struct EmitterLoss {
 
 /// By replicate and, in their order, the emitters that these have in closed form. Each is the mean
 /// of both, weighted by the inverse of their variances: of the rays of all replicates together, and
-/// by what the replicates differ. So no weight depends on what a replicate itself has met. Of
-/// scenes in which some patches do not look for themselves, the rays alone tell. `rays`: those of a
-/// patch in each replicate.
+/// by what the replicates differ. So no weight depends on what a replicate itself has met. The rays
+/// alone count where none of any emitter was lost, and where patches are black, which need not
+/// look. `rays`: those of a patch in each replicate.
 [[nodiscard]] std::vector<std::vector<EmitterLoss>>
 emitter_losses(std::span<const SampledFormFactors> replicates, double rays);
 

@@ -21,8 +21,9 @@ constexpr double finished_share = 2e-5, finished_share_of_emitted = 5e-3;
 /// Rays from each shooter to find how much of its light leaves the scene.
 constexpr double least_lost_rays = 16, most_lost_rays = 16384;
 
-/// Of a mean, so that sums of all reflections stay finite.
-constexpr double most_reflectance = .999;
+/// Of a mean, so that sums of all reflections stay finite: of the light that a pass waits for, and,
+/// as light in a bright room may go round for longer, of its errors.
+constexpr double most_reflectance = .999, most_of_errors = .99999;
 
 /// What overshooting adds at most to what is unshot.
 constexpr double most_overshot = .8;
@@ -43,14 +44,15 @@ struct ReflectingArea {
         }
         if (!(area > 0))
             area = total;
-        mean_reflectance = glm::min(mean_reflectance / area, Vec3(most_reflectance));
+        mean_reflectance = glm::min(mean_reflectance / area, Vec3(most_of_errors));
     }
 };
 
 /// Radiosity that the mean patch will reflect in the end.
 double mean_reflected(const Mesh& mesh) {
     const ReflectingArea reflecting(mesh);
-    const Vec3 rho = glm::max(reflecting.mean_reflectance, least_reflectance_of_receivers);
+    const Vec3 rho = glm::clamp(reflecting.mean_reflectance, Vec3(least_reflectance_of_receivers),
+                                Vec3(most_reflectance));
     return mean_of_channels(power_to_patches(mesh) * rho / (1.0 - rho)) / reflecting.area;
 }
 
@@ -82,7 +84,7 @@ bool ProgressivePass::is_done() const {
     double left = 0;
     for (std::uint32_t i = 0; i < unshot_.size(); ++i)
         left += unshot_power(i);
-    const Reflected now = reflected();
+    const Reflected now = reflected(most_reflectance);
     const double missing = left * mean_of_channels(now.gain);
     return !(missing > finished_share * mean_of_channels(now.power)) &&
            !(left > finished_share_of_emitted * mean_of_channels(emitted_));
@@ -181,9 +183,9 @@ ShotRays ProgressivePass::look_for_losses(std::uint32_t shooter, const Vec3& sho
                          hash_words({input_.options.seed, shots_, shooter, 1}));
 }
 
-ProgressivePass::Reflected ProgressivePass::reflected() const {
+ProgressivePass::Reflected ProgressivePass::reflected(double most) const {
     Reflected result;
-    Vec3 weighted(0.0), usual = mean_reflectance_;
+    Vec3 weighted(0.0), usual = glm::min(mean_reflectance_, Vec3(most));
     for (std::uint32_t i = 0; i < radiosity_.size(); ++i) {
         const Material& material = input_.mesh.material(i);
         const Vec3 power = input_.mesh.patches()[i].area * (radiosity_[i] - material.emission);
@@ -192,7 +194,7 @@ ProgressivePass::Reflected ProgressivePass::reflected() const {
     }
     for (int c = 0; c < 3; ++c)
         if (result.power[c] > 0)
-            usual[c] = std::clamp(weighted[c] / result.power[c], usual[c], most_reflectance);
+            usual[c] = std::clamp(weighted[c] / result.power[c], usual[c], most);
     result.gain = usual / (1.0 - usual);
     return result;
 }
@@ -215,7 +217,7 @@ Estimate ProgressivePass::estimate() const {
     const Vec3 gain = 1.0 / ((1.0 - mean_reflectance_) * reflecting_area_);
     const Vec3 shared = gain * gain * power_variance_;
     // What is unshot may stay where the light is now, as in the shade around a lamp.
-    const Reflected now = reflected();
+    const Reflected now = reflected(most_of_errors);
     Vec3 share(0.0);
     for (int c = 0; c < 3; ++c)
         if (now.power[c] > 0)

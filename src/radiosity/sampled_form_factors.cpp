@@ -91,6 +91,13 @@ double SampledFormFactors::arriving_from(std::size_t emitter) const {
     return sum / emitter_samples(rays_) / patches[emitters_[emitter]].area;
 }
 
+bool SampledFormFactors::all_receive() const {
+    for (std::uint32_t i = 0; i < mesh_.patches().size(); ++i)
+        if (mesh_.material(i).reflectance + mesh_.material(i).emission == Vec3(0.0))
+            return false;
+    return true;
+}
+
 /// c_ij + c_ji, by row and patch.
 std::vector<std::vector<RayCounts::Count>> SampledFormFactors::merged_counts() const {
     const auto patches = static_cast<std::uint32_t>(mesh_.patches().size());

@@ -42,7 +42,7 @@ struct Count {
     void add(const JudgedRun& run) {
         ++runs;
         wrong += run.wrong || run.part_wrong;
-        unknown += run.unknown;
+        unknown += run.unknown && !run.stopped; // one that was stopped need not know
     }
     void add(const Count& other) {
         runs += other.runs;
@@ -135,7 +135,7 @@ TEST_CASE("Gathering reports an error in which one can trust: one scene of each 
 TEST_CASE("Every other method reports an error in which one can trust", "[slow]") {
     for (const Method* const method : methods())
         if (method->name != "gathering")
-            check_scenes(std::string(method->name), scenes_named(one_of_each_kind), 4,
+            check_scenes(std::string(method->name), scenes_named(), 2,
                          {.seconds = 1, .rays = 300'000}, methods().size() - 1);
 }
 
