@@ -7,9 +7,10 @@
 
 namespace hemilux {
 
-/// By patch: B, its variance, and how much light may still be missing; and where the power went.
+/// By patch: B, its variance, what of that nobody may have seen, as guessed, and how much light may
+/// still be missing; and where the power went.
 struct Estimate {
-    std::vector<Vec3> radiosity, variance, missing;
+    std::vector<Vec3> radiosity, variance, left_to_chance, missing;
     double shared = 0;    ///< area times variance of all patches, as far as they err together
     EnergyBalance energy; ///< local units
 
@@ -23,6 +24,7 @@ struct Estimate {
         for (std::size_t i = 0; i < radiosity.size(); ++i) {
             radiosity[i] = mean(radiosity[i], other.radiosity[i]);
             variance[i] = both(variance[i], other.variance[i]);
+            left_to_chance[i] = both(left_to_chance[i], other.left_to_chance[i]);
             missing[i] = mean(missing[i], other.missing[i]);
         }
         shared = both(shared, other.shared);

@@ -76,6 +76,7 @@ void ProgressivePass::begin(double rays_per_light) {
     for (std::uint32_t i = 0; i < hits_.size(); ++i)
         rank(i);
     variance_.assign(hits_.size(), Vec3(0.0));
+    left_to_chance_.assign(hits_.size(), Vec3(0.0));
     power_variance_ = Vec3(0.0);
     absorbed_ = escaped_ = by_chance_ = {};
 }
@@ -141,6 +142,8 @@ void ProgressivePass::receive(const Vec3& shot, const ShotShares& shares) {
             rank(i);
         variance_[i] += rho * shot * rho * shot * (shares.scale * shares.scale * seen.variance) +
                         rho * incident * rho * incident * shares.variance;
+        left_to_chance_[i] +=
+            rho * shot * rho * shot * (shares.scale * shares.scale * seen.left_to_chance);
         absorbed_ += (1.0 - rho) * incident * input_.mesh.patches()[i].area;
         hits_[i] += seen.hits;
         points_ += seen.points;
@@ -225,6 +228,7 @@ Estimate ProgressivePass::estimate() const {
     Estimate result{
         radiosity_,
         variance_,
+        left_to_chance_,
         {},
         0,
         {emitted_, absorbed_.value(), escaped_.value(), power_unshot() + by_chance_.value()}};

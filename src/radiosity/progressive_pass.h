@@ -64,6 +64,7 @@ class ProgressivePass {
     std::vector<Vec3> radiosity_, unshot_; ///< B and dB
     LargestFirst brightest_;               ///< unshot power
     std::vector<Vec3> variance_;           ///< of B by sampling, but for what is reflected again
+    std::vector<Vec3> left_to_chance_;     ///< of that, by pairs that were seldom looked at
     Vec3 power_variance_{0.0};             ///< of the power that all shots have brought
     CompensatedSum<Vec3> absorbed_, escaped_, by_chance_; ///< power, local units
     ShotBalance balance_;

@@ -82,15 +82,14 @@ Sight ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot, double ra
                         worth(receiver, mean_of_channels(rho * glm::abs(shot)) * rough);
     const double chance = std::min(rays / least_worth, 1.0);
     const double at_risk = chance < 1 ? rough / crowding_ : 0;
-    // Of a factor that is `rough` with a probability of 1 / crowding_, looked at with `chance`:
-    // what was looked at would tell it as well, but hardly ever.
-    const double by_chance = (1 - chance) / chance * rough * rough / crowding_;
+    // Of a factor that is `rough` with a probability of 1 / crowding_, looked at with `chance`.
+    const double left_to_chance = rays > 0 ? (1 - chance) / chance * rough * rough / crowding_ : 0;
     if (chance < 1 && !(Rng(hash_words({seed, receiver})).uniform() < chance))
-        return {{.variance = rays > 0 ? by_chance : 0}, at_risk};
+        return {{}, at_risk, left_to_chance};
     Sight f{pair_factor(input_.mesh, input_.tracer, receiver, shooter_, rays, seed,
                         input_.needs.visibility),
-            at_risk};
-    f.variance = f.variance / chance + by_chance;
+            at_risk, left_to_chance};
+    f.variance = f.variance / chance + (1 - chance) * (f.factor / chance) * (f.factor / chance);
     f.factor /= chance;
     return f;
 }

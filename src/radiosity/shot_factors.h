@@ -16,6 +16,9 @@ namespace hemilux {
 /// F_receiver,shooter.
 struct Sight : PairFactor {
     double at_risk = 0; ///< about the factor, if it was left to chance whether to look
+    /// The variance which that adds, as guessed before anything was seen. `variance` holds it as
+    /// seen: right on average, but 0 where nobody has looked.
+    double left_to_chance = 0;
 };
 
 class ShotFactors {

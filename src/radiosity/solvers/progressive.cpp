@@ -145,7 +145,9 @@ class ProgressiveSolver final : public Solver {
             variance += here;
             squares += here * here;
             missing += area * glm::dot(light, light);
-            solution_.standard_error[i] = glm::sqrt(solution_.standard_error[i] + light * light);
+            const Vec3 seen = solution_.standard_error[i];
+            solution_.standard_error[i] =
+                glm::sqrt(glm::max(seen, estimate.left_to_chance[i]) + light * light);
         }
         solution_.variance = variance;
         solution_.unseen = missing;
