@@ -52,13 +52,14 @@ double ShotBalance::variance_of_loss(double count) const {
 /// little was seen, little was seen to scatter, and the sum of the factors would be trusted most
 /// when it is too small.
 double ShotBalance::usual_variance(const FactorSum& factors) const {
-    return factors.points > 0 ? variance_of_point_ / shots_ / factors.points : factors.variance;
+    const double spread = spread_of_point_ / shots_; // not its square: few shots would outweigh all
+    return factors.points > 0 ? spread * spread / factors.points : factors.variance;
 }
 
 ShotShares ShotBalance::settle(const FactorSum& factors, const ShotRays& rays) {
     const double sum = factors.sum;
     ++shots_;
-    variance_of_point_ += factors.variance * factors.points;
+    spread_of_point_ += std::sqrt(factors.variance * factors.points);
     all_.count += rays.count;
     all_.escaped += rays.escaped;
     all_.absorbed += rays.absorbed;

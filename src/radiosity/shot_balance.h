@@ -53,7 +53,7 @@ class ShotBalance {
 
     bool closed_;
     ShotRays all_; ///< of all shots: where hardly any is lost, a few rays do not tell
-    double shots_ = 0, variance_of_point_ = 0; ///< the latter summed over all shots
+    double shots_ = 0, spread_of_point_ = 0; ///< the latter summed over all shots
 };
 
 } // namespace hemilux
