@@ -136,9 +136,9 @@ void Checkpointer::write(const std::vector<StepRow>& rows, double seconds) {
                          {options_of(settings_), scene_, seconds, rows, std::move(state).bytes()});
     });
     last_ = std::chrono::steady_clock::now();
-    if (report_.failed.empty())
+    if (!report_.written.empty())
         steps_written_ = solver_.solution().steps;
-    else if (first_failure)
+    else if (first_failure && !report_.failed.empty())
         say(settings_.talk, Talk::normal, "warning: " + report_.failed.front());
 }
 

@@ -30,7 +30,7 @@ Scene with_sides(Scene scene, Sides sides) {
 } // namespace
 
 int info(const InfoSettings& settings) {
-    ReadResult read = load_scene(settings.scene);
+    ReadResult read = load_scene(settings.scene, {});
     if (settings.talk != Talk::quiet)
         for (const std::string& warning : read.warnings)
             std::fprintf(stderr, "warning: %s\n", warning.c_str());

@@ -1,5 +1,6 @@
 #include "app/progress.h"
 
+#include "app/talk.h"
 #include "app/text.h"
 
 #include <algorithm>
@@ -94,7 +95,8 @@ void Progress::set_topic(const std::string& topic) {
 void Progress::say(const std::string& line) {
     const std::scoped_lock lock(mutex_);
     erase();
-    std::fprintf(stderr, "%s\n", line.c_str());
+    if (can_say())
+        std::fprintf(stderr, "%s\n", line.c_str());
 }
 
 void Progress::close() {

@@ -12,12 +12,21 @@ Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& trace
                : automatic_camera(mesh, tracer, radiosity, static_cast<double>(width) / height);
 }
 
+bool PictureTime::is_over() const {
+    constexpr std::chrono::seconds moment(2);
+    return interrupted_ && std::chrono::steady_clock::now() - start_ > moment;
+}
+
 Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                   std::span<const Vec3> radiosity, const Camera& camera, unsigned threads,
-                  const CornerClasses* classes) {
+                  const PictureTime& time, const CornerClasses* classes) {
     const auto [width, height] = view.size;
     return render(mesh, tracer, radiosity, camera,
-                  {.width = width, .height = height, .threads = threads, .classes = classes});
+                  {.width = width,
+                   .height = height,
+                   .threads = threads,
+                   .classes = classes,
+                   .give_up = [&time] { return time.is_over(); }});
 }
 
 double exposure_of(const ViewSettings& view, const Image& image) {

@@ -3,14 +3,9 @@
 #include "io/atomic_file.h"
 #include "io/checksum.h"
 #include "io/error.h"
+#include "io/input_file.h"
 #include "radiosity/mesh.h"
 #include "radiosity/state.h"
-
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 
 namespace hemilux {
 namespace {
@@ -102,15 +97,6 @@ void check_first_line(std::string_view& bytes, const std::string& file) {
     bytes.remove_prefix(end + 1);
 }
 
-void check_is_file(const std::string& path) {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status))
-        throw InputError(path, "cannot read: " + (error ? error.message() : "no such file"));
-    if (!std::filesystem::is_regular_file(status))
-        throw InputError(path, "expected a checkpoint, this is no regular file");
-}
-
 } // namespace
 
 std::uint64_t scene_hash(const Mesh& mesh) {
@@ -179,27 +165,13 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
 }
 
 Checkpoint read_checkpoint(const std::string& path) {
-    check_is_file(path);
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::string bytes(magic.size() + longest_format + 1, '\0');
-    if (file)
-        file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!file && !file.eof())
-        throw InputError(path, std::string("cannot read: ") + std::strerror(errno));
-    bytes.resize(static_cast<std::size_t>(file.gcount()));
-    std::string_view first = bytes; // a large file of another kind is not read to its end
-    check_first_line(first, path);
-    constexpr std::size_t chunk = std::size_t{1} << 20;
-    while (file) {
-        const std::size_t size = bytes.size();
-        bytes.resize(size + std::max(chunk, size / 2));
-        file.read(bytes.data() + size, static_cast<std::streamsize>(bytes.size() - size));
-        bytes.resize(size + static_cast<std::size_t>(file.gcount()));
-    }
-    if (file.bad())
-        throw InputError(path, std::string("cannot read: ") + std::strerror(errno));
-    return checkpoint_from(bytes, path);
+    bool checked = false; // a large file of another kind is not read to its end
+    const auto check = [&](std::string_view bytes) {
+        if (!checked)
+            check_first_line(bytes, path);
+        checked = true;
+    };
+    return checkpoint_from(read_input(path, InputKind::regular, check), path);
 }
 
 } // namespace hemilux

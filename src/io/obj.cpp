@@ -77,7 +77,7 @@ class ObjReader {
 };
 
 ReadResult ObjReader::read() {
-    TextReader reader(read_text_file(path_));
+    TextReader reader(read_text_file(path_, InputKind::stream));
     Statement statement;
     while (reader.next(statement))
         read_statement(statement);
@@ -211,6 +211,8 @@ void ObjReader::check_corners() const {
 void ObjReader::divide_faces() {
     result_.scene.faces = static_cast<std::uint32_t>(faces_.size());
     result_.scene.facets.reserve(faces_.size());
+    for (const RawFace& face : faces_)
+        result_.face_lines.push_back(static_cast<std::uint32_t>(face.line));
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
         const std::span<const std::uint32_t> corner = corners_of(f);
         shape_.clear();
@@ -270,6 +272,8 @@ void ObjReader::collect_warnings() {
     result_.scene.materials = std::move(materials_.materials);
     result_.material_source = std::move(materials_.sources);
     result_.warnings = std::move(materials_.warnings);
+    result_.libraries = std::move(materials_.libraries);
+    result_.textures = std::move(materials_.textures);
     if (const std::string rounding = rounding_of_places(); !rounding.empty())
         result_.warnings.push_back(path_ + rounding);
     warn(few_corners_, "a face with fewer than 3 corners is left out",
@@ -285,18 +289,5 @@ void ObjReader::collect_warnings() {
 } // namespace
 
 ReadResult read_obj(const std::string& path) { return ObjReader(path).read(); }
-
-std::size_t line_of_face(const std::string& path, std::uint32_t face) {
-    try {
-        TextReader reader(read_text_file(path));
-        Statement statement;
-        for (std::uint32_t faces = 0; reader.next(statement);)
-            if ((statement.keyword == "f" || statement.keyword == "fo") && faces++ == face)
-                return statement.line;
-    } catch (const InputError&) {
-        return 0; // not even the same file as before
-    }
-    return 0;
-}
 
 } // namespace hemilux
