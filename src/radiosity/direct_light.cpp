@@ -72,8 +72,8 @@ DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& ne
       patch_of_emitter_(one_of_each_side(mesh, emitters)),
       emitters_(whole_sides(mesh, patch_of_emitter_)), choice_(mesh, emitters_),
       seeds_(std::move(seeds)), sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)),
-      samples_(mesh.patches().size()), hits_(mesh.patches().size()),
-      bright_(mesh.patches().size()), unblocked_(mesh.patches().size()) {
+      samples_(mesh.patches().size()), hits_(mesh.patches().size()), bright_(mesh.patches().size()),
+      unblocked_(mesh.patches().size()) {
     for (const Patch& emitter : emitters_)
         lamps_.push_back(
             {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});
@@ -182,13 +182,19 @@ void DirectLight::save(StateWriter& state) const {
 }
 
 void DirectLight::load(StateReader& state) {
-    state.get(std::span(sum_));
+    state.get(std::span(sum_), non_negative);
     state.get(std::span(samples_));
     state.get(std::span(hits_));
+    for (std::size_t i = 0; i < hits_.size(); ++i)
+        if (hits_[i] > std::uint64_t{samples_[i]} * seeds_.size())
+            throw StateError("more shadow rays arrived than were traced");
     state.get(std::span(bright_));
-    state.get(std::span(unblocked_));
-    part_.resize(state.whole() != 0 ? hits_.size() : 0);
+    state.get(std::span(unblocked_), non_negative);
+    part_.resize(state.flag() ? hits_.size() : 0);
     state.get(std::span(part_));
+    for (const std::uint32_t part : part_)
+        if (part >= part_.size())
+            throw StateError("a part of the scene is out of range");
     if (!part_.empty())
         choice_.set_parts(part_, patch_of_emitter_);
 }
