@@ -12,6 +12,7 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "app/text.h"
+#include "app/view.h"
 #include "io/error.h"
 #include "radiosity/rng.h"
 
@@ -129,6 +130,7 @@ int run_comparison(const CompareSettings& settings) {
     InterruptGuard guard;
     LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk);
     const Mesh& mesh = loaded.mesh;
+    check_camera(settings.view, mesh);
     check_exact(settings.options, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;

@@ -164,6 +164,7 @@ int density(const DensitySettings& settings) {
     Monitor monitor;
     const InterruptGuard guard(monitor.interrupted);
     const Mesh mesh = load_geometry(settings.scene, settings.talk);
+    check_camera(settings.view, mesh);
     check_patch(settings, mesh);
     const WideBvh bvh(mesh.soup(), {.threads = settings.options.threads});
     const Hemisphere hemisphere(settings.options.depth);

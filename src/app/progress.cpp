@@ -1,6 +1,7 @@
 #include "app/progress.h"
 
 #include "app/text.h"
+#include "io/printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +95,7 @@ void Progress::set_topic(const std::string& topic) {
 void Progress::say(const std::string& line) {
     const std::scoped_lock lock(mutex_);
     erase();
-    std::fprintf(stderr, "%s\n", line.c_str());
+    std::fprintf(stderr, "%s\n", printable_message(line).c_str());
 }
 
 void Progress::close() {

@@ -1,6 +1,7 @@
 #include "app/talk.h"
 
 #include "app/text.h"
+#include "io/printable.h"
 
 #include <cstdio>
 
@@ -14,7 +15,7 @@ constexpr std::size_t most_warnings = 10;
 
 void say(Talk wanted, Talk least, const std::string& line) {
     if (wanted >= least)
-        std::fprintf(stderr, "%s\n", line.c_str());
+        std::fprintf(stderr, "%s\n", printable_message(line).c_str());
 }
 
 void say_warnings(Talk wanted, const std::vector<std::string>& warnings) {

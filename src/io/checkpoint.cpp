@@ -50,7 +50,7 @@ StepRow row_from(StateReader& in) {
     row.record.step =
         static_cast<std::uint32_t>(in.whole_up_to(std::numeric_limits<std::uint32_t>::max()));
     row.record.rays = in.whole();
-    row.record.seconds = in.number(non_negative);
+    row.record.seconds = in.number(bounds::non_negative);
     row.record.estimated_error = error_from(in);
     const bool has_error = in.flag();
     RelativeError error;
@@ -85,7 +85,7 @@ Checkpoint parse_content(std::string_view bytes) {
         checkpoint.options.emplace_back(std::move(name), in.text());
     }
     checkpoint.scene = in.whole();
-    checkpoint.seconds = in.number(non_negative);
+    checkpoint.seconds = in.number(bounds::non_negative);
     for (std::size_t left = in.count(row_bytes); left > 0; --left)
         checkpoint.rows.push_back(row_from(in));
     checkpoint.state = in.text();

@@ -1,6 +1,7 @@
 #include "io/text_reader.h"
 
 #include "io/error.h"
+#include "io/other_format.h"
 #include "io/text_words.h"
 
 #include <algorithm>
@@ -50,8 +51,8 @@ std::string content_of(const std::string& path) {
 std::string read_text_file(const std::string& path) {
     check_is_file(path);
     std::string content = content_of(path);
-    if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff"))
-        throw InputError(path, "the file is UTF-16; expected UTF-8 or plain text");
+    if (const std::string_view other = other_format(content); !other.empty())
+        throw InputError(path, "expected OBJ or MTL text, the file is " + std::string(other));
     if (const std::size_t nul = content.find('\0'); nul != std::string::npos) {
         const auto end = content.begin() + static_cast<std::ptrdiff_t>(nul);
         const auto lines = std::count(content.begin(), end, '\n') + 1;

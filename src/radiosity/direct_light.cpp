@@ -182,14 +182,14 @@ void DirectLight::save(StateWriter& state) const {
 }
 
 void DirectLight::load(StateReader& state) {
-    state.get(std::span(sum_), non_negative);
+    state.get(std::span(sum_), bounds::non_negative);
     state.get(std::span(samples_));
     state.get(std::span(hits_));
     for (std::size_t i = 0; i < hits_.size(); ++i)
         if (hits_[i] > std::uint64_t{samples_[i]} * seeds_.size())
             throw StateError("more shadow rays arrived than were traced");
     state.get(std::span(bright_));
-    state.get(std::span(unblocked_), non_negative);
+    state.get(std::span(unblocked_), bounds::non_negative);
     part_.resize(state.flag() ? hits_.size() : 0);
     state.get(std::span(part_));
     for (const std::uint32_t part : part_)

@@ -14,7 +14,7 @@ namespace {
 constexpr double most_below = .1;
 
 /// -1 stands for a variance that is not known.
-constexpr Bounds known_or_not{-1, largest_number};
+constexpr Bounds known_or_not{-1, bounds::largest};
 
 } // namespace
 
@@ -35,7 +35,7 @@ void save_energy(const EnergyBalance& energy, StateWriter& state) {
 
 void load_energy(EnergyBalance& energy, StateReader& state) {
     for (Vec3* power : {&energy.emitted, &energy.absorbed, &energy.escaped, &energy.unshot})
-        state.get(*power, finite);
+        state.get(*power, bounds::finite);
 }
 
 void save_solution(const Solution& solution, StateWriter& state) {
@@ -58,17 +58,17 @@ void load_solution(Solution& solution, StateReader& state) {
     state.get(solution.steps);
     state.get(solution.rays_energy);
     state.get(solution.bytes_transport);
-    state.get(solution.error_samples, non_negative);
+    state.get(solution.error_samples, bounds::non_negative);
     const double parts = state.number({0, std::numeric_limits<double>::infinity()});
     solution.error_parts = parts > 0 ? std::optional(parts) : std::nullopt;
     const double variance = state.number(known_or_not);
     solution.variance = variance >= 0 ? std::optional(variance) : std::nullopt;
-    state.get(solution.variance_of_level, non_negative);
-    state.get(solution.unseen, non_negative);
+    state.get(solution.variance_of_level, bounds::non_negative);
+    state.get(solution.unseen, bounds::non_negative);
     solution.unlit = state.whole_up_to(solution.radiosity.size());
     load_energy(solution.energy, state);
     load_light(solution.radiosity, 2 * largest_radiosity, state);
-    state.get(std::span(solution.standard_error), non_negative);
+    state.get(std::span(solution.standard_error), bounds::non_negative);
     state.get(std::span(solution.hits));
 }
 

@@ -22,8 +22,10 @@ struct StateError : std::runtime_error {
 struct Bounds {
     double least, most;
 };
-inline constexpr double largest_number = std::numeric_limits<double>::max();
-inline constexpr Bounds finite{-largest_number, largest_number}, non_negative{0, largest_number};
+namespace bounds {
+inline constexpr double largest = std::numeric_limits<double>::max();
+inline constexpr Bounds finite{-largest, largest}, non_negative{0, largest};
+} // namespace bounds
 
 class StateWriter {
   public:

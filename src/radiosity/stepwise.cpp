@@ -341,7 +341,7 @@ void StepwiseSolver::load_ray_power(StateReader& state) {
     const bool equal = equal_rays_ && emitted() > 0;
     const bool fits = ray_power_ == 0 ? solution_.steps == 0
                       : equal ? ray_power_ >= least_times * once && ray_power_ <= most_times * once
-                              : ray_power_ > largest_number;
+                              : ray_power_ > bounds::largest;
     if (!fits)
         throw StateError("the power of a ray is none of this scene's");
 }
@@ -356,12 +356,12 @@ void StepwiseSolver::load(StateReader& state) {
     for (Vec3* power :
          {&solution_.energy.absorbed, &solution_.energy.escaped, &solution_.energy.unshot,
           &absorbed_.sum, &absorbed_.lost, &escaped_.sum, &escaped_.lost, &sent_.sum, &sent_.lost})
-        state.get(*power, finite);
+        state.get(*power, bounds::finite);
     load_ray_power(state);
     level_ = state.number({-largest_radiosity, largest_radiosity});
-    level_squares_ = state.number(non_negative);
+    level_squares_ = state.number(bounds::non_negative);
     load_light(solution_.radiosity, largest_radiosity, state);
-    state.get(std::span(squares_), non_negative);
+    state.get(std::span(squares_), bounds::non_negative);
     state.get(std::span(solution_.hits));
     std::uint64_t hits_left = solution_.rays_energy;
     for (const std::uint64_t hits : solution_.hits) {

@@ -134,8 +134,8 @@ class GatheringSolver final : public Solver {
         renew();
         planned_ = state.flag();
         state.get(traced_);
-        state.get(variance_, non_negative);
-        state.get(direct_variance_, non_negative);
+        state.get(variance_, bounds::non_negative);
+        state.get(direct_variance_, bounds::non_negative);
         plan_.load(state);
         for (RayCounts& set : counts_)
             set.load(state);
