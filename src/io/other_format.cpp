@@ -35,7 +35,6 @@ constexpr auto of_text = std::to_array<Beginning>({
     {"<?xml", "XML, such as COLLADA or X3D; save the scene as OBJ"},
     {"ply\n", "a PLY model; save the scene as OBJ"},
     {"ply\r", "a PLY model; save the scene as OBJ"},
-    {"solid ", "an STL model; save the scene as OBJ"},
     {"off\n", "an OFF model; save the scene as OBJ"},
     {"#usda", "a USD scene; save the scene as OBJ"},
     {"{", "JSON, such as glTF; save the scene as OBJ"},
@@ -67,6 +66,10 @@ std::string_view other_format(std::string_view content) {
                                                         [&](char b, char a) { return same(a, b); }))
             return meaning;
     }
+    constexpr std::size_t first_lines = 1000;
+    if (content.starts_with("solid") &&
+        content.substr(0, first_lines).find("facet normal") != std::string_view::npos)
+        return "an STL model; save the scene as OBJ";
     return {};
 }
 

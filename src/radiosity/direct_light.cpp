@@ -7,6 +7,7 @@
 #include "radiosity/rng.h"
 #include "radiosity/shot.h"
 #include "radiosity/sobol.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
 #include "radiosity/state.h"
 
@@ -183,13 +184,23 @@ void DirectLight::save(StateWriter& state) const {
 
 void DirectLight::load(StateReader& state) {
     state.get(std::span(sum_), bounds::non_negative);
+    // A patch for which shadow rays no longer pay keeps its sums, but has no samples.
+    constexpr double most_forgotten = 1u << 20;
+    const auto check_mean = [](double sum, double samples) {
+        if (sum > largest_radiosity * (samples > 0 ? samples : most_forgotten))
+            throw StateError("shadow rays brought more light than there may be");
+    };
     state.get(std::span(samples_));
     state.get(std::span(hits_));
     for (std::size_t i = 0; i < hits_.size(); ++i)
-        if (hits_[i] > std::uint64_t{samples_[i]} * seeds_.size())
+        if (samples_[i] > 0 && hits_[i] > std::uint64_t{samples_[i]} * seeds_.size())
             throw StateError("more shadow rays arrived than were traced");
+    for (std::size_t k = 0; k < sum_.size(); ++k)
+        check_mean(std::max({sum_[k].x, sum_[k].y, sum_[k].z}), samples_[k / seeds_.size()]);
     state.get(std::span(bright_));
     state.get(std::span(unblocked_), bounds::non_negative);
+    for (std::size_t i = 0; i < unblocked_.size(); ++i)
+        check_mean(unblocked_[i], double(samples_[i]) * double(seeds_.size()));
     part_.resize(state.flag() ? hits_.size() : 0);
     state.get(std::span(part_));
     for (const std::uint32_t part : part_)

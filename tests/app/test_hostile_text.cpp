@@ -97,7 +97,7 @@ TEST_CASE("mistakes of the command line are said in the program's own words") {
 TEST_CASE("a camera whose eye is its target is refused before solving") {
     const Workplace place;
     place.write_room();
-    for (const char* camera : {"1,1,1,1,1,1", "1e30,0,0,1e30,1,0"}) {
+    for (const char* camera : {"1,1,1,1,1,1", "0,0,0,1e-300,0,0"}) {
         const auto outcome =
             place.hemilux("solve room.obj -o a.png --camera " + std::string(camera));
         CHECK(outcome.code == 1);

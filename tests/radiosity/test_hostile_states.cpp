@@ -23,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::array<double, 12> odd_numbers{std::nan(""), infinity, -infinity, -1,   -0.0,   0,
                                              1e300,        -1e300,   1e-300,    1e18, 5e-324, 1e9};
 
-constexpr int mutations = 3000;
+constexpr int mutations = 300;
 
 /// One change: a bit, a byte, or a whole field as a number or a count.
 std::string changed(std::string bytes, std::mt19937& random) {
