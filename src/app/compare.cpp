@@ -12,6 +12,7 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "app/text.h"
+#include "app/view.h"
 #include "io/error.h"
 #include "radiosity/rng.h"
 
@@ -132,6 +133,7 @@ int run_comparison(const CompareSettings& settings, std::vector<std::uint32_t>& 
     LoadedMesh loaded = load_mesh(settings.scene, files, settings.options, methods, settings.talk);
     face_lines = std::move(loaded.face_lines);
     const Mesh& mesh = loaded.mesh;
+    check_camera(settings.view, mesh);
     check_exact(settings.options, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;

@@ -164,6 +164,7 @@ int density(const DensitySettings& settings) {
     Monitor monitor;
     InterruptGuard guard;
     const Mesh mesh = load_geometry(settings.scene, files, settings.talk);
+    check_camera(settings.view, mesh);
     check_patch(settings, mesh);
     const WideBvh bvh(mesh.soup(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted);

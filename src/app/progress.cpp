@@ -2,6 +2,7 @@
 
 #include "app/talk.h"
 #include "app/text.h"
+#include "io/printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,7 +97,7 @@ void Progress::say(const std::string& line) {
     const std::scoped_lock lock(mutex_);
     erase();
     if (can_say())
-        std::fprintf(stderr, "%s\n", line.c_str());
+        std::fprintf(stderr, "%s\n", printable_message(line).c_str());
 }
 
 void Progress::close() {

@@ -17,6 +17,7 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "app/text.h"
+#include "app/view.h"
 #include "radiosity/error_spread.h"
 #include "radiosity/hemisphere.h"
 #include "radiosity/workers.h"
@@ -134,6 +135,7 @@ int solve(const SolveSettings& settings) {
     const std::optional<Checkpoint> resumed = read_resumed(settings);
     LoadedMesh loaded = load_mesh(settings.scene, files, settings.options, methods, settings.talk);
     const Mesh& mesh = loaded.mesh;
+    check_camera(settings.view, mesh);
     check_exact(settings.options, mesh.patches().size());
     const StopRule stop = stop_rule(settings, mesh.patches().size());
     statistics.seconds_read = loaded.seconds_read;

@@ -2,6 +2,7 @@
 
 #include "app/text.h"
 #include "io/atomic_file.h"
+#include "io/printable.h"
 
 #include <atomic>
 #include <cstdio>
@@ -24,7 +25,7 @@ bool can_say() {
 
 void say(Talk wanted, Talk least, const std::string& line) {
     if (wanted >= least && can_say())
-        std::fprintf(stderr, "%s\n", line.c_str());
+        std::fprintf(stderr, "%s\n", printable_message(line).c_str());
 }
 
 void say_warnings(Talk wanted, const std::vector<std::string>& warnings) {

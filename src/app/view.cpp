@@ -1,8 +1,17 @@
 #include "app/view.h"
 
+#include "app/exit_code.h"
 #include "io/render.h"
+#include "radiosity/mesh.h"
 
 namespace hemilux {
+
+void check_camera(const ViewSettings& view, const Mesh& mesh) {
+    if (view.camera &&
+        mesh.frame().to_local(view.camera->eye) == mesh.frame().to_local(view.camera->target))
+        throw UsageError("--camera: expected an eye and a target that differ; beside the scene's "
+                         "distance from the origin these two are the same point");
+}
 
 Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                  std::span<const Vec3> radiosity) {

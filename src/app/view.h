@@ -11,6 +11,9 @@
 
 namespace hemilux {
 
+/// Throws UsageError for a camera given whose eye and target are one point where the scene is.
+void check_camera(const ViewSettings& view, const Mesh& mesh);
+
 /// The camera given, or one chosen for the scene.
 [[nodiscard]] Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                                std::span<const Vec3> radiosity);

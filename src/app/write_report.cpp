@@ -5,6 +5,8 @@
 #include "app/talk.h"
 #include "io/error.h"
 
+#include <new>
+
 namespace hemilux {
 
 void WriteReport::attempt(const std::string& path, const std::function<void()>& write) {
@@ -15,6 +17,8 @@ void WriteReport::attempt(const std::string& path, const std::function<void()>& 
         left_out.push_back(path);
     } catch (const OutputError& error) {
         failed.emplace_back(error.what());
+    } catch (const std::bad_alloc&) {
+        failed.push_back(path + ": there is not enough memory to write it");
     } catch (const std::exception& error) {
         failed.push_back(path + ": " + error.what());
     }

@@ -7,6 +7,10 @@
 #include "radiosity/mesh.h"
 #include "radiosity/state.h"
 
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
 namespace hemilux {
 namespace {
 
@@ -30,17 +34,26 @@ void add_row(StateWriter& out, const StepRow& row) {
         out.add(value);
 }
 
+/// NaN: it is not known.
+double error_from(StateReader& in) {
+    const double error = in.number();
+    if (error < 0)
+        throw StateError("an error in it is negative");
+    return error;
+}
+
 StepRow row_from(StateReader& in) {
     StepRow row;
     row.method = in.text();
-    row.record.step = static_cast<std::uint32_t>(in.whole());
+    row.record.step =
+        static_cast<std::uint32_t>(in.whole_up_to(std::numeric_limits<std::uint32_t>::max()));
     row.record.rays = in.whole();
-    row.record.seconds = in.number();
-    row.record.estimated_error = in.number();
-    const bool has_error = in.whole() != 0;
+    row.record.seconds = in.number(bounds::non_negative);
+    row.record.estimated_error = error_from(in);
+    const bool has_error = in.flag();
     RelativeError error;
     for (double* value : {&error.all, &error.detail, &error.rest})
-        in.get(*value);
+        *value = error_from(in);
     if (has_error)
         row.error = error;
     return row;
@@ -70,7 +83,7 @@ Checkpoint parse_content(std::string_view bytes) {
         checkpoint.options.emplace_back(std::move(name), in.text());
     }
     checkpoint.scene = in.whole();
-    checkpoint.seconds = in.number();
+    checkpoint.seconds = in.number(bounds::non_negative);
     for (std::size_t left = in.count(row_bytes); left > 0; --left)
         checkpoint.rows.push_back(row_from(in));
     checkpoint.state = in.text();

@@ -136,6 +136,7 @@ void MaterialTable::define(const std::string& file, const MtlMaterial& material)
     materials[index].reflectance = material.reflectance.value_or(Material().reflectance);
     materials[index].emission = material.emission.value_or(Material().emission);
     textured_ += material.textured;
+    textured_emission_ += material.textured_emission;
     textured_without_colour_ += material.textured && !material.reflectance;
 }
 
@@ -164,6 +165,10 @@ void MaterialTable::warn_of_undefined() {
 }
 
 void MaterialTable::warn_of_textures() {
+    if (textured_emission_ > 0)
+        warnings.push_back(path_ +
+                           ": textures are not read: " + counted_materials(textured_emission_) +
+                           " with map_Ke; their emission is Ke, or none");
     if (textured_ == 0)
         return;
     std::string text =

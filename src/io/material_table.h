@@ -54,7 +54,7 @@ class MaterialTable {
     std::set<std::string> libraries_missed_; ///< which was said
     std::unordered_map<std::string, std::uint32_t> index_;
     std::vector<Entry> entries_;
-    std::size_t textured_ = 0, textured_without_colour_ = 0;
+    std::size_t textured_ = 0, textured_without_colour_ = 0, textured_emission_ = 0;
 };
 
 } // namespace hemilux

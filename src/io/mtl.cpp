@@ -24,7 +24,9 @@ Vec3 read_colour(const std::string& path, const Statement& statement) {
             return Vec3(colour.x);
         const std::optional<double> number = parse_decimal(word);
         if (!number || *number < 0)
-            throw InputError(path, statement.line, expected + found_instead_of_number(word));
+            throw InputError(path, statement.line,
+                             expected + (number ? found_instead(word) + " (it is negative)"
+                                                : found_instead_of_number(word)));
         colour[i] = *number;
     }
     return colour;
@@ -67,6 +69,12 @@ MtlFile read_mtl(const std::string& path) {
     std::set<std::string, std::less<>> textures;
     Statement statement;
     while (reader.next(statement)) {
+        for (const std::string_view keyword : {"newmtl", "Kd", "Ke", "map_Kd", "map_Ke"})
+            if (differ_in_case(statement.keyword, keyword))
+                throw InputError(path, statement.line,
+                                 "expected " + std::string(keyword) + ", " +
+                                     found_instead(statement.keyword) +
+                                     ": capitals make a difference in keywords");
         if (names_texture(statement.keyword))
             add_textures(statement.rest, textures);
         if (statement.keyword == "newmtl")
@@ -79,6 +87,8 @@ MtlFile read_mtl(const std::string& path) {
             materials.back().emission = read_colour(path, statement);
         else if (statement.keyword == "map_Kd")
             materials.back().textured = true;
+        else if (statement.keyword == "map_Ke")
+            materials.back().textured_emission = true;
     }
     for (std::string name : textures) {
         std::ranges::replace(name, '\\', '/');

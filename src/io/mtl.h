@@ -17,6 +17,7 @@ struct MtlMaterial {
     std::optional<Vec3> reflectance; ///< Kd, each channel >= 0 and possibly 1 or more
     std::optional<Vec3> emission;    ///< Ke, each channel >= 0 [W/m2]
     bool textured = false;           ///< has a map_Kd
+    bool textured_emission = false;  ///< has a map_Ke
 };
 
 struct MtlFile {

@@ -73,7 +73,7 @@ class ObjReader {
 
     PolygonDivision division_;
     std::vector<Vec3> shape_;
-    Tally few_corners_, no_area_, crossing_, free_form_, lines_and_points_;
+    Tally few_corners_, no_area_, crossing_, free_form_, lines_and_points_, capitals_;
 };
 
 ReadResult ObjReader::read() {
@@ -81,6 +81,10 @@ ReadResult ObjReader::read() {
     Statement statement;
     while (reader.next(statement))
         read_statement(statement);
+    if (faces_.empty() && capitals_.count > 0)
+        throw InputError(path_, capitals_.first_line,
+                         "no faces; expected keywords in small letters such as v and f, this one "
+                         "has capitals");
     if (faces_.empty())
         throw InputError(path_, "no faces; expected an OBJ file with statements such as f 1 2 3");
     check_corners();
@@ -111,6 +115,9 @@ void ObjReader::read_statement(const Statement& statement) {
         for (const std::string_view free_form : free_form_keywords)
             if (keyword == free_form)
                 free_form_.add(statement.line);
+        for (const char* known : {"v", "f", "g", "o", "usemtl", "mtllib"})
+            if (differ_in_case(keyword, known))
+                capitals_.add(statement.line);
     }
 }
 
@@ -282,6 +289,8 @@ void ObjReader::collect_warnings() {
     warn(crossing_, "a face crosses itself; its area is not well defined",
          "faces cross themselves; their areas are not well defined");
     warn(lines_and_points_, "a line or point is left out", "lines and points are left out");
+    warn(capitals_, "a statement whose keyword has capitals is left out",
+         "statements whose keywords have capitals are left out");
     warn(free_form_, "a statement of a free-form curve or surface is left out",
          "statements of free-form curves and surfaces are left out");
 }

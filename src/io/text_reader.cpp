@@ -1,6 +1,7 @@
 #include "io/text_reader.h"
 
 #include "io/error.h"
+#include "io/other_format.h"
 #include "io/text_words.h"
 
 #include <algorithm>
@@ -15,8 +16,8 @@ constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 std::string read_text_file(const std::string& path, InputKind kind) {
     std::size_t checked = 0;
     const auto check = [&](std::string_view content) {
-        if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff"))
-            throw InputError(path, "the file is UTF-16; expected UTF-8 or plain text");
+        if (const std::string_view other = other_format(content); !other.empty())
+            throw InputError(path, "expected OBJ or MTL text, the file is " + std::string(other));
         const std::size_t nul = content.find('\0', checked);
         checked = content.size();
         if (nul == std::string_view::npos)

@@ -84,6 +84,15 @@ class MatrixSolver final : public Solver {
     }
 
     bool step() override {
+        SearchForWayOut search(input_);
+        std::optional<bool> done;
+        while (!(done = try_step(search)))
+            search.go_on(traced_, !finished());
+        return *done;
+    }
+
+    /// Whether it was not interrupted; nothing where the rays have seen no way out for the light.
+    [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
         const std::uint32_t rays = rays_ == 0 ? first_rays() : 2 * rays_;
         for (std::size_t r = 0; r < replicates; ++r) {
             input_.monitor.phase = "rays";
@@ -101,15 +110,14 @@ class MatrixSolver final : public Solver {
             const EnergyBalance energy = solve(factors_[r], losses[r], guesses_[r]);
             absorbed += energy.absorbed;
             escaped += energy.escaped;
-            drained = drained && is_drained(energy);
+            drained = drained && search.is_drained(energy);
             if (input_.monitor.interrupted)
                 return false;
         }
         rays_ = rays;
         if (!drained) {
-            require_more_rays(!finished());
             guesses_.assign(replicates, solution_.radiosity);
-            return step();
+            return std::nullopt;
         }
         for (const std::vector<Vec3>& guess : guesses_)
             check_finite(input_.mesh, guess, "the radiosity", solution_.steps + 1);
