@@ -125,7 +125,7 @@ void print(const Table& table, const Mesh& mesh) {
 /// One view and one exposure for all, and the reference beside them.
 void draw(const Table& table, const Mesh& mesh, const Tracer& tracer,
           const std::vector<Vec3>& truth, const std::filesystem::path& folder) {
-    constexpr RenderOptions size{.width = 640, .height = 480};
+    const RenderOptions size{.width = 640, .height = 480};
     std::filesystem::create_directories(folder);
     const Camera camera = automatic_camera(mesh, tracer, truth, double(size.width) / size.height);
     const Image best = render(mesh, tracer, truth, camera, size);

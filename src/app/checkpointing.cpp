@@ -102,6 +102,10 @@ Before resume(const Checkpoint& checkpoint, const SolveSettings& settings, const
     }
     if (checkpoint.rows.size() != solver.solution().steps)
         throw InputError(path, "is a damaged checkpoint: expected a row for each step");
+    for (std::size_t k = 0; k < checkpoint.rows.size(); ++k)
+        if (checkpoint.rows[k].record.step != k + 1 ||
+            checkpoint.rows[k].method != settings.method->name)
+            throw InputError(path, "is a damaged checkpoint: a row is not of its step");
     const double density_before = solver.solution().seconds_density - density_now;
     return {solver.solution().steps, checkpoint.seconds - density_before};
 }
@@ -136,9 +140,9 @@ void Checkpointer::write(const std::vector<StepRow>& rows, double seconds) {
                          {options_of(settings_), scene_, seconds, rows, std::move(state).bytes()});
     });
     last_ = std::chrono::steady_clock::now();
-    if (report_.failed.empty())
+    if (!report_.written.empty())
         steps_written_ = solver_.solution().steps;
-    else if (first_failure)
+    else if (first_failure && !report_.failed.empty())
         say(settings_.talk, Talk::normal, "warning: " + report_.failed.front());
 }
 

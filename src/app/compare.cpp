@@ -13,6 +13,7 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "app/text.h"
+#include "app/view.h"
 #include "io/error.h"
 #include "radiosity/rng.h"
 
@@ -118,7 +119,8 @@ int finish(const Contest& contest, std::vector<MethodRuns> results) {
     return contest.monitor.interrupted ? exit_code_of_signal() : exit_done;
 }
 
-int run_comparison(const CompareSettings& settings) {
+/// Fills in the lines of the faces as soon as they are known.
+int run_comparison(const CompareSettings& settings, std::vector<std::uint32_t>& face_lines) {
     std::vector<const Method*> methods;
     for (const Entrant& entrant : settings.entrants)
         methods.push_back(entrant.method);
@@ -126,11 +128,15 @@ int run_comparison(const CompareSettings& settings) {
         methods.push_back(find_method("matrix"));
     check_own_options(settings.options, methods);
     make_folder(settings.folder);
+    const RunFiles files = check_files(settings);
     Monitor monitor;
     InterruptGuard guard;
-    LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk,
-                                  bytes_of_compared_pictures(settings.view.size));
+    LoadedMesh loaded =
+        load_mesh(settings.scene, files, settings.options, methods, settings.talk,
+                  bytes_of_compared_pictures(settings.view.size));
+    face_lines = std::move(loaded.face_lines);
     const Mesh& mesh = loaded.mesh;
+    check_camera(settings.view, mesh);
     check_exact(settings.options, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;
@@ -165,10 +171,11 @@ int run_comparison(const CompareSettings& settings) {
 } // namespace
 
 int compare(const CompareSettings& settings) {
+    std::vector<std::uint32_t> face_lines;
     try {
-        return run_comparison(settings);
+        return run_comparison(settings, face_lines);
     } catch (const SolveError& error) {
-        throw as_input_error(error, settings.scene.path);
+        throw as_input_error(error, settings.scene.path, face_lines);
     }
 }
 

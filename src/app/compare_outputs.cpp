@@ -5,6 +5,7 @@
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/false_colour.h"
+#include "io/input_file.h"
 #include "io/plot.h"
 
 #include <cerrno>
@@ -68,9 +69,10 @@ void write_pictures(const Contest& contest, std::span<const MethodRuns> results,
     const ViewSettings& view = contest.settings.view;
     const Reference& reference = contest.reference;
     const Camera camera = camera_of(view, contest.mesh, contest.tracer, reference.radiosity);
+    const PictureTime time(contest.monitor.interrupted);
     const auto picture = [&](std::span<const Vec3> radiosity) {
         return render_view(view, contest.mesh, contest.tracer, radiosity, camera,
-                           contest.settings.options.threads);
+                           contest.settings.options.threads, time);
     };
     const Image truth = picture(reference.radiosity);
     const double exposure = exposure_of(view, truth);
@@ -105,13 +107,34 @@ void make_folder(const std::string& folder) {
                           std::string("cannot write to the folder: ") + std::strerror(errno));
 }
 
+RunFiles check_files(const CompareSettings& settings) {
+    std::vector<std::string> names{"error.csv", "error.svg", "error.png", "reference.png"};
+    for (const Entrant& entrant : settings.entrants)
+        for (const char* const end : {".png", "_difference.png"})
+            names.push_back(entrant.name + end);
+    if (settings.reference.empty())
+        names.push_back("reference.csv");
+    for (std::string& name : names)
+        name = (fs::path(settings.folder) / name).string();
+    RunFiles files = check_files(names, settings.scene.path);
+    if (!settings.reference.empty()) {
+        files.read("reference", settings.reference);
+        check_input(settings.reference, InputKind::stream);
+    }
+    return files;
+}
+
 WriteReport write_comparison(const Contest& contest, std::span<const MethodRuns> results,
                              std::span<const MethodSummary> summaries) {
     WriteReport report;
     const std::string log = path_in(contest, "error.csv");
     report.attempt(log, [&] { write_steps_log(log, all_rows(results)); });
     write_charts(contest, summaries, report);
-    write_pictures(contest, results, report);
+    try {
+        write_pictures(contest, results, report);
+    } catch (const Interrupted&) {
+        report.left_out.push_back(path_in(contest, "*.png"));
+    }
     return report;
 }
 

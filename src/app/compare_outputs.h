@@ -14,6 +14,10 @@ namespace hemilux {
 /// Makes the folder where it is not there. Throws OutputError where nothing can be written to it.
 void make_folder(const std::string& folder);
 
+/// The files of the run. Throws UsageError where a file that is read would be replaced, OutputError
+/// where a file cannot be made, InputError where one cannot be read.
+[[nodiscard]] RunFiles check_files(const CompareSettings& settings);
+
 /// error.csv, error.svg, error.png, reference.png, and METHOD.png with METHOD_difference.png from
 /// the first run of each method. All pictures have one camera and one exposure, all differences one
 /// scale.

@@ -121,9 +121,11 @@ void write_picture(const Preprocessed& made, const PatchDensities& densities,
     for (const double mean : densities.mean)
         light.emplace_back(1 + mean);
     const Camera camera = camera_of(view, made.mesh, made.tracer, light);
+    const PictureTime time(made.monitor.interrupted);
     const RenderOptions options{.width = view.size.width,
                                 .height = view.size.height,
-                                .threads = made.settings.options.threads};
+                                .threads = made.settings.options.threads,
+                                .give_up = [&time] { return time.is_over(); }};
     write_png(path,
               density_picture(made.mesh, made.tracer, densities.mean,
                               "mean density of patches, surfaces per ray", camera, options),
@@ -133,9 +135,6 @@ void write_picture(const Preprocessed& made, const PatchDensities& densities,
 bool is_svg(const std::string& path) { return extension_of(path) == ".svg"; }
 
 void check(const DensitySettings& settings) {
-    check_distinct(settings.outputs);
-    for (const std::string& path : settings.outputs)
-        check_writable(path);
     const bool draws = std::ranges::any_of(settings.outputs, is_svg);
     if (!draws && (settings.patch || settings.rays > 0))
         throw UsageError("--patch and --rays are for .svg outputs, and there is none");
@@ -160,12 +159,15 @@ void say_summary(const Preprocessed& made, const PatchDensities& densities) {
 } // namespace
 
 int density(const DensitySettings& settings) {
+    const RunFiles files = check_files(settings.outputs, settings.scene.path);
     check(settings);
     Monitor monitor;
-    const InterruptGuard guard(monitor.interrupted);
-    const Mesh mesh = load_geometry(settings.scene, settings.talk);
+    InterruptGuard guard;
+    const Mesh mesh = load_geometry(settings.scene, files, settings.talk);
+    check_camera(settings.view, mesh);
     check_patch(settings, mesh);
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
+    guard.watch(monitor.interrupted);
     const Hemisphere hemisphere(settings.options.depth);
     const DensityMap map(mesh, bvh, hemisphere, settings.options.threshold,
                          Workers(settings.options.threads), monitor);
@@ -188,7 +190,7 @@ int density(const DensitySettings& settings) {
                 write_picture(made, densities, path);
         });
     report.say(settings.talk);
-    return report.failed.empty() ? exit_done : exit_output;
+    return report.exit_code(monitor.interrupted);
 }
 
 } // namespace hemilux

@@ -65,14 +65,13 @@ std::optional<SparseMatrix> compute(const FormFactorSettings& settings, const Me
 } // namespace
 
 int formfactors(const FormFactorSettings& settings) {
-    check_distinct(settings.outputs);
-    for (const std::string& path : settings.outputs)
-        check_writable(path);
+    const RunFiles files = check_files(settings.outputs, settings.scene.path);
     Monitor monitor;
-    const InterruptGuard guard(monitor.interrupted);
-    const Mesh mesh = load_geometry(settings.scene, settings.talk);
+    InterruptGuard guard;
+    const Mesh mesh = load_geometry(settings.scene, files, settings.talk);
     check_size(settings, mesh.patches().size());
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
+    guard.watch(monitor.interrupted);
     const Workers workers(settings.options.threads);
     SampledFormFactors samples(mesh, bvh, {}, settings.options.seed);
     const auto matrix = compute(settings, mesh, samples, workers, monitor);
@@ -85,12 +84,12 @@ int formfactors(const FormFactorSettings& settings) {
     for (const std::string& path : settings.outputs)
         report.attempt(path, [&] {
             if (is_dense(path))
-                write_npy(path, *matrix);
+                write_npy(path, *matrix, &monitor.interrupted);
             else
-                write_factor_table(path, *matrix);
+                write_factor_table(path, *matrix, &monitor.interrupted);
         });
     report.say(settings.talk);
-    return report.failed.empty() ? exit_done : exit_output;
+    return report.exit_code(monitor.interrupted);
 }
 
 } // namespace hemilux

@@ -4,24 +4,27 @@
 #include "app/exit_code.h"
 #include "app/load.h"
 #include "app/sides.h"
+#include "app/talk.h"
 #include "io/error.h"
 #include "io/inspect.h"
+#include "io/printable.h"
 
-#include <cstdio>
 #include <iostream>
 
 namespace hemilux {
 
 namespace {
 
+void print(const std::string& text) { std::cout << printable_message(text); }
+
 /// The scene as it is solved; prints what its sides are like.
 Scene with_sides(Scene scene, Sides sides) {
     if (sides == Sides::both) {
-        std::cout << describe_both_sides(scene);
+        print(describe_both_sides(scene));
         return scene;
     }
     const Orientation found = find_orientation(scene);
-    std::cout << describe(found, scene, sides);
+    print(describe(found, scene, sides));
     if (sides == Sides::automatic)
         turn_faces(scene, found);
     return scene;
@@ -30,17 +33,16 @@ Scene with_sides(Scene scene, Sides sides) {
 } // namespace
 
 int info(const InfoSettings& settings) {
-    ReadResult read = load_scene(settings.scene);
-    if (settings.talk != Talk::quiet)
-        for (const std::string& warning : read.warnings)
-            std::fprintf(stderr, "warning: %s\n", warning.c_str());
-    std::cout << describe(inspect(read));
+    ReadResult read = load_scene(settings.scene, {});
+    for (const std::string& warning : read.warnings)
+        say(settings.talk, Talk::normal, "warning: " + warning);
+    print(describe(inspect(read)));
     if (!read.scene.facets.empty()) {
         const Mesh mesh =
             divide_scene(with_sides(std::move(read.scene), settings.scene.sides), settings.scene);
         if (settings.scene.mesh.max_edge > 0 || settings.scene.mesh.two_sided)
             std::cout << "patches             " << mesh.patches().size() << " (as divided)\n";
-        std::cout << describe(left_out(find_needs(mesh)));
+        print(describe(left_out(find_needs(mesh))));
     }
     std::cout.flush();
     if (!std::cout)

@@ -49,13 +49,18 @@ void check_emission(const Material& material, const std::string& path) {
 
 } // namespace
 
-ReadResult load_scene(const SceneSettings& settings) {
+ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
     std::string extension = std::filesystem::path(settings.path).extension().string();
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension != ".obj")
         throw InputError(settings.path, "not a kind of scene that can be read; .obj can");
     ReadResult read = read_obj(settings.path, memory_guard(settings.path, settings.memory));
+    for (const std::string& library : read.libraries)
+        files.read("material library", library);
+    for (const std::string& texture : read.textures)
+        if (std::error_code ignored; std::filesystem::exists(texture, ignored))
+            files.read("texture", texture);
     apply_overrides(read.scene, &Material::emission, settings.emission);
     apply_overrides(read.scene, &Material::reflectance, settings.reflectance);
     return read;
@@ -81,9 +86,10 @@ void check_solvable(const ReadResult& read, const std::string& path) {
                                    list_names(names));
 }
 
-InputError as_input_error(const SolveError& error, const std::string& path) {
-    const std::size_t line = line_of_face(path, error.face);
-    return line > 0 ? InputError(path, line, error.what()) : InputError(path, error.what());
+InputError as_input_error(const SolveError& error, const std::string& path,
+                          std::span<const std::uint32_t> face_lines) {
+    return error.face < face_lines.size() ? InputError(path, face_lines[error.face], error.what())
+                                          : InputError(path, error.what());
 }
 
 Mesh divide_scene(Scene scene, const SceneSettings& settings) {
@@ -116,11 +122,12 @@ Prepared prepare(LoadedMesh& loaded, const SolveOptions& options) {
     return prepared;
 }
 
-LoadedMesh load_mesh(const SceneSettings& settings, const SolveOptions& options,
-                     std::span<const Method* const> methods, Talk talk, double bytes_of_pictures) {
+LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
+                     const SolveOptions& options, std::span<const Method* const> methods, Talk talk,
+                     double bytes_of_pictures) {
     const Stopwatch reading;
     check_memory_to_read(settings.path, settings.memory);
-    ReadResult read = load_scene(settings);
+    ReadResult read = load_scene(settings, files);
     say_warnings(talk, read.warnings);
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
@@ -129,7 +136,8 @@ LoadedMesh load_mesh(const SceneSettings& settings, const SolveOptions& options,
     check_memory(need, settings.memory, settings.path);
     const Stopwatch dividing;
     SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, talk);
-    LoadedMesh loaded{std::move(sided.mesh), std::move(sided.made), seconds, dividing.seconds()};
+    LoadedMesh loaded{std::move(sided.mesh), std::move(sided.made), seconds, dividing.seconds(),
+                      std::move(read.face_lines)};
     if (!loaded.mesh.is_laid_apart())
         say(talk, Talk::normal,
             "warning: " + settings.path +

@@ -8,8 +8,8 @@
 
 namespace hemilux {
 
-Mesh load_geometry(const SceneSettings& settings, Talk talk) {
-    ReadResult read = load_scene(settings);
+Mesh load_geometry(const SceneSettings& settings, const RunFiles& files, Talk talk) {
+    ReadResult read = load_scene(settings, files);
     say_warnings(talk, read.warnings);
     if (read.scene.facets.empty())
         throw InputError(settings.path, "there is no face with an area");

@@ -8,6 +8,7 @@
 #include "app/options.h"
 #include "app/signals.h"
 #include "io/error.h"
+#include "io/printable.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -30,7 +31,7 @@ void keep_freed_memory() {
 }
 
 int fail(int code, const char* message, const char* advice = "") {
-    std::fprintf(stderr, "hemilux: %s%s\n", message, advice);
+    std::fprintf(stderr, "hemilux: %s%s\n", printable_message(message).c_str(), advice);
     return code;
 }
 
@@ -54,6 +55,42 @@ std::string unknown_argument(const CLI::App& program, const std::string& otherwi
             names.push_back(subcommand->get_name());
     const std::string word = left.front().substr(0, left.front().find('='));
     return unknown_name(is_option ? "option" : "subcommand", word, names);
+}
+
+/// The option of a message of the parser, which begins with one of its names; or nullptr.
+const CLI::Option* option_of(const CLI::App& command, const std::string& message) {
+    return command.get_option_no_throw(message.substr(0, message.find(':')));
+}
+
+/// What the parser did not take, in this program's words.
+std::string refused(const CLI::App& program, const CLI::ParseError& error) {
+    const std::vector<CLI::App*> parsed = program.get_subcommands();
+    if (parsed.empty() && dynamic_cast<const CLI::RequiredError*>(&error)) {
+        std::string names;
+        for (const CLI::App* const subcommand : program.get_subcommands({}))
+            names += (names.empty() ? "" : ", ") + subcommand->get_name();
+        return "expected a subcommand, one of " + names;
+    }
+    const CLI::App& command = parsed.empty() ? program : *parsed.front();
+    const std::string message = error.what();
+    if (dynamic_cast<const CLI::RequiredError*>(&error))
+        return command.get_name() + ": expected " + message.substr(0, message.find(' ')) +
+               ", which is missing";
+    const CLI::Option* const option = option_of(command, message);
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && option) {
+        const std::string name = message.substr(0, message.find(':'));
+        return option->count() > 1
+                   ? name + ": expected once, it is given " + std::to_string(option->count()) +
+                         " times"
+                   : name + ": expected a value after it: " + option->get_type_name();
+    }
+    if (dynamic_cast<const CLI::ExcludesError*>(&error))
+        return message.substr(0, message.find(' ')) + " and " +
+               message.substr(message.rfind(' ') + 1) + " contradict each other; give one of them";
+    const std::vector<std::string> left = command.remaining();
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) && !left.empty())
+        return "'" + left.front() + "' was not expected; an option's value follows its name";
+    return message;
 }
 
 int run_program(int argc, const char* const* argv) {
@@ -83,7 +120,7 @@ int run_program(int argc, const char* const* argv) {
                 throw OutputError("standard output", "cannot be written");
             return code;
         }
-        throw UsageError(unknown_argument(program, error.what()));
+        throw UsageError(unknown_argument(program, refused(program, error)));
     }
     if (solve_command->parsed())
         return solve(solve_settings);

@@ -1,6 +1,8 @@
 #include "app/progress.h"
 
+#include "app/talk.h"
 #include "app/text.h"
+#include "io/printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +96,8 @@ void Progress::set_topic(const std::string& topic) {
 void Progress::say(const std::string& line) {
     const std::scoped_lock lock(mutex_);
     erase();
-    std::fprintf(stderr, "%s\n", line.c_str());
+    if (can_say())
+        std::fprintf(stderr, "%s\n", printable_message(line).c_str());
 }
 
 void Progress::close() {

@@ -2,7 +2,9 @@
 
 #include "app/exit_code.h"
 #include "app/view.h"
+#include "io/error.h"
 #include "io/image.h"
+#include "io/input_file.h"
 #include "io/ply.h"
 #include "io/smooth.h"
 #include "radiosity/workers.h"
@@ -34,11 +36,13 @@ class SharedClasses {
 class Picture {
   public:
     Picture(const ViewSettings& view, const Results& results, SharedClasses& classes)
-        : view_(view), results_(results), classes_(classes) {}
+        : view_(view), results_(results), classes_(classes), time_(results.interrupted) {}
 
     void write(const Output& output) {
         if (!image_)
             image_ = render();
+        if (time_.is_over())
+            throw Interrupted();
         if (output.kind == OutputKind::hdr)
             write_hdr(output.path, *image_);
         else
@@ -47,15 +51,16 @@ class Picture {
 
   private:
     [[nodiscard]] Image render() const {
-        const auto& [mesh, tracer, solution, statistics, steps] = results_;
+        const auto& [mesh, tracer, solution, statistics, steps, interrupted] = results_;
         const Camera camera = camera_of(view_, mesh, tracer, solution.radiosity);
         return render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads,
-                           &classes_.get());
+                           time_, &classes_.get());
     }
 
     const ViewSettings& view_;
     const Results& results_;
     SharedClasses& classes_;
+    PictureTime time_;
     std::optional<Image> image_;
 };
 
@@ -78,37 +83,39 @@ void write_output(const Output& output, const Results& results, SharedClasses& c
 
 } // namespace
 
-std::vector<std::string> output_paths(const SolveSettings& settings) {
-    std::vector<std::string> paths;
+RunFiles check_files(const SolveSettings& settings) {
+    std::vector<std::pair<std::string, std::string>> written;
     for (const Output& output : settings.outputs)
-        paths.push_back(output.path);
-    for (const std::string& path : {settings.statistics, settings.steps_log})
+        written.emplace_back("output", output.path);
+    for (const auto& [role, path] : {std::pair("file of --stats", settings.statistics),
+                                     std::pair("file of --steps-log", settings.steps_log)})
         if (!path.empty())
-            paths.push_back(path);
-    return paths;
-}
-
-void check_outputs(const SolveSettings& settings) {
-    std::vector<std::string> paths = output_paths(settings);
-    if (paths.empty())
+            written.emplace_back(role, path);
+    if (written.empty())
         throw UsageError("nothing would be written; add an output such as -o picture.png");
     if (settings.every_step && std::ranges::none_of(settings.outputs, is_picture, &Output::kind))
         throw UsageError("--every-step is for pictures; add -o picture.png");
-    const CheckpointSettings& checkpoint = settings.checkpoint;
-    if (!checkpoint.path.empty())
-        paths.push_back(checkpoint.path);
-    if (checkpoint.resumed != checkpoint.path && !checkpoint.resumed.empty())
-        paths.push_back(checkpoint.resumed);
-    for (const std::string& read : {settings.scene.path, settings.reference}) {
-        std::vector<std::string> with_it = paths;
-        if (!read.empty())
-            with_it.push_back(read); // must not be overwritten
-        check_distinct(with_it);
-    }
-    for (const std::string& path : output_paths(settings))
+    const auto& [checkpoint, resumed, every] = settings.checkpoint;
+    if (!checkpoint.empty())
+        written.emplace_back("checkpoint", checkpoint);
+    RunFiles files;
+    for (const auto& [role, path] : written)
+        files.write(role, path);
+    for (const Output& output : settings.outputs)
+        if (settings.every_step && is_picture(output.kind))
+            files.write_steps(output.path);
+    files.read("scene", settings.scene.path);
+    if (!settings.reference.empty())
+        files.read("reference", settings.reference);
+    // A run may renew the checkpoint that it goes on from.
+    if (!resumed.empty() && resumed != checkpoint &&
+        identity_of(resumed) != identity_of(checkpoint))
+        files.read("file of --resume", resumed);
+    for (const auto& [role, path] : written)
         check_writable(path);
-    if (!checkpoint.path.empty())
-        check_writable(checkpoint.path);
+    if (!settings.reference.empty())
+        check_input(settings.reference, InputKind::stream);
+    return files;
 }
 
 WriteReport write_results(const SolveSettings& settings, const Results& results) {
@@ -119,14 +126,18 @@ WriteReport write_results(const SolveSettings& settings, const Results& results)
         const Output& output = settings.outputs[k];
         reports[k].attempt(output.path, [&] { write_output(output, results, classes, picture); });
     };
-    // All pictures are one, made by all threads; meanwhile each of the tables has one.
+    // All pictures are one, made by all threads; meanwhile each of the tables has one. A single
+    // thread writes the tables first, as a signal may end the pictures.
     std::vector<std::vector<std::size_t>> jobs(1);
     for (std::size_t k = 0; k < settings.outputs.size(); ++k)
         if (is_picture(settings.outputs[k].kind))
             jobs[0].push_back(k);
         else
             jobs.push_back({k});
-    Workers(settings.options.threads).for_chunks(jobs.size(), 1, [&](std::size_t job, std::size_t) {
+    const Workers workers(settings.options.threads);
+    if (workers.threads() == 1)
+        std::ranges::reverse(jobs);
+    workers.for_chunks(jobs.size(), 1, [&](std::size_t job, std::size_t) {
         std::ranges::for_each(jobs[job], write);
     });
     WriteReport report;

@@ -6,6 +6,7 @@
 #include "io/statistics.h"
 #include "io/tables.h"
 
+#include <atomic>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,14 +20,13 @@ struct Results {
     const Solution& solution;
     const Statistics& statistics;
     std::span<const StepRow> steps;
+    const std::atomic<bool>& interrupted; ///< pictures are then left out where they take long
 };
 
-/// All paths that the settings write to.
-[[nodiscard]] std::vector<std::string> output_paths(const SolveSettings& settings);
-
-/// Throws UsageError where nothing would be written or one file is named twice, OutputError where a
-/// file cannot be made.
-void check_outputs(const SolveSettings& settings);
+/// The files of the run, as far as they are known before the scene is read. Throws UsageError where
+/// nothing would be written or an output is another file of the run, OutputError where a file
+/// cannot be made, InputError where one cannot be read.
+[[nodiscard]] RunFiles check_files(const SolveSettings& settings);
 
 /// Writes all outputs.
 [[nodiscard]] WriteReport write_results(const SolveSettings& settings, const Results& results);

@@ -1,11 +1,13 @@
 #include "app/signals.h"
 
 #include "app/exit_code.h"
+#include "io/atomic_file.h"
 
 #include <csignal>
 #include <cstdio>
 #include <fcntl.h>
 #include <iostream>
+#include <poll.h>
 #include <string_view>
 #include <unistd.h>
 
@@ -28,7 +30,9 @@ extern "C" void on_interrupt(int signal) {
     }
     if (!flag) {
         constexpr std::string_view text = "hemilux: interrupted before there was a result\n";
-        (void)!write(STDERR_FILENO, text.data(), text.size());
+        pollfd talk{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+        if (poll(&talk, 1, 0) > 0) // else nobody reads what is said
+            (void)!write(STDERR_FILENO, text.data(), text.size());
     }
     _exit(of_shells + signal);
 }
@@ -50,9 +54,13 @@ InterruptGuard::~InterruptGuard() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
     interrupted = nullptr;
+    end_waits_on(nullptr);
 }
 
-void InterruptGuard::watch(std::atomic<bool>& flag) { interrupted = &flag; }
+void InterruptGuard::watch(std::atomic<bool>& flag) {
+    end_waits_on(&flag);
+    interrupted = &flag;
+}
 
 int exit_code_of_signal() { return exit_code; }
 

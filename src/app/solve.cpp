@@ -18,6 +18,7 @@
 #include "app/summary.h"
 #include "app/talk.h"
 #include "app/text.h"
+#include "app/view.h"
 #include "radiosity/error_spread.h"
 #include "radiosity/hemisphere.h"
 #include "radiosity/workers.h"
@@ -74,11 +75,12 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
     statistics.energy = solution.energy;
 }
 
-std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverInput& input) {
+std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverInput& input,
+                                    std::span<const std::uint32_t> face_lines) {
     try {
         return settings.method->make(input);
     } catch (const SolveError& error) {
-        throw as_input_error(error, settings.scene.path);
+        throw as_input_error(error, settings.scene.path, face_lines);
     }
 }
 
@@ -120,15 +122,13 @@ int finish(const SolveSettings& settings, const Results& results, const WriteRep
                 ? "interrupted; the outputs hold " +
                       counted(results.solution.steps, "step", "steps")
                 : "interrupted before the first step was done; the outputs hold emission alone");
-    if (!report.failed.empty())
-        return exit_output;
-    return interrupted ? exit_code_of_signal() : exit_done;
+    return report.exit_code(results.interrupted);
 }
 
 } // namespace
 
 int solve(const SolveSettings& settings) {
-    check_outputs(settings);
+    const RunFiles files = check_files(settings);
     const std::span methods(&settings.method, 1);
     check_own_options(settings.options, methods);
     check_checkpoint_options(settings);
@@ -138,11 +138,12 @@ int solve(const SolveSettings& settings) {
 
     Workers(settings.options.threads).start();
     const std::optional<Checkpoint> resumed = read_resumed(settings);
-    LoadedMesh loaded = load_mesh(settings.scene, settings.options, methods, settings.talk,
+    LoadedMesh loaded = load_mesh(settings.scene, files, settings.options, methods, settings.talk,
                                   std::ranges::any_of(settings.outputs, is_picture, &Output::kind)
                                       ? bytes_of_picture(settings.view.size)
                                       : 0);
     const Mesh& mesh = loaded.mesh;
+    check_camera(settings.view, mesh);
     check_exact(settings.options, mesh.patches().size());
     const StopRule stop = stop_rule(settings, mesh.patches().size());
     statistics.seconds_read = loaded.seconds_read;
@@ -168,7 +169,7 @@ int solve(const SolveSettings& settings) {
     options.aim = stop.error.value_or(0);
     options.expected_steps = expected_steps(stop);
     const SolverInput input{mesh, *tracer, options, monitor, needs};
-    const std::unique_ptr<Solver> solver = make_solver(settings, input);
+    const std::unique_ptr<Solver> solver = make_solver(settings, input, loaded.face_lines);
     std::vector<StepRow> rows;
     Before before;
     if (resumed) {
@@ -176,7 +177,7 @@ int solve(const SolveSettings& settings) {
         rows = resumed->rows;
     }
     Checkpointer checkpointer(settings, mesh, *solver);
-    StepPictures step_pictures(settings, mesh, *tracer);
+    StepPictures step_pictures(settings, mesh, *tracer, monitor.interrupted);
     RunNotes notes(stop);
     const auto after_step = [&](const StepRecord& record, const Solution& solution) {
         notes.step_done(record);
@@ -195,7 +196,7 @@ int solve(const SolveSettings& settings) {
     try {
         completed = run(*solver, input, stop, after_step, before);
     } catch (const SolveError& error) {
-        fault = as_input_error(error, settings.scene.path);
+        fault = as_input_error(error, settings.scene.path, loaded.face_lines);
         if (solver->solution().steps == 0)
             throw *fault;
     }
@@ -209,8 +210,9 @@ int solve(const SolveSettings& settings) {
     WriteReport of_run = step_pictures.report();
     of_run.add(checkpointer.report());
     const bool interrupted = !completed && !fault;
-    const int code = finish(settings, {mesh, *tracer, solver->solution(), statistics, rows}, of_run,
-                            reference, notes, interrupted);
+    const int code =
+        finish(settings, {mesh, *tracer, solver->solution(), statistics, rows, monitor.interrupted},
+               of_run, reference, notes, interrupted);
     if (interrupted)
         end_at_once(code);
     if (!fault || code != exit_done)

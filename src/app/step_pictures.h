@@ -6,6 +6,7 @@
 #include "bvh/tracer.h"
 #include "io/image.h"
 
+#include <atomic>
 #include <span>
 #include <string>
 
@@ -18,10 +19,12 @@ namespace hemilux {
 /// one sees the light grow. Refers to the arguments.
 class StepPictures {
   public:
-    StepPictures(const SolveSettings& settings, const Mesh& mesh, const Tracer& tracer)
-        : settings_(settings), mesh_(mesh), tracer_(tracer), view_(settings.view) {}
+    StepPictures(const SolveSettings& settings, const Mesh& mesh, const Tracer& tracer,
+                 const std::atomic<bool>& interrupted)
+        : settings_(settings), mesh_(mesh), tracer_(tracer), interrupted_(interrupted),
+          view_(settings.view) {}
 
-    /// Nothing more after the first failure.
+    /// Nothing more after the first failure, or once a picture was interrupted.
     void write(std::span<const Vec3> radiosity, std::uint32_t step);
 
     /// What was written and what failed.
@@ -31,6 +34,7 @@ class StepPictures {
     const SolveSettings& settings_;
     const Mesh& mesh_;
     const Tracer& tracer_;
+    const std::atomic<bool>& interrupted_;
     ViewSettings view_; ///< as far as it is known
     WriteReport report_;
 };

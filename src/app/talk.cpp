@@ -1,8 +1,12 @@
 #include "app/talk.h"
 
 #include "app/text.h"
+#include "io/atomic_file.h"
+#include "io/printable.h"
 
+#include <atomic>
 #include <cstdio>
+#include <unistd.h>
 
 namespace hemilux {
 
@@ -12,9 +16,16 @@ constexpr std::size_t most_warnings = 10;
 
 } // namespace
 
+bool can_say() {
+    static std::atomic<bool> gave_up{false};
+    if (!gave_up && !wait_until_writable(STDERR_FILENO))
+        gave_up = true;
+    return !gave_up;
+}
+
 void say(Talk wanted, Talk least, const std::string& line) {
-    if (wanted >= least)
-        std::fprintf(stderr, "%s\n", line.c_str());
+    if (wanted >= least && can_say())
+        std::fprintf(stderr, "%s\n", printable_message(line).c_str());
 }
 
 void say_warnings(Talk wanted, const std::vector<std::string>& warnings) {

@@ -8,6 +8,10 @@
 
 namespace hemilux {
 
+/// Waits until stderr takes a line. False once the user asked the program to end and nobody reads:
+/// what there is to say is then lost.
+[[nodiscard]] bool can_say();
+
 /// Says a line unless the user wants less talk than `least`.
 void say(Talk wanted, Talk least, const std::string& line);
 

@@ -1,8 +1,17 @@
 #include "app/view.h"
 
+#include "app/exit_code.h"
 #include "io/render.h"
+#include "radiosity/mesh.h"
 
 namespace hemilux {
+
+void check_camera(const ViewSettings& view, const Mesh& mesh) {
+    if (view.camera &&
+        mesh.frame().to_local(view.camera->eye) == mesh.frame().to_local(view.camera->target))
+        throw UsageError("--camera: expected an eye and a target that differ; beside the scene's "
+                         "distance from the origin these two are the same point");
+}
 
 Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                  std::span<const Vec3> radiosity) {
@@ -12,12 +21,21 @@ Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& trace
                : automatic_camera(mesh, tracer, radiosity, static_cast<double>(width) / height);
 }
 
+bool PictureTime::is_over() const {
+    constexpr std::chrono::seconds moment(2);
+    return interrupted_ && std::chrono::steady_clock::now() - start_ > moment;
+}
+
 Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                   std::span<const Vec3> radiosity, const Camera& camera, unsigned threads,
-                  const CornerClasses* classes) {
+                  const PictureTime& time, const CornerClasses* classes) {
     const auto [width, height] = view.size;
     return render(mesh, tracer, radiosity, camera,
-                  {.width = width, .height = height, .threads = threads, .classes = classes});
+                  {.width = width,
+                   .height = height,
+                   .threads = threads,
+                   .classes = classes,
+                   .give_up = [&time] { return time.is_over(); }});
 }
 
 double exposure_of(const ViewSettings& view, const Image& image) {

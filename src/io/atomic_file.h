@@ -2,6 +2,7 @@
 // An output file that appears complete or not at all: it is written to a temporary file in the same
 // folder, which takes the final name only when everything is on it.
 
+#include <atomic>
 #include <string>
 #include <string_view>
 
@@ -10,7 +11,9 @@ namespace hemilux {
 class AtomicFile {
   public:
     /// Opens the temporary file. A path that names something else than a regular file (a pipe, a
-    /// device) is written directly; a symbolic link keeps being one. Throws OutputError.
+    /// device) is written directly. A symbolic link stays one, and its target is replaced or made.
+    /// A file that replaces another has its mode and, where the system allows it, its owner and
+    /// group. Throws OutputError, and like `write` and `commit` Interrupted (end_waits_on).
     explicit AtomicFile(const std::string& path);
     /// Removes what was written unless it was committed.
     ~AtomicFile();
@@ -25,6 +28,8 @@ class AtomicFile {
     void commit(Durable durable = Durable::no);
 
   private:
+    void open_pipe();
+    void take_over_access() const;
     void flush();
     void sync_folder() const;
     [[noreturn]] void fail(const char* action) const;
@@ -36,7 +41,15 @@ class AtomicFile {
     int descriptor_ = -1;
 };
 
-/// All of a file's content at once. Throws OutputError.
+/// Once the flag is set, a pipe whose reader takes nothing for a second is given up: Interrupted is
+/// thrown. nullptr: pipes are waited for without end, as at the start.
+void end_waits_on(const std::atomic<bool>* flag);
+
+/// Whether a pipe or file that is open takes more; waits for it, and is false where that is given
+/// up. A pipe then takes a line without a further wait.
+[[nodiscard]] bool wait_until_writable(int descriptor);
+
+/// All of a file's content at once. Throws OutputError and Interrupted.
 void write_atomically(const std::string& path, std::string_view content);
 
 } // namespace hemilux

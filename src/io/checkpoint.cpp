@@ -3,14 +3,13 @@
 #include "io/atomic_file.h"
 #include "io/checksum.h"
 #include "io/error.h"
+#include "io/input_file.h"
 #include "radiosity/mesh.h"
 #include "radiosity/state.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <limits>
 
 namespace hemilux {
 namespace {
@@ -35,17 +34,26 @@ void add_row(StateWriter& out, const StepRow& row) {
         out.add(value);
 }
 
+/// NaN: it is not known.
+double error_from(StateReader& in) {
+    const double error = in.number();
+    if (error < 0)
+        throw StateError("an error in it is negative");
+    return error;
+}
+
 StepRow row_from(StateReader& in) {
     StepRow row;
     row.method = in.text();
-    row.record.step = static_cast<std::uint32_t>(in.whole());
+    row.record.step =
+        static_cast<std::uint32_t>(in.whole_up_to(std::numeric_limits<std::uint32_t>::max()));
     row.record.rays = in.whole();
-    row.record.seconds = in.number();
-    row.record.estimated_error = in.number();
-    const bool has_error = in.whole() != 0;
+    row.record.seconds = in.number(bounds::non_negative);
+    row.record.estimated_error = error_from(in);
+    const bool has_error = in.flag();
     RelativeError error;
     for (double* value : {&error.all, &error.detail, &error.rest})
-        in.get(*value);
+        *value = error_from(in);
     if (has_error)
         row.error = error;
     return row;
@@ -75,7 +83,7 @@ Checkpoint parse_content(std::string_view bytes) {
         checkpoint.options.emplace_back(std::move(name), in.text());
     }
     checkpoint.scene = in.whole();
-    checkpoint.seconds = in.number();
+    checkpoint.seconds = in.number(bounds::non_negative);
     for (std::size_t left = in.count(row_bytes); left > 0; --left)
         checkpoint.rows.push_back(row_from(in));
     checkpoint.state = in.text();
@@ -100,15 +108,6 @@ void check_first_line(std::string_view& bytes, const std::string& file) {
                                    std::string(format) + "; the version of hemilux that wrote it " +
                                    "can go on with it");
     bytes.remove_prefix(end + 1);
-}
-
-void check_is_file(const std::string& path) {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status))
-        throw InputError(path, "cannot read: " + (error ? error.message() : "no such file"));
-    if (!std::filesystem::is_regular_file(status))
-        throw InputError(path, "expected a checkpoint, this is no regular file");
 }
 
 } // namespace
@@ -179,27 +178,13 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
 }
 
 Checkpoint read_checkpoint(const std::string& path) {
-    check_is_file(path);
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::string bytes(magic.size() + longest_format + 1, '\0');
-    if (file)
-        file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!file && !file.eof())
-        throw InputError(path, std::string("cannot read: ") + std::strerror(errno));
-    bytes.resize(static_cast<std::size_t>(file.gcount()));
-    std::string_view first = bytes; // a large file of another kind is not read to its end
-    check_first_line(first, path);
-    constexpr std::size_t chunk = std::size_t{1} << 20;
-    while (file) {
-        const std::size_t size = bytes.size();
-        bytes.resize(size + std::max(chunk, size / 2));
-        file.read(bytes.data() + size, static_cast<std::streamsize>(bytes.size() - size));
-        bytes.resize(size + static_cast<std::size_t>(file.gcount()));
-    }
-    if (file.bad())
-        throw InputError(path, std::string("cannot read: ") + std::strerror(errno));
-    return checkpoint_from(bytes, path);
+    bool checked = false; // a large file of another kind is not read to its end
+    const auto check = [&](std::string_view bytes) {
+        if (!checked)
+            check_first_line(bytes, path);
+        checked = true;
+    };
+    return checkpoint_from(read_input(path, InputKind::regular, check), path);
 }
 
 } // namespace hemilux

@@ -30,7 +30,11 @@ void append_number(std::string& line, std::uint64_t value) {
     line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
-void append_text(std::string& line, std::string_view text) {
+void append_text(std::string& line, std::string_view name) {
+    std::string text(name);
+    if (!text.empty() &&
+        std::string_view("=+-@\t\r\n").find(text.front()) != std::string_view::npos)
+        text.insert(text.begin(), '\'');
     if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
         line += text;
         return;

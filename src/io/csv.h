@@ -12,7 +12,9 @@ namespace hemilux::csv {
 /// The shortest text that gives back the same double; `nan`, `inf`, `-inf`.
 void append_number(std::string& line, double value);
 void append_number(std::string& line, std::uint64_t value);
-/// Quoted where the text needs it.
+/// Quoted where the text needs it. A spreadsheet takes a cell for a formula that begins with = + -
+/// or @, or with a blank of another kind before: such a name gets an apostrophe in front. Numbers
+/// are written by append_number, which adds none.
 void append_text(std::string& line, std::string_view text);
 
 /// Reads records one after the other. Accepts a byte order mark, CRLF and a missing final newline.

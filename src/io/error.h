@@ -1,5 +1,5 @@
 #pragma once
-// The two ways in which files fail; the program turns them into exit codes 2 and 3.
+// The ways in which files fail; the program turns them into exit codes 2, 3 and those of signals.
 
 #include <cstddef>
 #include <stdexcept>
@@ -14,6 +14,12 @@ class InputError : public std::runtime_error {
         : std::runtime_error(file + ":" + std::to_string(line) + ": " + message) {}
     InputError(const std::string& file, const std::string& message)
         : std::runtime_error(file + ": " + message) {}
+};
+
+/// A file was left out because the user asked the program to end.
+class Interrupted : public std::runtime_error {
+  public:
+    Interrupted() : std::runtime_error("interrupted") {}
 };
 
 /// A file that could not be written.

@@ -1,15 +1,19 @@
 #include "io/factor_table.h"
 
 #include "io/atomic_file.h"
+#include "io/error.h"
 #include "io/csv.h"
 
 namespace hemilux {
 
-void write_factor_table(const std::string& path, const SparseMatrix& matrix) {
+void write_factor_table(const std::string& path, const SparseMatrix& matrix,
+                        const std::atomic<bool>* interrupted) {
     AtomicFile file(path);
     file.write("i,j,F\n");
     std::string line;
-    for (std::size_t i = 0; i < matrix.rows(); ++i)
+    for (std::size_t i = 0; i < matrix.rows(); ++i) {
+        if (interrupted && *interrupted)
+            throw Interrupted();
         for (std::size_t k = matrix.row_begin[i]; k < matrix.row_begin[i + 1]; ++k) {
             if (!(matrix.value[k] > 0))
                 continue;
@@ -22,6 +26,7 @@ void write_factor_table(const std::string& path, const SparseMatrix& matrix) {
             line += '\n';
             file.write(line);
         }
+    }
     file.commit();
 }
 

@@ -3,11 +3,13 @@
 
 #include "radiosity/sampled_form_factors.h"
 
+#include <atomic>
 #include <string>
 
 namespace hemilux {
 
 /// Numbers are the shortest text that gives back the same double. Throws OutputError.
-void write_factor_table(const std::string& path, const SparseMatrix& matrix);
+void write_factor_table(const std::string& path, const SparseMatrix& matrix,
+                        const std::atomic<bool>* interrupted = nullptr);
 
 } // namespace hemilux

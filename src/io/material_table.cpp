@@ -1,8 +1,10 @@
 #include "io/material_table.h"
 
+#include "io/input_file.h"
 #include "io/text_words.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 namespace hemilux {
@@ -49,15 +51,14 @@ std::uint32_t MaterialTable::use(const std::string& name, std::size_t line) {
 }
 
 /// The file as named, relative to the OBJ file's folder; else, as paths of other machines are
-/// common, its last part in that folder. Empty where there is neither.
+/// common, its last part in that folder. Empty where neither is a regular file.
 std::string MaterialTable::find_library(std::string_view name) const {
     std::string plain = without_quotes(name);
     std::replace(plain.begin(), plain.end(), '\\', '/');
     const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
     const std::filesystem::path given(plain);
     for (const std::filesystem::path& candidate : {folder / given, folder / given.filename()}) {
-        std::error_code ignored;
-        if (std::filesystem::is_regular_file(candidate, ignored)) // a pipe might never end
+        if (is_input(candidate.string(), InputKind::regular)) // a pipe might never end
             return candidate.string();
     }
     return {};
@@ -72,7 +73,7 @@ void MaterialTable::read_libraries(std::string_view names, std::size_t line) {
         return;
     }
     if (const std::string file = find_library(whole); !file.empty()) {
-        read_library(file);
+        read_library(file, where);
         return;
     }
     std::vector<std::string> found;
@@ -86,23 +87,44 @@ void MaterialTable::read_libraries(std::string_view names, std::size_t line) {
     if (found.empty())
         missing = in_quotes(whole);
     for (const std::string& file : found)
-        read_library(file);
+        read_library(file, where);
     if (!missing.empty() && libraries_missed_.insert(shortened(missing)).second)
-        warnings.push_back(where + "material library " + shortened(missing) + " not found");
+        warnings.push_back(where + "material library " + shortened(missing) +
+                           " not found or no regular file");
 }
 
-void MaterialTable::read_library(const std::string& file) {
-    std::error_code error;
-    const std::filesystem::path identity = std::filesystem::weakly_canonical(file, error);
-    if (!libraries_read_.insert(error ? std::filesystem::path(file) : identity).second)
+void MaterialTable::read_library(const std::string& file, const std::string& where) {
+    const std::optional<FileIdentity> identity = identity_of(file);
+    if (!identity || !libraries_read_.insert(*identity).second)
         return;
+    warn_of_outside(file, where);
     /// Of the shortest statements that make a material.
     constexpr double bytes_per_character = 16;
+    std::error_code error;
     if (const std::uintmax_t size = std::filesystem::file_size(file, error);
         before_library_ && !error)
         before_library_(bytes_per_character * static_cast<double>(size));
-    for (const MtlMaterial& material : read_mtl(file))
+    libraries.push_back(file);
+    MtlFile read = read_mtl(file);
+    for (const MtlMaterial& material : read.materials)
         define(file, material);
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    for (const std::string& texture : read.textures)
+        textures.push_back((folder / texture).string());
+}
+
+/// Links are followed. The scene's author chose the file, and the reader of a scene from elsewhere
+/// may not expect it.
+void MaterialTable::warn_of_outside(const std::string& file, const std::string& where) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::path parent = fs::path(path_).parent_path();
+    const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, error);
+    const fs::path inside = fs::canonical(file, error).lexically_relative(folder);
+    if (error || (!inside.empty() && *inside.begin() != "..") || std::exchange(outside_, true))
+        return;
+    warnings.push_back(where + "material library " + in_quotes(file) +
+                       " lies outside the scene's folder (this is the first)");
 }
 
 void MaterialTable::define(const std::string& file, const MtlMaterial& material) {
@@ -120,6 +142,7 @@ void MaterialTable::define(const std::string& file, const MtlMaterial& material)
     materials[index].reflectance = material.reflectance.value_or(Material().reflectance);
     materials[index].emission = material.emission.value_or(Material().emission);
     textured_ += material.textured;
+    textured_emission_ += material.textured_emission;
     textured_without_colour_ += material.textured && !material.reflectance;
 }
 
@@ -148,6 +171,10 @@ void MaterialTable::warn_of_undefined() {
 }
 
 void MaterialTable::warn_of_textures() {
+    if (textured_emission_ > 0)
+        warnings.push_back(path_ +
+                           ": textures are not read: " + counted_materials(textured_emission_) +
+                           " with map_Ke; their emission is Ke, or none");
     if (textured_ == 0)
         return;
     std::string text =

@@ -2,11 +2,11 @@
 // The materials of an OBJ file by name: used ones and those that its MTL files define, whichever
 // comes first. Of several definitions of a name the first is taken.
 
+#include "io/file_identity.h"
 #include "io/mtl.h"
 #include "radiosity/scene.h"
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <set>
 #include <string>
@@ -37,6 +37,8 @@ class MaterialTable {
     std::vector<Material> materials;
     std::vector<std::string> sources; ///< "file:line" of each definition; "" where there is none
     std::vector<std::string> warnings;
+    std::vector<std::string> libraries; ///< paths of those that were read
+    std::vector<std::string> textures;  ///< where those that they name may lie; they are not read
 
   private:
     struct Entry {
@@ -46,18 +48,20 @@ class MaterialTable {
     };
     [[nodiscard]] std::uint32_t index_of(const std::string& name);
     [[nodiscard]] std::string find_library(std::string_view name) const;
-    void read_library(const std::string& file);
+    void read_library(const std::string& file, const std::string& where);
+    void warn_of_outside(const std::string& file, const std::string& where);
     void define(const std::string& file, const MtlMaterial& material);
     void warn_of_undefined();
     void warn_of_textures();
 
     std::string path_;
     std::function<void(double bytes)> before_library_;
-    std::set<std::filesystem::path> libraries_read_;
+    std::set<FileIdentity> libraries_read_;
+    bool outside_ = false;                   ///< a library outside the scene's folder was reported
     std::set<std::string> libraries_missed_; ///< which was said
     std::unordered_map<std::string, std::uint32_t> index_;
     std::vector<Entry> entries_;
-    std::size_t textured_ = 0, textured_without_colour_ = 0;
+    std::size_t textured_ = 0, textured_without_colour_ = 0, textured_emission_ = 0;
 };
 
 } // namespace hemilux

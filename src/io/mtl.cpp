@@ -4,6 +4,11 @@
 #include "io/text_reader.h"
 #include "io/text_words.h"
 
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <set>
+
 namespace hemilux {
 namespace {
 
@@ -19,7 +24,9 @@ Vec3 read_colour(const std::string& path, const Statement& statement) {
             return Vec3(colour.x);
         const std::optional<double> number = parse_decimal(word);
         if (!number || *number < 0)
-            throw InputError(path, statement.line, expected + found_instead_of_number(word));
+            throw InputError(path, statement.line,
+                             expected + (number ? found_instead(word) + " (it is negative)"
+                                                : found_instead_of_number(word)));
         colour[i] = *number;
     }
     return colour;
@@ -34,13 +41,42 @@ MtlMaterial new_material(const std::string& path, const Statement& statement) {
     return material;
 }
 
+bool names_texture(std::string_view keyword) {
+    constexpr std::array<std::string_view, 5> others{"bump", "disp", "decal", "refl", "norm"};
+    return keyword.starts_with("map_") || std::ranges::find(others, keyword) != others.end();
+}
+
+void add_textures(std::string_view rest, std::set<std::string, std::less<>>& names) {
+    constexpr int most_words = 16; // of all options together
+    rest = name_in(rest);
+    const bool has_options = rest.starts_with('-');
+    for (int words = 0; !rest.empty() && words < most_words; ++words) {
+        if (!names.contains(rest))
+            names.emplace(rest);
+        if (!has_options)
+            return;
+        (void)take_word(rest);
+        rest = trimmed(rest);
+    }
+}
+
 } // namespace
 
-std::vector<MtlMaterial> read_mtl(const std::string& path) {
-    TextReader reader(read_text_file(path));
-    std::vector<MtlMaterial> materials;
+MtlFile read_mtl(const std::string& path) {
+    TextReader reader(read_text_file(path, InputKind::regular));
+    MtlFile file;
+    std::vector<MtlMaterial>& materials = file.materials;
+    std::set<std::string, std::less<>> textures;
     Statement statement;
     while (reader.next(statement)) {
+        for (const std::string_view keyword : {"newmtl", "Kd", "Ke", "map_Kd", "map_Ke"})
+            if (differ_in_case(statement.keyword, keyword))
+                throw InputError(path, statement.line,
+                                 "expected " + std::string(keyword) + ", " +
+                                     found_instead(statement.keyword) +
+                                     ": capitals make a difference in keywords");
+        if (names_texture(statement.keyword))
+            add_textures(statement.rest, textures);
         if (statement.keyword == "newmtl")
             materials.push_back(new_material(path, statement));
         else if (materials.empty())
@@ -51,8 +87,14 @@ std::vector<MtlMaterial> read_mtl(const std::string& path) {
             materials.back().emission = read_colour(path, statement);
         else if (statement.keyword == "map_Kd")
             materials.back().textured = true;
+        else if (statement.keyword == "map_Ke")
+            materials.back().textured_emission = true;
     }
-    return materials;
+    for (std::string name : textures) {
+        std::ranges::replace(name, '\\', '/');
+        file.textures.push_back(std::move(name));
+    }
+    return file;
 }
 
 } // namespace hemilux

@@ -17,9 +17,17 @@ struct MtlMaterial {
     std::optional<Vec3> reflectance; ///< Kd, each channel >= 0 and possibly 1 or more
     std::optional<Vec3> emission;    ///< Ke, each channel >= 0 [W/m2]
     bool textured = false;           ///< has a map_Kd
+    bool textured_emission = false;  ///< has a map_Ke
 };
 
-/// The materials in the order of the file, also those with equal names. Throws InputError.
-[[nodiscard]] std::vector<MtlMaterial> read_mtl(const std::string& path);
+struct MtlFile {
+    std::vector<MtlMaterial> materials; ///< in the order of the file, also those with equal names
+    /// Names of the files that it refers to, each once. After options such as `-s 2 2 1` every
+    /// end of the line is one, as only some options have a known number of words.
+    std::vector<std::string> textures;
+};
+
+/// Throws InputError.
+[[nodiscard]] MtlFile read_mtl(const std::string& path);
 
 } // namespace hemilux

@@ -1,6 +1,7 @@
 #include "io/npy.h"
 
 #include "io/atomic_file.h"
+#include "io/error.h"
 
 #include <algorithm>
 #include <bit>
@@ -36,12 +37,15 @@ void append(std::string& bytes, double value) {
 
 } // namespace
 
-void write_npy(const std::string& path, const SparseMatrix& matrix) {
+void write_npy(const std::string& path, const SparseMatrix& matrix,
+               const std::atomic<bool>* interrupted) {
     AtomicFile file(path);
     file.write(header(matrix.rows()));
     std::vector<double> row(matrix.rows());
     std::string bytes;
     for (std::size_t i = 0; i < matrix.rows(); ++i) {
+        if (interrupted && *interrupted)
+            throw Interrupted();
         std::ranges::fill(row, 0.0);
         for (std::size_t k = matrix.row_begin[i]; k < matrix.row_begin[i + 1]; ++k)
             row[matrix.column[k]] = matrix.value[k];

@@ -4,11 +4,13 @@
 
 #include "radiosity/sampled_form_factors.h"
 
+#include <atomic>
 #include <string>
 
 namespace hemilux {
 
 /// A square matrix; what is not stored is 0. Throws OutputError.
-void write_npy(const std::string& path, const SparseMatrix& matrix);
+void write_npy(const std::string& path, const SparseMatrix& matrix,
+               const std::atomic<bool>* interrupted = nullptr);
 
 } // namespace hemilux

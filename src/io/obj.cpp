@@ -86,11 +86,11 @@ class ObjReader {
 
     PolygonDivision division_;
     std::vector<Vec3> shape_;
-    Tally few_corners_, no_area_, crossing_, unchecked_, free_form_, lines_and_points_;
+    Tally few_corners_, no_area_, crossing_, unchecked_, free_form_, lines_and_points_, capitals_;
 };
 
 ReadResult ObjReader::read() {
-    std::string text = read_text_file(path_);
+    std::string text = read_text_file(path_, InputKind::stream);
     text_ = static_cast<double>(text.size());
     TextReader reader(std::move(text));
     Statement statement;
@@ -98,6 +98,10 @@ ReadResult ObjReader::read() {
         read_statement(statement);
         count_statement();
     }
+    if (faces_.empty() && capitals_.count > 0)
+        throw InputError(path_, capitals_.first_line,
+                         "no faces; expected keywords in small letters such as v and f, this one "
+                         "has capitals");
     if (faces_.empty())
         throw InputError(path_, "no faces; expected an OBJ file with statements such as f 1 2 3");
     check_corners();
@@ -128,6 +132,9 @@ void ObjReader::read_statement(const Statement& statement) {
         for (const std::string_view free_form : free_form_keywords)
             if (keyword == free_form)
                 free_form_.add(statement.line);
+        for (const char* known : {"v", "f", "g", "o", "usemtl", "mtllib"})
+            if (differ_in_case(keyword, known))
+                capitals_.add(statement.line);
     }
 }
 
@@ -228,6 +235,8 @@ void ObjReader::check_corners() const {
 void ObjReader::divide_faces() {
     result_.scene.faces = static_cast<std::uint32_t>(faces_.size());
     result_.scene.facets.reserve(faces_.size());
+    for (const RawFace& face : faces_)
+        result_.face_lines.push_back(static_cast<std::uint32_t>(face.line));
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
         const std::span<const std::uint32_t> corner = corners_of(f);
         shape_.clear();
@@ -309,6 +318,8 @@ void ObjReader::collect_warnings() {
     result_.scene.materials = std::move(materials_.materials);
     result_.material_source = std::move(materials_.sources);
     result_.warnings = std::move(materials_.warnings);
+    result_.libraries = std::move(materials_.libraries);
+    result_.textures = std::move(materials_.textures);
     if (const std::string rounding = rounding_of_places(); !rounding.empty())
         result_.warnings.push_back(path_ + rounding);
     warn(few_corners_, "a face with fewer than 3 corners is left out",
@@ -320,6 +331,8 @@ void ObjReader::collect_warnings() {
          "a face has so many long edges that it was not found out whether it crosses itself",
          "faces have so many long edges that it was not found out whether they cross themselves");
     warn(lines_and_points_, "a line or point is left out", "lines and points are left out");
+    warn(capitals_, "a statement whose keyword has capitals is left out",
+         "statements whose keywords have capitals are left out");
     warn(free_form_, "a statement of a free-form curve or surface is left out",
          "statements of free-form curves and surfaces are left out");
 }
@@ -328,19 +341,6 @@ void ObjReader::collect_warnings() {
 
 ReadResult read_obj(const std::string& path, const ReadGuard& guard) {
     return ObjReader(path, guard).read();
-}
-
-std::size_t line_of_face(const std::string& path, std::uint32_t face) {
-    try {
-        TextReader reader(read_text_file(path));
-        Statement statement;
-        for (std::uint32_t faces = 0; reader.next(statement);)
-            if ((statement.keyword == "f" || statement.keyword == "fo") && faces++ == face)
-                return statement.line;
-    } catch (const InputError&) {
-        return 0; // not even the same file as before
-    }
-    return 0;
 }
 
 } // namespace hemilux

@@ -23,6 +23,9 @@ struct ReadResult {
     Scene scene;
     std::vector<std::string> warnings;        ///< "file: ..." or "file:line: ..."
     std::vector<std::string> material_source; ///< "file:line" of each material; "" if from no file
+    std::vector<std::string> libraries;       ///< paths of the MTL files that were read
+    std::vector<std::string> textures;        ///< paths that they name; these are not read
+    std::vector<std::uint32_t> face_lines;    ///< where each `f` stands, from 1
     std::size_t degenerate_faces = 0; ///< without area or with fewer than 3 corners; left out
     std::size_t nonplanar_faces = 0;
     std::size_t concave_faces = 0;
@@ -35,8 +38,5 @@ using ReadGuard = std::function<void(double bytes)>;
 /// Throws InputError for a file that cannot be read, with file and line for what is wrong in it,
 /// and where no face has an area.
 [[nodiscard]] ReadResult read_obj(const std::string& path, const ReadGuard& guard = {});
-
-/// Where a face stands, from 1; 0 where there is no such face any more, or no file.
-[[nodiscard]] std::size_t line_of_face(const std::string& path, std::uint32_t face);
 
 } // namespace hemilux

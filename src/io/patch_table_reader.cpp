@@ -3,16 +3,12 @@
 #include "io/csv.h"
 #include "io/error.h"
 #include "io/tables.h"
+#include "io/text_reader.h"
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <sstream>
 #include <string_view>
 
 namespace hemilux {
@@ -23,17 +19,6 @@ constexpr std::array<std::string_view, 11> wanted{
     "patch",       "area",        "x",        "y",        "z",       "radiosity_r",
     "radiosity_g", "radiosity_b", "stderr_r", "stderr_g", "stderr_b"};
 using Record = std::array<double, wanted.size()>;
-
-std::string content_of(const std::string& path) {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream content;
-    if (file)
-        content << file.rdbuf();
-    if (errno != 0 || !file)
-        throw InputError(path, std::string("cannot read: ") + std::strerror(errno));
-    return std::move(content).str();
-}
 
 /// Where each wanted column stands in the file.
 std::array<std::size_t, wanted.size()> find_columns(const std::string& path, std::size_t line,
@@ -78,7 +63,7 @@ void check(const std::string& path, std::size_t line, const Record& record, std:
 } // namespace
 
 PatchTable read_patch_table(const std::string& path) {
-    const std::string content = content_of(path);
+    const std::string content = read_text_file(path, InputKind::stream);
     csv::Reader reader(path, content);
     std::vector<std::string> fields;
     if (!reader.next(fields))

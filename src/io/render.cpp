@@ -1,9 +1,11 @@
 #include "io/render.h"
 
+#include "io/error.h"
 #include "io/smooth.h"
 #include "radiosity/mesh.h"
 #include "radiosity/workers.h"
 
+#include <atomic>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -76,12 +78,20 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
         }
         return glm::vec3(sum / static_cast<double>(samples.size()));
     };
+    std::atomic<bool> given_up{false};
     const auto rows = static_cast<std::size_t>(options.height);
     Workers(options.threads).for_chunks(rows, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t y = begin; y < end; ++y)
+        for (std::size_t y = begin; y < end; ++y) {
+            if (given_up || (options.give_up && options.give_up())) {
+                given_up = true;
+                return;
+            }
             for (int x = 0; x < options.width; ++x)
                 image.at(x, static_cast<int>(y)) = pixel(x, static_cast<int>(y));
+        }
     });
+    if (given_up)
+        throw Interrupted();
     return image;
 }
 

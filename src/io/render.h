@@ -5,6 +5,7 @@
 #include "io/camera.h"
 #include "io/image.h"
 
+#include <functional>
 #include <span>
 
 namespace hemilux {
@@ -17,6 +18,8 @@ struct RenderOptions {
     bool smooth = true;            ///< interpolate over patches; else each shows its own radiosity
     unsigned threads = 0;          ///< 0: one per core. The picture does not depend on it
     const CornerClasses* classes = nullptr; ///< of the mesh, where they are known already
+    /// Is asked by all threads before each row; true ends the picture with Interrupted.
+    std::function<bool()> give_up = {};
 };
 
 /// Linear radiosity seen through the camera; black where nothing is. Throws std::invalid_argument

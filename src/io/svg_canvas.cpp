@@ -1,6 +1,7 @@
 // Drawings as SVG 1.1: text that stays text, and lines without pixels.
 
 #include "io/canvas.h"
+#include "io/printable.h"
 
 #include <charconv>
 #include <cmath>
@@ -37,13 +38,11 @@ std::string point_list(std::span<const Vec2> points) {
 
 std::string escaped(std::string_view text) {
     std::string result;
-    for (const char c : text) {
+    for (const char c : printable(text)) {
         if (c == '&')
             result += "&amp;";
         else if (c == '<')
             result += "&lt;";
-        else if (static_cast<unsigned char>(c) < ' ')
-            result += ' ';
         else
             result += c;
     }

@@ -58,8 +58,7 @@ bool is_temporary_name(std::string_view name) {
            is_number(name.substr(dash + 1));
 }
 
-TemporaryFile make_temporary(const fs::path& folder) {
-    constexpr mode_t mode = 0666; // less the user's umask
+TemporaryFile make_temporary(const fs::path& folder, unsigned mode) {
     for (;;) {
         const std::string path = (folder / new_name()).string();
         const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);

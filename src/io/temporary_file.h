@@ -15,8 +15,9 @@ struct TemporaryFile {
     int descriptor = -1; ///< open for writing; -1: errno tells why not
 };
 
-/// A new one.
-[[nodiscard]] TemporaryFile make_temporary(const std::filesystem::path& folder);
+/// A new one; the user's umask takes rights away from the mode.
+[[nodiscard]] TemporaryFile make_temporary(const std::filesystem::path& folder,
+                                           unsigned mode = 0666);
 
 [[nodiscard]] bool is_temporary_name(std::string_view name);
 

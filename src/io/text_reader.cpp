@@ -1,63 +1,34 @@
 #include "io/text_reader.h"
 
 #include "io/error.h"
+#include "io/other_format.h"
 #include "io/text_words.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace hemilux {
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-/// A device such as /dev/zero would never end.
-void check_is_file(const std::string& path) {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status))
-        throw InputError(path, "cannot read: " + (error ? error.message() : "no such file"));
-    if (std::filesystem::is_directory(status))
-        throw InputError(path, "expected a file, this is a directory");
-    if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
-        throw InputError(path, "expected a file, this is a device");
-}
-
-std::string content_of(const std::string& path) {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
-        throw InputError(path, std::string("cannot read: ") + std::strerror(errno));
-    constexpr std::size_t chunk = std::size_t{1} << 14; // most files are small
-    std::string content;
-    while (file) {
-        const std::size_t size = content.size();
-        content.resize(size + std::max(chunk, size / 2));
-        file.read(content.data() + size, static_cast<std::streamsize>(content.size() - size));
-        content.resize(size + static_cast<std::size_t>(file.gcount()));
-    }
-    if (file.bad())
-        throw InputError(path, std::string("cannot read: ") + std::strerror(errno));
-    return content;
-}
-
 } // namespace
 
-std::string read_text_file(const std::string& path) {
-    check_is_file(path);
-    std::string content = content_of(path);
-    if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff"))
-        throw InputError(path, "the file is UTF-16; expected UTF-8 or plain text");
-    if (const std::size_t nul = content.find('\0'); nul != std::string::npos) {
-        const auto end = content.begin() + static_cast<std::ptrdiff_t>(nul);
-        const auto lines = std::count(content.begin(), end, '\n') + 1;
+std::string read_text_file(const std::string& path, InputKind kind) {
+    std::size_t checked = 0;
+    const auto check = [&](std::string_view content) {
+        if (const std::string_view other = other_format(content); !other.empty())
+            throw InputError(path, "expected OBJ or MTL text, the file is " + std::string(other));
+        const std::size_t nul = content.find('\0', checked);
+        checked = content.size();
+        if (nul == std::string_view::npos)
+            return;
+        const auto lines =
+            std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(nul), '\n') +
+            1;
         throw InputError(path, static_cast<std::size_t>(lines),
                          "expected text, found a NUL byte (a binary or UTF-16 file?)");
-    }
+    };
+    std::string content = read_input(path, kind, check);
     if (content.starts_with(byte_order_mark))
         content.erase(0, byte_order_mark.size());
     return content;

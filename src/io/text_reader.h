@@ -2,6 +2,8 @@
 // Text files that consist of statements, one a line: OBJ and MTL. A statement is a keyword and the
 // rest of its line; what the rest means is read by text_words.h.
 
+#include "io/input_file.h"
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -9,8 +11,8 @@
 namespace hemilux {
 
 /// The content of a text file without its byte order mark. Throws InputError for what is no such
-/// file: a directory, a device, UTF-16, anything with a NUL byte.
-[[nodiscard]] std::string read_text_file(const std::string& path);
+/// file: a directory, a device, UTF-16, anything with a NUL byte (where reading ends).
+[[nodiscard]] std::string read_text_file(const std::string& path, InputKind kind);
 
 struct Statement {
     std::string_view keyword;

@@ -33,8 +33,10 @@ std::string hint_about(std::string_view word) {
     if (word.find_first_of("dD") != std::string_view::npos && is_digit(word.front()))
         return " (exponents are written with e)";
     double value = 0;
-    if (std::from_chars(word.data(), word.data() + word.size(), value).ptr ==
-        word.data() + word.size())
+    const std::string_view digits = word.substr(word.starts_with('+') ? 1 : 0);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const bool beyond = error != std::errc() || !(std::abs(value) <= largest_number);
+    if (end == digits.data() + digits.size() && error != std::errc::invalid_argument && beyond)
         return " (numbers must be finite and not beyond 1e100)";
     return "";
 }
@@ -59,6 +61,11 @@ std::string_view take_word(std::string_view& text) {
     const std::string_view word = text.substr(begin, end - begin);
     text.remove_prefix(end);
     return word;
+}
+
+bool differ_in_case(std::string_view a, std::string_view b) {
+    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+    return a != b && std::ranges::equal(a, b, {}, small, small);
 }
 
 std::string_view name_in(std::string_view text) {

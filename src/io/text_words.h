@@ -14,6 +14,8 @@ inline constexpr double largest_number = 1e100;
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 /// Takes the next word from the front of the text; empty at the end of the line or at a comment.
 std::string_view take_word(std::string_view& text);
+/// Whether both are the same but for capitals, and not the same.
+[[nodiscard]] bool differ_in_case(std::string_view a, std::string_view b);
 /// All of the text up to a comment. Names may have a # in them: a comment begins with a # after a
 /// blank, and a digit does not follow ("Material #25" is a name).
 [[nodiscard]] std::string_view name_in(std::string_view text);

@@ -79,6 +79,20 @@ std::string describe(const Mesh& mesh, const TrappedLight& trapped) {
            ". A reflectance below 1 on one of them lets light end";
 }
 
+/// Where the geometry does not prove that a scene is closed, so many rays that find no way out mean
+/// that there is none, or that light would be reflected about as often before it leaves.
+double enough_rays(const SolverInput& input) {
+    constexpr double of_closed = 3e5, of_others = 2e6;
+    const double asked = input.options.rays * double(input.mesh.patches().size());
+    return input.needs.closed ? of_closed : std::max(of_others, asked);
+}
+
+std::string advice(const Needs& needs) {
+    return needs.closed ? ""
+                        : "; if the scene has a smaller opening, a larger --rays looks for it with "
+                          "more";
+}
+
 } // namespace
 
 bool is_reflectance(const Vec3& r) {
@@ -97,10 +111,12 @@ void check_input(const SolverInput& input) {
     if (!perfect)
         return;
     input.monitor.phase = "closed?";
-    const auto trapped = find_trapped_light(mesh, input.tracer, input.options.seed,
-                                            Workers(input.options.threads), input.monitor);
+    const auto trapped =
+        find_trapped_light(mesh, input.tracer, input.options.seed, enough_rays(input),
+                           Workers(input.options.threads), input.monitor);
     if (trapped)
-        throw SolveError(describe(mesh, *trapped), face_of(mesh, trapped->patches.front()));
+        throw SolveError(describe(mesh, *trapped) + advice(input.needs),
+                         face_of(mesh, trapped->patches.front()));
 }
 
 } // namespace hemilux

@@ -7,6 +7,7 @@
 #include "radiosity/rng.h"
 #include "radiosity/shot.h"
 #include "radiosity/sobol.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/solver.h"
 #include "radiosity/state.h"
 
@@ -72,8 +73,8 @@ DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& ne
       patch_of_emitter_(one_of_each_side(mesh, emitters)),
       emitters_(whole_sides(mesh, patch_of_emitter_)), choice_(mesh, emitters_),
       seeds_(std::move(seeds)), sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)),
-      samples_(mesh.patches().size()), hits_(mesh.patches().size()),
-      bright_(mesh.patches().size()), unblocked_(mesh.patches().size()) {
+      samples_(mesh.patches().size()), hits_(mesh.patches().size()), bright_(mesh.patches().size()),
+      unblocked_(mesh.patches().size()) {
     for (const Patch& emitter : emitters_)
         lamps_.push_back(
             {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});
@@ -182,13 +183,29 @@ void DirectLight::save(StateWriter& state) const {
 }
 
 void DirectLight::load(StateReader& state) {
-    state.get(std::span(sum_));
+    state.get(std::span(sum_), bounds::non_negative);
+    // A patch for which shadow rays no longer pay keeps its sums, but has no samples.
+    constexpr double most_forgotten = 1u << 20;
+    const auto check_mean = [](double sum, double samples) {
+        if (sum > largest_radiosity * (samples > 0 ? samples : most_forgotten))
+            throw StateError("shadow rays brought more light than there may be");
+    };
     state.get(std::span(samples_));
     state.get(std::span(hits_));
+    for (std::size_t i = 0; i < hits_.size(); ++i)
+        if (samples_[i] > 0 && hits_[i] > std::uint64_t{samples_[i]} * seeds_.size())
+            throw StateError("more shadow rays arrived than were traced");
+    for (std::size_t k = 0; k < sum_.size(); ++k)
+        check_mean(std::max({sum_[k].x, sum_[k].y, sum_[k].z}), samples_[k / seeds_.size()]);
     state.get(std::span(bright_));
-    state.get(std::span(unblocked_));
-    part_.resize(state.whole() != 0 ? hits_.size() : 0);
+    state.get(std::span(unblocked_), bounds::non_negative);
+    for (std::size_t i = 0; i < unblocked_.size(); ++i)
+        check_mean(unblocked_[i], double(samples_[i]) * double(seeds_.size()));
+    part_.resize(state.flag() ? hits_.size() : 0);
     state.get(std::span(part_));
+    for (const std::uint32_t part : part_)
+        if (part >= part_.size())
+            throw StateError("a part of the scene is out of range");
     if (!part_.empty())
         choice_.set_parts(part_, patch_of_emitter_);
 }

@@ -1,7 +1,9 @@
 #include "radiosity/energy_closing.h"
 
 #include "geometry/compensated_sum.h"
+#include "radiosity/mesh.h"
 #include "radiosity/solve_error.h"
+#include "radiosity/solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -135,7 +137,7 @@ EnergyBalance balance_energy(const Transport& transport, std::span<const Vec3> i
         const double escaped =
             flows.emitted.escaped.value()[c] + flows.reflected.escaped.value()[c];
         const double by_rays = flows.emitted.lost(c) + flows.reflected.lost(c);
-        // Where light finds no end the balance stays open, see is_drained.
+        // Where light finds no end the balance stays open, see SearchForWayOut::is_drained.
         const bool ends = by_rays > 0 || energy.absorbed[c] > energy.emitted[c] / 2;
         const double lost = ends ? energy.emitted[c] - energy.absorbed[c] : 0;
         energy.escaped[c] = by_rays > 0 ? escaped / by_rays * lost : 0;
@@ -155,10 +157,24 @@ EnergyBalance close_energy(const Transport& transport, std::span<Vec3> incident)
     return balance_energy(transport, incident);
 }
 
-void require_more_rays(bool may_have_more) {
-    if (!may_have_more)
-        throw SolveError("there is no solution: as far as all rays tell, light cannot leave the "
-                         "scene and nothing absorbs it",
+/// As many as are asked for of each patch are traced whatever the limit.
+SearchForWayOut::SearchForWayOut(const SolverInput& input) {
+    constexpr double least = 5e7, times = 4;
+    most_ = std::max(least, times * input.options.rays * double(input.mesh.patches().size()));
+    for (std::uint32_t i = 0; i < input.mesh.patches().size(); ++i) {
+        const Vec3& rho = input.mesh.material(i).reflectance;
+        perfect_ = perfect_ || std::max({rho.x, rho.y, rho.z}) >= 1;
+    }
+}
+
+void SearchForWayOut::go_on(std::uint64_t traced, bool may_have_more) {
+    const bool more_than_before = !traced_ || traced > *traced_;
+    traced_ = traced;
+    if (!may_have_more || !more_than_before || double(traced) > most_)
+        throw SolveError("after " + std::to_string(traced) +
+                             " rays, independent parts of them have not seen where light leaves "
+                             "the scene or is absorbed: the opening is small. A larger --rays "
+                             "looks for it with more at once",
                          0);
 }
 

@@ -9,9 +9,13 @@
 #include "radiosity/sampled_form_factors.h"
 #include "radiosity/solution.h"
 
+#include <cstdint>
+#include <optional>
 #include <span>
 
 namespace hemilux {
+
+struct SolverInput;
 
 /// All by patch.
 struct Transport {
@@ -42,13 +46,24 @@ void scale_direct_light(const Transport& transport, const Vec3& variance, std::s
 /// absorbed + escaped.
 [[nodiscard]] EnergyBalance close_energy(const Transport& transport, std::span<Vec3> incident);
 
-/// Whether light comes to an end at all. Where reflectances are 1 few rays may have found no way
-/// out of the scene, and there is no solution with their factors.
-[[nodiscard]] inline bool is_drained(const EnergyBalance& energy) {
-    return !(energy.imbalance() >= .5);
-}
+/// Within a step whose rays have seen no way out: each try traces more, up to a limit.
+class SearchForWayOut {
+  public:
+    explicit SearchForWayOut(const SolverInput& input);
+    /// Whether light comes to an end at all. Where reflectances are 1 few rays may have found no
+    /// way out of the scene, and there is no solution with their factors, or one that is no number.
+    [[nodiscard]] bool is_drained(const EnergyBalance& energy) const {
+        const double imbalance = energy.imbalance();
+        return perfect_ ? imbalance < .5 : !(imbalance >= .5);
+    }
+    /// After a try in vain; `traced`: by the solver so far. Throws SolveError where there may be no
+    /// more rays, where the last try had no more, and at the limit.
+    void go_on(std::uint64_t traced, bool may_have_more);
 
-/// Throws SolveError where they cannot be had.
-void require_more_rays(bool may_have_more);
+  private:
+    bool perfect_ = false; ///< some reflectance is 1
+    double most_;
+    std::optional<std::uint64_t> traced_;
+};
 
 } // namespace hemilux

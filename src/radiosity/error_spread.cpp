@@ -17,8 +17,8 @@ double quantile_of_f(double above, double below) {
     const double a = 2 / (9 * above), b = 2 / (9 * below);
     const double root = std::sqrt((1 - b) * (1 - b) * a + (1 - a) * (1 - a) * b - z * z * a * b);
     const double below_of_ratio = (1 - b) * (1 - b) - z * z * b;
-    return below_of_ratio > 0 ? std::pow(((1 - a) * (1 - b) + z * root) / below_of_ratio, 3.0)
-                              : std::numeric_limits<double>::infinity();
+    return below_of_ratio <= 0 ? std::numeric_limits<double>::infinity()
+                               : std::pow(((1 - a) * (1 - b) + z * root) / below_of_ratio, 3.0);
 }
 
 /// A few samples do not tell more parts than these from any number.

@@ -1,7 +1,10 @@
 #include "radiosity/gathered_light.h"
 
 #include "radiosity/solution_state.h"
+#include "radiosity/solve_error.h"
 #include "radiosity/state.h"
+
+#include <limits>
 
 namespace hemilux {
 
@@ -37,11 +40,11 @@ void GatheredLight::save(StateWriter& state) const {
 }
 
 void GatheredLight::load(StateReader& state) {
-    generation_ = state.whole();
+    generation_ = state.whole_up_to(std::numeric_limits<std::uint32_t>::max());
     before_.resize(generation_ > 0 ? sets_ + 1 : 0, Light(solved_[0].incident.size()));
     for (std::vector<Light>* lights : {&solved_, &before_})
         for (Light& light : *lights) {
-            state.get(std::span(light.incident));
+            load_light(light.incident, generations() * largest_radiosity, state);
             load_energy(light.energy, state);
         }
 }

@@ -40,6 +40,21 @@ constexpr double share_of_unlit = 1.0 / 8;
 /// Black emitters count as if they reflected this: their rays tell where their light goes.
 constexpr double least_reflectance = .1;
 
+/// Throws StateError for rays that cannot have been allocated with this mean (ray_deal.h): a patch
+/// has at most about eleven times the mean, and all have more than a small part of it.
+void check_dealt(std::span<const std::uint32_t> rays, double mean) {
+    constexpr double most_share = 12, least_share = 1.0 / 64;
+    double sum = 0, count = 0;
+    for (const std::uint32_t of_patch : rays) {
+        if (of_patch > std::max(1.0, most_share * mean))
+            throw StateError("a patch has more rays than were planned");
+        sum += of_patch;
+        count += of_patch > 0;
+    }
+    if (count > 0 && sum < least_share * mean * count)
+        throw StateError("the patches have fewer rays than were planned");
+}
+
 } // namespace
 
 GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps,
@@ -57,6 +72,7 @@ GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random
         prior_lamp_weights_.push_back(area * reflectance);
         prior_weights_.push_back(area * std::max(reflectance, least_reflectance));
     }
+    before_ = now_;
     weights_ = learned_weights_ = prior_weights_;
     lamp_weights_ = prior_lamp_weights_;
 }
@@ -100,6 +116,8 @@ void GatheringPlan::grow(const KnownError& known, double room, const Workers& wo
 
 void GatheringPlan::choose(const KnownError& known) {
     const double rays = before_.random + before_.to_lamps;
+    if (!known.drained)
+        return split(2 * rays, known);
     if (!pace_.growing)
         return split(rays + first_.random + first_.to_lamps, known);
     if (!(pace_.aim > 0))
@@ -225,20 +243,25 @@ void GatheringPlan::save(StateWriter& state) const {
 void GatheringPlan::load(StateReader& state) {
     for (Stage* stage : {&before_, &now_}) {
         for (double* mean : {&stage->random, &stage->to_lamps})
-            if (!((*mean = state.number()) >= 0 && *mean <= most_growth * most_rays))
-                throw StateError("a number of rays is out of range");
+            state.get(*mean, {0, most_growth * most_rays});
         stage->rays.random.resize(weights_.size());
         stage->rays.to_lamps.resize(weights_.size());
         state.get(std::span(stage->rays.random));
         state.get(std::span(stage->rays.to_lamps));
+        check_dealt(stage->rays.random, stage->random);
+        check_dealt(stage->rays.to_lamps, stage->to_lamps);
     }
-    for (std::vector<double>* weights : {&weights_, &learned_weights_, &lamp_weights_}) {
-        state.get(std::span(*weights));
-        for (const double weight : *weights)
-            if (!(weight >= 0 && std::isfinite(weight)))
-                throw StateError("a weight is no weight");
-    }
-    has_learned_ = state.whole() != 0;
+    if (before_.random > now_.random || before_.to_lamps > now_.to_lamps)
+        throw StateError("the plan of rays does not grow");
+    // What is learned shares out the weights that the patches have by themselves.
+    const auto sum_of = [](std::span<const double> prior) {
+        constexpr double rounding = 1 + 1e-9;
+        return rounding * std::accumulate(prior.begin(), prior.end(), 0.0);
+    };
+    state.get(std::span(weights_), {0, sum_of(prior_weights_)});
+    state.get(std::span(learned_weights_), {0, sum_of(prior_weights_)});
+    state.get(std::span(lamp_weights_), {0, sum_of(prior_lamp_weights_)});
+    has_learned_ = state.flag();
 }
 
 } // namespace hemilux

@@ -34,6 +34,7 @@ struct KnownError {
     double relative = 0;            ///< as it is told
     double variance = 0;            ///< in any unit
     double variance_from_lamps = 0; ///< the part of it that comes from shadow rays
+    bool drained = true;            ///< the rays have seen a way out for the light
 };
 
 class GatheringPlan {

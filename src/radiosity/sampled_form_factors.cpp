@@ -83,6 +83,21 @@ LostShare SampledFormFactors::lost(std::uint32_t patch) const {
     return {counts_.escaped(patch) / n, counts_.absorbed(patch) / n};
 }
 
+double SampledFormFactors::arriving_from(std::size_t emitter) const {
+    const auto patches = mesh_.patches();
+    double sum = 0;
+    for (std::uint32_t i = 0; i < patches.size(); ++i)
+        sum += patches[i].area * emitter_sum_[i * emitters_.size() + emitter];
+    return sum / emitter_samples(rays_) / patches[emitters_[emitter]].area;
+}
+
+bool SampledFormFactors::all_receive() const {
+    for (std::uint32_t i = 0; i < mesh_.patches().size(); ++i)
+        if (mesh_.material(i).reflectance + mesh_.material(i).emission == Vec3(0.0))
+            return false;
+    return true;
+}
+
 /// c_ij + c_ji, by row and patch.
 std::vector<std::vector<RayCounts::Count>> SampledFormFactors::merged_counts() const {
     const auto patches = static_cast<std::uint32_t>(mesh_.patches().size());

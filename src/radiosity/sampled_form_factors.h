@@ -58,6 +58,12 @@ class SampledFormFactors {
     /// F, merged and closed.
     [[nodiscard]] SparseMatrix matrix() const;
     [[nodiscard]] LostShare lost(std::uint32_t patch) const;
+    [[nodiscard]] std::span<const std::uint32_t> emitters() const { return emitters_; }
+    /// The share of the light of one of them that arrives, by the closed form; only right if
+    /// all_receive().
+    [[nodiscard]] double arriving_from(std::size_t emitter) const;
+    /// Whether no patch is black, as one that reflects and emits nothing may look to no emitter.
+    [[nodiscard]] bool all_receive() const;
 
   private:
     std::uint64_t trace_emitters(std::uint32_t patch, std::uint32_t begin, std::uint32_t end);

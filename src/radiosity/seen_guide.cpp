@@ -15,6 +15,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace hemilux {
 namespace {
@@ -323,11 +324,10 @@ void SeenGuide::save(StateWriter& state) const {
 }
 
 void SeenGuide::load(StateReader& state) {
-    steps_ = state.whole();
-    lessons_ = state.number();
-    const double mean_root = state.number();
-    if (!(mean_root >= 0))
-        throw StateError("the mean worth of a ray is negative");
+    steps_ = state.whole_up_to(std::numeric_limits<std::uint32_t>::max());
+    const double of_look = lessons_; // each step adds one at most
+    lessons_ = state.number({of_look, of_look + static_cast<double>(steps_)});
+    const double mean_root = state.number(bounds::non_negative);
     const std::string worth = state.text();
     if (worth.size() != worth_.size())
         throw StateError("the number of triangles is not that of the patches");

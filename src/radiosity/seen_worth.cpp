@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numbers>
 
 namespace hemilux {
@@ -92,6 +93,9 @@ void SeenWorth::load(StateReader& state) {
         const std::uint64_t word = state.whole();
         known.sum = std::bit_cast<float>(static_cast<std::uint32_t>(word >> 32));
         known.hits = std::bit_cast<float>(static_cast<std::uint32_t>(word));
+        constexpr float most = std::numeric_limits<float>::max();
+        if (!(known.sum >= 0 && known.sum <= most && known.hits >= 0 && known.hits <= most))
+            throw StateError("a sum over hits is not finite, or negative");
     }
 }
 

@@ -1,5 +1,9 @@
 #include "radiosity/shooting.h"
 
+#include "radiosity/mesh.h"
+#include "radiosity/shot.h"
+#include "radiosity/state.h"
+
 #include <chrono>
 
 namespace hemilux {
@@ -38,6 +42,21 @@ bool ShootingSolver::solve_once(const StepTask& task, StepResult& result) {
         return false;
     strategy.end_step();
     return true;
+}
+
+/// On average over all power a strategy gives about as many rays as power alone would.
+void ShootingSolver::load_more(StateReader& state) {
+    constexpr double most_times = 1e3;
+    tools_.strategy->load(state);
+    double power = 0, rays = 0;
+    for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i) {
+        const double of_patch =
+            input_.mesh.patches()[i].area * mean_of_channels(solution_.radiosity[i]);
+        power += of_patch;
+        rays += of_patch * tools_.strategy->rays_for_power(i);
+    }
+    if (!(rays <= most_times * power))
+        throw StateError("its patches would trace far more rays than are asked for");
 }
 
 } // namespace hemilux

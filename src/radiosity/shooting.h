@@ -27,7 +27,8 @@ class ShootingSolver final : public StepwiseSolver {
         return tools_.strategy->is_same_in_all_steps();
     }
     void save_more(StateWriter& state) const override { tools_.strategy->save(state); }
-    void load_more(StateReader& state) override { tools_.strategy->load(state); }
+    /// Throws StateError also where the strategy would take far more rays than are asked for.
+    void load_more(StateReader& state) override;
 
     ShootingTools tools_;
     std::vector<Bounces> bounces_; ///< for each step that is worked out at the same time

@@ -48,28 +48,43 @@ double ShotBalance::variance_of_loss(double count) const {
     return usual * (1 - usual) / count;
 }
 
+/// As of factors whose points scatter as those of all shots, for the same reason: where by chance
+/// little was seen, little was seen to scatter, and the sum of the factors would be trusted most
+/// when it is too small.
+double ShotBalance::usual_variance(const FactorSum& factors) const {
+    const double spread = spread_of_point_ / shots_; // not its square: few shots would outweigh all
+    return factors.points > 0 ? spread * spread / factors.points : factors.variance;
+}
+
 ShotShares ShotBalance::settle(const FactorSum& factors, const ShotRays& rays) {
-    const auto [sum, variance, at_risk] = factors;
+    const double sum = factors.sum;
+    ++shots_;
+    spread_of_point_ += std::sqrt(factors.variance * factors.points);
     all_.count += rays.count;
     all_.escaped += rays.escaped;
     all_.absorbed += rays.absorbed;
     const double lost = (rays.escaped + rays.absorbed) / rays.count;
-    if (!(sum > 0) || at_risk > most_at_risk)
-        return {1, {rays.escaped / rays.count, rays.absorbed / rays.count}, 1 - sum - lost};
+    if (!(sum > 0) || factors.at_risk > most_at_risk)
+        return {.scale = 1,
+                .lost = {rays.escaped / rays.count, rays.absorbed / rays.count},
+                .by_chance = 1 - sum - lost};
     if (closed_)
-        return {1 / sum, {}, 0};
+        return {1 / sum, {}, 0, true, 0};
     const double variance_of_rays = variance_of_loss(rays.count);
-    const double both = variance + variance_of_rays;
-    const double joined =
-        both > 0 ? ((1 - lost) * variance + sum * variance_of_rays) / both : 1 - lost;
+    const double of_sum = usual_variance(factors), both = of_sum + variance_of_rays;
+    const double trust = both > 0 ? of_sum / both : 1; // in the rays
+    const double joined = trust * (1 - lost) + (1 - trust) * sum;
+    const double of_joined =
+        trust * trust * variance_of_rays + (1 - trust) * (1 - trust) * factors.variance;
+    const double relative = joined > 0 ? of_joined / (joined * joined) : 0;
     const LostShare kinds{rays.escaped + all_.escaped / all_.count,
                           rays.absorbed + all_.absorbed / all_.count};
     const double known = kinds.escaped + kinds.absorbed;
     // More than all is chance, and evens out: cut off, light would be missing on average.
     if (!(known > 0) || joined >= 1)
-        return {joined / sum, {}, 1 - joined};
+        return {joined / sum, {}, 1 - joined, true, relative};
     const double each = (1 - joined) / known;
-    return {joined / sum, {each * kinds.escaped, each * kinds.absorbed}, 0};
+    return {joined / sum, {each * kinds.escaped, each * kinds.absorbed}, 0, true, relative};
 }
 
 } // namespace hemilux

@@ -29,6 +29,7 @@ struct ShotRays {
 struct FactorSum {
     double sum = 0, variance = 0;
     double at_risk = 0; ///< about the sum of those that were looked at by chance only
+    double points = 0;  ///< of receivers, that were looked from
 };
 
 /// Shares of the shot.
@@ -36,6 +37,8 @@ struct ShotShares {
     double scale = 1;     ///< of all factors
     LostShare lost;       ///< what falls elsewhere
     double by_chance = 0; ///< what was neither received nor lost, on average 0
+    bool scaled = false;  ///< whether the factors were made to sum up to what arrives
+    double variance = 0;  ///< of what arrives, relative, if they were: an error of all factors
 };
 
 class ShotBalance {
@@ -46,9 +49,11 @@ class ShotBalance {
 
   private:
     [[nodiscard]] double variance_of_loss(double count) const;
+    [[nodiscard]] double usual_variance(const FactorSum& factors) const;
 
     bool closed_;
     ShotRays all_; ///< of all shots: where hardly any is lost, a few rays do not tell
+    double shots_ = 0, spread_of_point_ = 0; ///< the latter summed over all shots
 };
 
 } // namespace hemilux

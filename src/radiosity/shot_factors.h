@@ -16,6 +16,9 @@ namespace hemilux {
 /// F_receiver,shooter.
 struct Sight : PairFactor {
     double at_risk = 0; ///< about the factor, if it was left to chance whether to look
+    /// The variance which that adds, as guessed before anything was seen. `variance` holds it as
+    /// seen: right on average, but 0 where nobody has looked.
+    double left_to_chance = 0;
 };
 
 class ShotFactors {
@@ -34,6 +37,8 @@ class ShotFactors {
     [[nodiscard]] FactorSum sum() const;
 
   private:
+    void guess();
+    [[nodiscard]] bool is_receiver(std::uint32_t patch) const;
     [[nodiscard]] Sight look_from(std::uint32_t receiver, const Vec3& shot, double rays_per_light,
                                   std::uint64_t seed) const;
     [[nodiscard]] double worth(std::uint32_t receiver, double light) const;
@@ -42,6 +47,8 @@ class ShotFactors {
     Workers workers_;
     double mean_reflected_, mean_area_ = 0;
     std::uint32_t shooter_ = 0;
+    std::vector<double> rough_; ///< F_receiver,shooter as guessed
+    double crowding_ = 1;       ///< what the guesses for all receivers sum up to, at least 1
     std::vector<Sight> sights_;
 };
 

@@ -78,7 +78,11 @@ double estimated_error(const Mesh& mesh, const Solution& solution) {
                              more * more * rest + of_level * of_level * solution.variance_of_level);
     }
     all.error += solution.unseen;
-    return !solution.may_find_light && all.error == 0 ? 0 : all.root();
+    if (!solution.may_find_light && all.error == 0)
+        return 0;
+    // Relative to light that is less than its own error an error has no meaning: a single ray that
+    // found a patch may stand for many times what truly arrives.
+    return all.error > all.value ? nan : all.root();
 }
 
 ZScores z_scores(const Mesh& mesh, const Solution& solution, std::span<const Vec3> reference,

@@ -36,8 +36,8 @@ struct Solution {
     /// The part of that sum by which all light of a part of the scene is off together, where it is
     /// known by counting and not from a few samples.
     double variance_of_level = 0;
-    /// The same sum for what no ray may have seen so far: the squared error by the rule of three,
-    /// which counts besides the variance.
+    /// The same sum for what no ray may have seen so far, by the rule of three, or for light that
+    /// is still to be shot: a squared error which counts besides the variance.
     double unseen = 0;
     /// False where no light can reach anything that reflects, as the scene itself tells: then
     /// finding none is no lack of knowledge.

@@ -65,6 +65,20 @@ void StateReader::get(std::uint32_t& value) {
 
 double StateReader::number() { return std::bit_cast<double>(whole()); }
 
+double StateReader::number(const Bounds& bounds) {
+    const double value = number();
+    if (!(value >= bounds.least && value <= bounds.most))
+        throw StateError("a number in it is not finite, or out of its range");
+    return value;
+}
+
+std::uint64_t StateReader::whole_up_to(std::uint64_t most) {
+    const std::uint64_t value = whole();
+    if (value > most)
+        throw StateError("a whole number in it is too large");
+    return value;
+}
+
 std::string StateReader::text() { return std::string(take(count(1))); }
 
 std::size_t StateReader::count(std::size_t bytes_each) {
@@ -77,6 +91,11 @@ std::size_t StateReader::count(std::size_t bytes_each) {
 void StateReader::get(Vec3& value) {
     for (int c = 0; c < 3; ++c)
         value[c] = number();
+}
+
+void StateReader::get(Vec3& value, const Bounds& bounds) {
+    for (int c = 0; c < 3; ++c)
+        value[c] = number(bounds);
 }
 
 void StateReader::expect_end() const {

@@ -5,6 +5,7 @@
 #include "geometry/vector.h"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,15 @@ namespace hemilux {
 struct StateError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
+
+/// What a number of a state may be. NaN is within no bounds.
+struct Bounds {
+    double least, most;
+};
+namespace bounds {
+inline constexpr double largest = std::numeric_limits<double>::max();
+inline constexpr Bounds finite{-largest, largest}, non_negative{0, largest};
+} // namespace bounds
 
 class StateWriter {
   public:
@@ -45,6 +55,11 @@ class StateReader {
 
     [[nodiscard]] std::uint64_t whole();
     [[nodiscard]] double number();
+    /// StateError unless it is within the bounds.
+    [[nodiscard]] double number(const Bounds& bounds);
+    /// A whole number of at most so much; else StateError.
+    [[nodiscard]] std::uint64_t whole_up_to(std::uint64_t most);
+    [[nodiscard]] bool flag() { return whole_up_to(1) != 0; }
     /// At most the bytes that are left are kept.
     [[nodiscard]] std::string text();
     /// A size that was written before its items, each of which takes so many bytes or more.
@@ -54,6 +69,8 @@ class StateReader {
     void get(std::uint32_t& value);
     void get(double& value) { value = number(); }
     void get(Vec3& value);
+    void get(double& value, const Bounds& bounds) { value = number(bounds); }
+    void get(Vec3& value, const Bounds& bounds);
     /// Exactly as many values as there is room for; else StateError.
     template <class T>
     void get(std::span<T> values) {
@@ -61,6 +78,14 @@ class StateReader {
             throw StateError("the number of values is not that of the patches");
         for (T& value : values)
             get(value);
+    }
+    /// The same of numbers that are all within the bounds.
+    template <class T>
+    void get(std::span<T> values, const Bounds& bounds) {
+        if (whole() != values.size())
+            throw StateError("the number of values is not that of the patches");
+        for (T& value : values)
+            get(value, bounds);
     }
     /// Throws StateError unless all has been read.
     void expect_end() const;

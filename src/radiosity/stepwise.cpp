@@ -4,6 +4,7 @@
 #include "radiosity/check_input.h"
 #include "radiosity/mesh.h"
 #include "radiosity/shot.h"
+#include "radiosity/solution_state.h"
 #include "radiosity/solve_error.h"
 #include "radiosity/state.h"
 #include "radiosity/unseen_sights.h"
@@ -16,6 +17,12 @@
 #include <utility>
 
 namespace hemilux {
+namespace {
+
+/// Seconds that a state may tell of: ten thousand years.
+constexpr double longest_seconds = 3e11;
+
+} // namespace
 
 StepwiseSolver::StepwiseSolver(const SolverInput& input, bool equal_rays)
     : input_(input), workers_(input.options.threads), equal_rays_(equal_rays) {
@@ -324,23 +331,44 @@ void StepwiseSolver::save(StateWriter& state) const {
     save_more(state);
 }
 
+/// 0 before the pilot, infinite where rays are not equal. A step shoots about the emitted power, or
+/// as many times as much as there are bounces (check_bounces).
+void StepwiseSolver::load_ray_power(StateReader& state) {
+    constexpr double least_times = 1e-3, most_times = 1e9;
+    ray_power_ = state.number();
+    const double once =
+        emitted() / (input_.options.rays * static_cast<double>(input_.mesh.patches().size()));
+    const bool equal = equal_rays_ && emitted() > 0;
+    const bool fits = ray_power_ == 0 ? solution_.steps == 0
+                      : equal ? ray_power_ >= least_times * once && ray_power_ <= most_times * once
+                              : ray_power_ > bounds::largest;
+    if (!fits)
+        throw StateError("the power of a ray is none of this scene's");
+}
+
 void StepwiseSolver::load(StateReader& state) {
     const std::uint64_t steps = state.whole();
     if (steps > std::numeric_limits<std::uint32_t>::max())
         throw StateError("the number of steps is too large");
     solution_.steps = static_cast<std::uint32_t>(steps);
     solution_.rays_energy = state.whole();
-    solution_.seconds_density += state.number(); // both were spent
+    solution_.seconds_density += state.number({0, longest_seconds}); // both were spent
     for (Vec3* power :
          {&solution_.energy.absorbed, &solution_.energy.escaped, &solution_.energy.unshot,
           &absorbed_.sum, &absorbed_.lost, &escaped_.sum, &escaped_.lost, &sent_.sum, &sent_.lost})
-        state.get(*power);
-    ray_power_ = state.number();
-    level_ = state.number();
-    level_squares_ = state.number();
-    state.get(std::span(solution_.radiosity));
-    state.get(std::span(squares_));
+        state.get(*power, bounds::finite);
+    load_ray_power(state);
+    level_ = state.number({-largest_radiosity, largest_radiosity});
+    level_squares_ = state.number(bounds::non_negative);
+    load_light(solution_.radiosity, largest_radiosity, state);
+    state.get(std::span(squares_), bounds::non_negative);
     state.get(std::span(solution_.hits));
+    std::uint64_t hits_left = solution_.rays_energy;
+    for (const std::uint64_t hits : solution_.hits) {
+        if (hits > hits_left)
+            throw StateError("more rays arrived than were traced");
+        hits_left -= hits;
+    }
     if (solution_.steps > 1)
         estimate_errors();
     load_more(state);

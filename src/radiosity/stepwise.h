@@ -89,6 +89,7 @@ class StepwiseSolver : public Solver {
     [[nodiscard]] Vec3 power_leaving() const;
     [[nodiscard]] StepResult fresh_result() const;
     bool find_ray_power();
+    void load_ray_power(StateReader& state);
     [[nodiscard]] Vec3 mean_ray() const;
     [[nodiscard]] Vec3 purest_ray() const;
     [[nodiscard]] Vec3 one_ray(std::uint32_t patch) const;

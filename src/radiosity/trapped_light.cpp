@@ -14,9 +14,6 @@
 namespace hemilux {
 namespace {
 
-/// So many rays that find no way out mean that there is none: else light would be reflected about
-/// as often before it leaves.
-constexpr double enough_rays = 3e5;
 /// Of each patch at first; four times as many whenever they find nothing.
 constexpr double first_rays = 8;
 constexpr std::size_t patches_per_chunk = 4;
@@ -24,18 +21,18 @@ constexpr std::size_t patches_per_chunk = 4;
 class Search {
   public:
     Search(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, const Workers& workers,
-           Monitor& monitor, int channel)
+           Monitor& monitor, double enough_rays, int channel)
         : mesh_(mesh), tracer_(tracer), seed_(seed), workers_(workers), monitor_(monitor),
-          channel_(channel), held_(mesh.patches().size()) {
+          enough_rays_(enough_rays), channel_(channel), held_(mesh.patches().size()) {
         for (std::uint32_t i = 0; i < held_.size(); ++i)
             held_[i] = mesh.material(i).reflectance[channel] >= 1;
     }
 
     std::optional<TrappedLight> run() {
         double since = 0; // rays since a way out was found
-        for (double rays = first_rays; is_lit() && since < enough_rays;) {
+        for (double rays = first_rays; is_lit() && since < enough_rays_;) {
             const std::vector<std::uint32_t> shooters = held_and_lamps();
-            const double most = enough_rays / static_cast<double>(shooters.size()) + 1;
+            const double most = enough_rays_ / static_cast<double>(shooters.size()) + 1;
             const double each = std::min(rays, std::max(most, first_rays));
             if (release(shooters, static_cast<std::size_t>(each))) {
                 since = 0;
@@ -140,6 +137,7 @@ class Search {
     std::uint64_t seed_;
     const Workers& workers_;
     Monitor& monitor_;
+    double enough_rays_;
     int channel_;
     std::vector<char> held_; ///< no way out is known
     std::uint64_t round_ = 0;
@@ -156,12 +154,12 @@ bool alike(const Mesh& mesh, int a, int b) {
 } // namespace
 
 std::optional<TrappedLight> find_trapped_light(const Mesh& mesh, const Tracer& tracer,
-                                               std::uint64_t seed, const Workers& workers,
-                                               Monitor& monitor) {
+                                               std::uint64_t seed, double enough_rays,
+                                               const Workers& workers, Monitor& monitor) {
     for (int c = 0; c < 3; ++c) {
         if (c > 0 && alike(mesh, c, c - 1))
             continue;
-        if (auto trapped = Search(mesh, tracer, seed, workers, monitor, c).run())
+        if (auto trapped = Search(mesh, tracer, seed, workers, monitor, enough_rays, c).run())
             return trapped;
     }
     return std::nullopt;

@@ -25,9 +25,10 @@ struct TrappedLight {
     std::uint64_t rays;                 ///< of which none got out
 };
 
-/// Empty where there is none, or when interrupted.
+/// Empty where there is none, or when interrupted. `enough_rays`: so many that find no way out mean
+/// that there is none.
 [[nodiscard]] std::optional<TrappedLight> find_trapped_light(const Mesh& mesh, const Tracer& tracer,
-                                                             std::uint64_t seed,
+                                                             std::uint64_t seed, double enough_rays,
                                                              const Workers& workers,
                                                              Monitor& monitor);
 

@@ -2,9 +2,11 @@
 // not of this run.
 #include "app/program.h"
 #include "app/running.h"
+#include "io/checkpoint.h"
 
 #include <catch2/catch.hpp>
 
+#include <limits>
 #include <random>
 
 using Catch::Contains;
@@ -204,6 +206,29 @@ TEST_CASE("damaged checkpoints are refused") {
     other[good.find('\n') - 1] = '1'; // of before
     place.write("saved", other);
     check_refused(place, run + " --resume saved", "another version");
+}
+
+TEST_CASE("a sealed checkpoint with wrong rows is refused") {
+    const Workplace place;
+    place.write_room();
+    const std::string run = "solve room.obj --rays 5 --method hemisphere";
+    REQUIRE(place.hemilux(run + " --steps 2 --checkpoint saved -o a.csv").code == 0);
+    const hemilux::Checkpoint good = hemilux::read_checkpoint(place.path("saved").string());
+    const auto check = [&](const auto& change) {
+        hemilux::Checkpoint bad = good;
+        change(bad);
+        place.write("saved", hemilux::to_bytes(bad));
+        check_refused(place, run + " --steps 3 --resume saved", "is a damaged checkpoint");
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    check([](hemilux::Checkpoint& c) { c.rows.pop_back(); });
+    check([](hemilux::Checkpoint& c) { c.rows[1].record.step = 7; });
+    check([](hemilux::Checkpoint& c) { c.rows[0].method = "matrix"; });
+    check([](hemilux::Checkpoint& c) { c.rows[0].record.estimated_error = -1; });
+    check([&](hemilux::Checkpoint& c) { c.rows[1].record.seconds = nan; });
+    check([&](hemilux::Checkpoint& c) { c.seconds = -nan; });
+    check([](hemilux::Checkpoint& c) { c.seconds = -1; });
+    check([](hemilux::Checkpoint& c) { c.state += "x"; });
 }
 
 TEST_CASE("a checkpoint that cannot be written leaves the one before and ends with 3") {

@@ -15,7 +15,7 @@ namespace {
 
 std::vector<MtlMaterial> read(const std::string& content) {
     const TemporaryFolder folder;
-    return read_mtl(folder.write("m.mtl", content));
+    return read_mtl(folder.write("m.mtl", content)).materials;
 }
 
 } // namespace

@@ -139,8 +139,13 @@ TEST_CASE("In a closed room of reflectance .999 too") {
         // By the radiosities alone: all is absorbed but what chance has left.
         const Vec3 emitted = power_emitted(model);
         const Vec3 off = power_absorbed(model, s) - s.energy.absorbed;
-        CAPTURE(method->name);
-        CHECK(share(off, emitted) < 1e-9); // a difference of numbers 1000 times as large
+        // A difference of numbers 1000 times as large; and conjugate gradients end at a thousandth
+        // of the standard error.
+        const double error = estimated_error(model.mesh, s);
+        const double unsolved =
+            method->name == "gathering" ? 2e-3 * (std::isnan(error) ? 1 : error) : 0;
+        CAPTURE(method->name, unsolved);
+        CHECK(share(off, emitted) < 1e-9 + unsolved);
     }
 }
 

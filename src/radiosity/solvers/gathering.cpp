@@ -71,6 +71,15 @@ class GatheringSolver final : public Solver {
     }
 
     bool step() override {
+        SearchForWayOut search(input_);
+        std::optional<bool> done;
+        while (!(done = try_step(search)))
+            search.go_on(traced_, !finished() && room_to_grow() >= GatheringPlan::least_growth);
+        return *done;
+    }
+
+    /// Whether it was not interrupted; nothing where the rays have seen no way out for the light.
+    [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
         if (!plan_.has_begun() && !begin())
             return false;
         plan();
@@ -85,16 +94,18 @@ class GatheringSolver final : public Solver {
         std::optional<double> error;
         if (solution_.steps > 0)
             error = estimated_error(input_.mesh, solution_);
-        const ExchangeMatrix all = system_.solve({counts_, *direct_}, error, light_.solved(),
-                                                 workers_, input_.monitor.interrupted);
+        std::vector<GatheredLight::Light> found = light_.solved();
+        const ExchangeMatrix all =
+            system_.solve({counts_, *direct_}, error, found, workers_, input_.monitor.interrupted);
         if (input_.monitor.interrupted)
             return false;
         planned_ = false;
-        for (std::size_t s = 0; s <= sets; ++s)
-            if (!is_drained(light_.solved()[s].energy)) {
-                require_more_rays(!finished());
-                return step();
-            }
+        drained_ = std::ranges::all_of(found, [&](const GatheredLight::Light& light) {
+            return search.is_drained(light.energy);
+        });
+        if (!drained_)
+            return std::nullopt;
+        light_.solved() = std::move(found);
         for (std::size_t s = 0; s <= sets; ++s)
             check_finite(input_.mesh, light_.solved()[s].incident, "the light that reaches",
                          solution_.steps + 1);
@@ -121,15 +132,17 @@ class GatheringSolver final : public Solver {
     void load(StateReader& state) override {
         light_.load(state);
         renew();
-        planned_ = state.whole() != 0;
+        planned_ = state.flag();
         state.get(traced_);
-        state.get(variance_);
-        state.get(direct_variance_);
+        state.get(variance_, bounds::non_negative);
+        state.get(direct_variance_, bounds::non_negative);
         plan_.load(state);
         for (RayCounts& set : counts_)
             set.load(state);
         direct_->load(state);
         load_solution(solution_, state);
+        if (!plan_.has_begun() && (planned_ || solution_.steps > 0))
+            throw StateError("steps were done without a plan");
     }
 
   private:
@@ -163,7 +176,7 @@ class GatheringSolver final : public Solver {
     void plan() {
         if (planned_)
             return;
-        KnownError known{0, variance_, direct_variance_};
+        KnownError known{0, variance_, direct_variance_, drained_};
         if (solution_.steps > 0)
             known.relative = estimated_error(input_.mesh, solution_);
         const double room = room_to_grow();
@@ -285,6 +298,7 @@ class GatheringSolver final : public Solver {
     std::vector<RayCounts> counts_;
     std::optional<DirectLight> direct_; ///< an estimate for each set
     bool planned_ = false; ///< rays of the present step, which may have been traced in part
+    bool drained_ = true;  ///< the rays of the last try have seen a way out for the light
     double variance_ = 0, direct_variance_ = 0;
     std::uint64_t traced_ = 0;
     Solution solution_;

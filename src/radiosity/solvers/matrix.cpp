@@ -15,6 +15,7 @@
 #include "geometry/compensated_sum.h"
 #include "radiosity/alike_neighbours.h"
 #include "radiosity/check_input.h"
+#include "radiosity/emitter_losses.h"
 #include "radiosity/energy_closing.h"
 #include "radiosity/error_spread.h"
 #include "radiosity/exact_form_factors.h"
@@ -83,6 +84,15 @@ class MatrixSolver final : public Solver {
     }
 
     bool step() override {
+        SearchForWayOut search(input_);
+        std::optional<bool> done;
+        while (!(done = try_step(search)))
+            search.go_on(traced_, !finished());
+        return *done;
+    }
+
+    /// Whether it was not interrupted; nothing where the rays have seen no way out for the light.
+    [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
         const std::uint32_t rays = rays_ == 0 ? first_rays() : 2 * rays_;
         for (std::size_t r = 0; r < replicates; ++r) {
             input_.monitor.phase = "rays";
@@ -95,19 +105,19 @@ class MatrixSolver final : public Solver {
         input_.monitor.phase = "solving";
         CompensatedSum<Vec3> absorbed, escaped;
         bool drained = true;
+        const auto losses = emitter_losses(factors_, rays);
         for (std::size_t r = 0; r < replicates; ++r) {
-            const EnergyBalance energy = solve(factors_[r], guesses_[r]);
+            const EnergyBalance energy = solve(factors_[r], losses[r], guesses_[r]);
             absorbed += energy.absorbed;
             escaped += energy.escaped;
-            drained = drained && is_drained(energy);
+            drained = drained && search.is_drained(energy);
             if (input_.monitor.interrupted)
                 return false;
         }
         rays_ = rays;
         if (!drained) {
-            require_more_rays(!finished());
             guesses_.assign(replicates, solution_.radiosity);
-            return step();
+            return std::nullopt;
         }
         for (const std::vector<Vec3>& guess : guesses_)
             check_finite(input_.mesh, guess, "the radiosity", solution_.steps + 1);
@@ -130,7 +140,8 @@ class MatrixSolver final : public Solver {
     /// B = E + R, R = rho F (E + R), for one replicate, channel by channel, from the last solution
     /// on. The residual is that of reflected light: beside a tiny lamp's emission all of it could
     /// be too small to count.
-    EnergyBalance solve(const SampledFormFactors& factors, std::vector<Vec3>& radiosity) {
+    EnergyBalance solve(const SampledFormFactors& factors, std::span<const EmitterLoss> losses,
+                        std::vector<Vec3>& radiosity) {
         const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
         const std::size_t n = radiosity.size();
         std::vector<double> emission(n), rho(n), first(n), x(n), arriving(n);
@@ -161,7 +172,7 @@ class MatrixSolver final : public Solver {
         if (channels == 1)
             for (Vec3& all : incident)
                 all = Vec3(all.r);
-        const EnergyBalance energy = close(factors, f, incident);
+        const EnergyBalance energy = close(factors, losses, f, incident);
         for (std::uint32_t i = 0; i < n; ++i) {
             const Material& material = input_.mesh.material(i);
             radiosity[i] = material.emission + material.reflectance * incident[i];
@@ -169,9 +180,10 @@ class MatrixSolver final : public Solver {
         return energy;
     }
 
-    /// The lost shares are those of the rows as they are, of one kind or the other as rays tell.
-    EnergyBalance close(const SampledFormFactors& factors, const SparseMatrix& f,
-                        std::span<Vec3> incident) const {
+    /// The lost shares are those of the rows as they are, of one kind or the other as rays tell;
+    /// for emitters, what is known best.
+    EnergyBalance close(const SampledFormFactors& factors, std::span<const EmitterLoss> losses,
+                        const SparseMatrix& f, std::span<Vec3> incident) const {
         const std::size_t n = incident.size();
         std::vector<double> area(n), rays(n, rays_of_step_);
         std::vector<Vec3> emission(n), reflectance(n);
@@ -187,6 +199,10 @@ class MatrixSolver final : public Solver {
             const double sum = by_rays.escaped + by_rays.absorbed;
             const double scale = sum > 0 ? std::clamp(1 - kept[i], 0.0, 1.0) / sum : 0;
             lost[i] = {scale * by_rays.escaped, scale * by_rays.absorbed};
+        }
+        for (std::size_t e = 0; e < losses.size(); ++e) {
+            lost[factors.emitters()[e]] = losses[e].lost;
+            rays[factors.emitters()[e]] = losses[e].rays;
         }
         return close_energy({area, emission, reflectance, lost, rays}, incident);
     }

@@ -1,0 +1,26 @@
+#pragma once
+// Which file a path names. Two paths name one file where device and inode agree, whatever links,
+// folders and spellings lead there.
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace hemilux {
+
+/// A regular file. Where it does not exist yet, device and inode are those of its folder.
+struct FileIdentity {
+    std::uint64_t device = 0, inode = 0;
+    std::string name; ///< in its folder; empty where the file exists
+    auto operator<=>(const FileIdentity&) const = default;
+};
+
+/// Empty for pipes and devices, in which nothing can be replaced, and where there is no folder.
+[[nodiscard]] std::optional<FileIdentity> identity_of(const std::string& path);
+
+/// The path at which a new file would be made: a symbolic link whose target does not exist is
+/// followed. Any other path is given back.
+[[nodiscard]] std::string creation_path(const std::string& path);
+
+} // namespace hemilux

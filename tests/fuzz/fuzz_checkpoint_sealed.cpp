@@ -1,0 +1,89 @@
+// Checkpoints whose length and checksum are mended after each change, so that the changes reach the
+// solvers: each is refused, or loaded by some method, which then takes a step to finite numbers.
+
+#include "bvh/brute_force.h"
+#include "io/checkpoint.h"
+#include "io/checksum.h"
+#include "io/error.h"
+#include "radiosity/mesh.h"
+#include "radiosity/solve_error.h"
+#include "radiosity/solver.h"
+#include "radiosity/state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace {
+
+using namespace hemilux;
+
+/// That of corpus/obj/facing.obj, with everything emitting.
+Scene facing_triangles() {
+    Scene scene;
+    scene.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 1}};
+    scene.materials = {{"lamp", Vec3(.5), Vec3(1)}};
+    scene.groups = {"default"};
+    scene.facets = {{{0, 1, 2, 2}, 0, 0, 0}, {{3, 4, 5, 5}, 1, 0, 0}};
+    scene.faces = 2;
+    return scene;
+}
+
+std::string sealed(std::string_view content) {
+    StateWriter length, sum;
+    length.add(std::uint64_t{content.size()});
+    std::string bytes = "hemilux checkpoint, format 5\n" + length.bytes() + std::string(content);
+    Checksum checksum;
+    checksum.add(bytes);
+    sum.add(checksum.value());
+    return bytes + sum.bytes();
+}
+
+/// The content of a whole file, however wrong its length and checksum are.
+std::string_view content_of(std::string_view file) {
+    constexpr std::size_t word = sizeof(std::uint64_t);
+    const std::size_t line = std::min(file.find('\n'), file.size());
+    const std::size_t begin = std::min(line + 1 + word, file.size());
+    const std::size_t end = std::max(begin, file.size() - std::min(word, file.size()));
+    return file.substr(begin, end - begin);
+}
+
+void check_finite(const Solution& solution) {
+    for (const Vec3& b : solution.radiosity)
+        if (!std::isfinite(b.x + b.y + b.z))
+            std::abort();
+}
+
+void go_on(const std::string& state) {
+    static const Mesh mesh(facing_triangles());
+    static const BruteForce tracer(mesh.soup());
+    static const SolveOptions options{.rays = 4, .threads = 1};
+    static Monitor monitor;
+    for (const Method* const method : methods()) {
+        if (!method->can_resume())
+            continue;
+        const auto solver = method->make({mesh, tracer, options, monitor, everything_needed});
+        try {
+            StateReader reader(state);
+            solver->load(reader);
+            reader.expect_end();
+            if (!solver->finished())
+                (void)solver->step();
+        } catch (const StateError&) {
+            continue;
+        } catch (const SolveError&) {
+        }
+        check_finite(solver->solution());
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view file(reinterpret_cast<const char*>(data), size);
+    try {
+        go_on(checkpoint_from(sealed(content_of(file)), "saved").state);
+    } catch (const InputError&) {
+    }
+    return 0;
+}
