@@ -1,8 +1,8 @@
 #include "io/factor_table.h"
 
 #include "io/atomic_file.h"
-#include "io/error.h"
 #include "io/csv.h"
+#include "io/error.h"
 
 namespace hemilux {
 

@@ -41,9 +41,7 @@ double parts_by_patch(const Mesh& mesh, const Solution& solution) {
 
 double ErrorSpread::uncertainty() const { return 1 / std::sqrt(2 * parts * freedom); }
 
-double ErrorSpread::bound() const {
-    return std::sqrt(quantile_of_f(parts, parts * freedom));
-}
+double ErrorSpread::bound() const { return std::sqrt(quantile_of_f(parts, parts * freedom)); }
 
 double ErrorSpread::reported() const {
     constexpr double tolerance = 1.5;
