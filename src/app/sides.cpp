@@ -85,11 +85,16 @@ std::string both_sides_text(const Scene& scene) {
                      power);
 }
 
-bool anything_is_lit(const Mesh& mesh, std::span<const Vec3> radiosity) {
-    for (std::uint32_t i = 0; i < radiosity.size(); ++i)
-        if (glm::any(glm::greaterThan(radiosity[i], mesh.material(i).emission)))
-            return true;
-    return false;
+/// Power that is reflected, relative to what is emitted; both over all channels.
+double reflected_share(const Mesh& mesh, std::span<const Vec3> radiosity) {
+    double reflected = 0, emitted = 0;
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
+        const Vec3 power = mesh.patches()[i].area * mesh.material(i).emission;
+        emitted += glm::dot(power, Vec3(1.0));
+        reflected +=
+            mesh.patches()[i].area * glm::dot(radiosity[i], Vec3(1.0)) - glm::dot(power, Vec3(1.0));
+    }
+    return emitted > 0 ? reflected / emitted : 0;
 }
 
 bool anything_reflects(const Mesh& mesh) {
@@ -165,14 +170,17 @@ std::string describe_both_sides(const Scene& scene) {
 
 std::string lost_light_text(const Mesh& mesh, std::span<const Vec3> radiosity,
                             const LightShares& light, Sides sides) {
-    constexpr double nearly_all = 0.9;
-    const bool lit = anything_is_lit(mesh, radiosity);
-    if (lit && light.backs + light.escaped <= nearly_all)
+    constexpr double nearly_all = 0.9, well_lit = 0.5, hardly = 0.1;
+    const double reflected = reflected_share(mesh, radiosity);
+    const bool lit = reflected > 0;
+    if (lit && (light.backs + light.escaped <= nearly_all || reflected > well_lit))
         return "";
     if (!lit && !anything_reflects(mesh))
         return "nothing is lit: all reflectances are 0; --reflectance 'MATERIAL=R,G,B' changes "
                "them";
-    std::string text = (lit ? "hardly anything is lit: " : "nothing is lit: ") +
+    std::string text = (!lit                 ? "nothing is lit: "
+                        : reflected < hardly ? "hardly anything is lit: "
+                                             : "much light is lost: ") +
                        percent(light.backs) + " of the emitted light fell on backs of faces, " +
                        percent(light.escaped) + " left the scene; ";
     if (light.backs < light.escaped)

@@ -49,7 +49,7 @@ GatheringSystem::GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t
 }
 
 /// Each set by a thread of its own; then the whole by all threads, from where their mean is.
-ExchangeMatrix GatheringSystem::solve(const Rays& rays, std::optional<double> error,
+ExchangeMatrix GatheringSystem::solve(const Rays& rays, double error,
                                       std::vector<GatheredLight::Light>& light,
                                       const Workers& workers, const StopFlag& interrupted) const {
     const std::size_t sets = rays.counts.size();
@@ -65,7 +65,7 @@ ExchangeMatrix GatheringSystem::solve(const Rays& rays, std::optional<double> er
     const Vec3 variance = sample_variance(power);
     std::vector<GatheredLight::Light> found = light;
     // What a residual makes of the light is no larger than its sum over all reflections.
-    const double known = error ? std::min(left_of_sets * *error, first_residual) : first_residual;
+    const double known = std::fmin(left_of_sets * error, first_residual); // unknown: the latter
     const double residual = std::max(known * lost_at_least_, least_residual);
     workers.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
         direct[set].variance = variance;

@@ -42,10 +42,9 @@ class GatheringSystem {
     };
     /// `light`, of each set and at last of all: from what it holds, on to what the rays tell, as
     /// exactly as that is worth. Returns the factors of all. `error`: the relative one of what is
-    /// known so far, if anything is. Where it is interrupted nothing is changed.
-    ExchangeMatrix solve(const Rays& rays, std::optional<double> error,
-                         std::vector<GatheredLight::Light>& light, const Workers& workers,
-                         const StopFlag& interrupted) const;
+    /// known so far; nan: unknown. Where it is interrupted nothing is changed.
+    ExchangeMatrix solve(const Rays& rays, double error, std::vector<GatheredLight::Light>& light,
+                         const Workers& workers, const StopFlag& interrupted) const;
 
   private:
     /// Light that comes straight from the emitters, and the variance of its power by channel.

@@ -143,6 +143,12 @@ TEST_CASE("Light that leaves the scene is said in words") {
                                 Contains("turn the lamp to the scene"));
     CHECK_THAT(place.hemilux("solve sky.obj --steps 2 --reflectance '*=0' -o sky.csv").err,
                Contains("all reflectances are 0"));
+    place.write("sky.obj", "mtllib sky.mtl\nv 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\n"
+                           "v 0 0 0\nv 0 0 1\nv 1 0 1\nv 1 0 0\n"
+                           "usemtl lamp\nf 1 2 3 4\nusemtl grey\nf 5 6 7 8\n");
+    const std::string bright = "solve sky.obj --steps 2 -o sky.csv --reflectance ";
+    const std::string dim_err = place.hemilux(bright + "grey=.6").err;
+    CHECK_THAT(dim_err, Contains("much light is lost") && !Contains("hardly anything"));
 }
 
 namespace {

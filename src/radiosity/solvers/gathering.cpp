@@ -91,9 +91,8 @@ class GatheringSolver final : public Solver {
         if (input_.monitor.interrupted)
             return false;
         input_.monitor.phase = "solving";
-        std::optional<double> error;
-        if (solution_.steps > 0)
-            error = estimated_error(input_.mesh, solution_);
+        const double error = solution_.steps > 0 ? estimated_error(input_.mesh, solution_)
+                                                 : std::numeric_limits<double>::quiet_NaN();
         std::vector<GatheredLight::Light> found = light_.solved();
         const ExchangeMatrix all =
             system_.solve({counts_, *direct_}, error, found, workers_, input_.monitor.interrupted);
