@@ -60,6 +60,13 @@ std::vector<Vec3> local(const Scene& scene) {
     return LocalFrame::of(scene).to_local(scene.vertices);
 }
 
+/// Sanitizers have memory of their own, so their builds do not ask.
+[[maybe_unused]] double peak_megabytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
 } // namespace
 
 TEST_CASE("Facets in one place make no more pairs than the few that are kept") {
@@ -110,16 +117,6 @@ TEST_CASE("Pairs of facets over each other end at their limit, which is reported
 
 TEST_CASE("Rays of a step are listed in parts, however many there are") {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-namespace {
-
-double peak_megabytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-} // namespace
-
     const Model model(test::room_with_block());
     for (const char* name : {"stratified", "hemisphere", "monte-carlo", "hemisphere-1997"})
         for (const bool literal : {false, true}) {
