@@ -116,10 +116,10 @@ TEST_CASE("a signal while the scene is read ends the program at once") {
 TEST_CASE("a signal ends a large run soon, whatever it is at", "[slow]") {
     // No picture and no table is written, as they take their time.
     const Workplace place;
-    write_large(place, 1000);
+    write_large(place, 600);
     const std::string method = GENERATE("hemisphere", "stratified", "monte-carlo", "progressive",
                                         "matrix", "progressive-monte-carlo");
-    const int wait_ms = GENERATE(0, 1000, 2500, 5000); // moments of all kinds on most machines
+    const int wait_ms = GENERATE(0, 500, 1200, 2500); // moments of all kinds on most machines
     CAPTURE(method, wait_ms);
     Running run(place, "solve large.obj --rays 100 -o a.json --method " + method,
                 place.path("talk.txt").c_str());

@@ -131,7 +131,7 @@ TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may brin
     }
 }
 
-TEST_CASE("Direct light is unbiased where emitters are drawn by clusters") {
+TEST_CASE("Direct light is unbiased where emitters are drawn by clusters", "[slow]") {
     const Scene scene = test::room_with_block();
     const Model whole(scene), divided(scene, {.max_edge = .018});
     const Model fine(made_of_patches(divided.mesh)); // the lamp in 1156

@@ -275,7 +275,7 @@ void check_agreement(const Mesh& mesh, const Solution& with, const Solution& wit
 
 } // namespace
 
-TEST_CASE("What is left out keeps every byte where that is promised, else the result") {
+TEST_CASE("What is left out keeps every byte where that is promised, else the result", "[slow]") {
     struct Case {
         Scene scene;
         MeshOptions options;

@@ -298,7 +298,7 @@ void check_mended(const Scene& scene, const Faces& turned, double expected) {
 
 } // namespace
 
-TEST_CASE("No face of a right scene is turned, and reversed ones are lit again") {
+TEST_CASE("No face of a right scene is turned, and reversed ones are lit again", "[slow]") {
     for (const auto& [name, scene] : test::sided_scenes()) {
         CAPTURE(name);
         CHECK(find_orientation(scene).faces == 0);
