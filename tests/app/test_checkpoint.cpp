@@ -3,9 +3,11 @@
 #include "app/program.h"
 #include "app/running.h"
 #include "io/checkpoint.h"
+#include "radiosity/solver.h"
 
 #include <catch2/catch.hpp>
 
+#include <filesystem>
 #include <limits>
 #include <random>
 
@@ -277,9 +279,18 @@ TEST_CASE("runs killed at random moments resume") {
                 4);
 }
 
-TEST_CASE("runs killed at 50 random moments resume", "[slow]") {
+TEST_CASE("runs of every method that saves resume, killed at 40 random moments", "[slow]") {
     const Workplace place;
     place.write_room();
-    const std::string method = GENERATE("gathering --steps 40", "hemisphere --steps 150");
-    check_kills(place, 50, "solve room.obj --rays 100 --max-edge .1 --method " + method, 3);
+    for (const hemilux::Method* const method : hemilux::methods()) {
+        if (!method->can_resume())
+            continue;
+        const std::string steps = method->name == "gathering" ? "40" : "150";
+        CAPTURE(method->name);
+        check_kills(place, 40,
+                    "solve room.obj --rays 100 --max-edge .1 --steps " + steps + " --method " +
+                        std::string(method->name),
+                    3);
+        std::filesystem::remove(place.path("saved"));
+    }
 }
