@@ -21,6 +21,7 @@
 #include "app/view.h"
 #include "radiosity/error_spread.h"
 #include "radiosity/hemisphere.h"
+#include "radiosity/left_out.h"
 #include "radiosity/workers.h"
 
 #include <algorithm>

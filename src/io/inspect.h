@@ -3,7 +3,7 @@
 
 #include "geometry/box.h"
 #include "io/obj.h"
-#include "radiosity/needs.h"
+#include "radiosity/left_out.h"
 
 #include <cstddef>
 #include <span>

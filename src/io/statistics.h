@@ -1,7 +1,7 @@
 #pragma once
 // The figures of a run, as the JSON object that other tools read (docs: the program's outputs).
 
-#include "radiosity/needs.h"
+#include "radiosity/left_out.h"
 #include "radiosity/solution.h"
 
 #include <cstdint>

@@ -6,14 +6,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace hemilux {
 
 class Mesh;
-struct Method;
-struct Solution;
 
 struct Needs {
     bool colours = true;    ///< false: all is grey, one channel stands for three
@@ -33,14 +30,6 @@ struct Needs {
     std::size_t black = 0, unlit = 0; ///< idle because it reflects nothing; because no light comes
 };
 
-/// Work of a method that a scene may not need.
-struct MethodWork {
-    bool densities = false;      ///< counts surfaces before it solves
-    bool pairs = false;          ///< looks from patches to patches
-    bool linear_systems = false; ///< solves one for each channel
-    bool passes = false;         ///< solves again and again, to take the mean or with more rays
-};
-
 /// Nothing is left out.
 inline const Needs everything_needed;
 
@@ -51,15 +40,8 @@ inline const Needs everything_needed;
 /// Of all that, whether rays need a tree: known at once.
 [[nodiscard]] bool needs_tree(const Mesh& mesh);
 
-/// Something that a scene did not need and that was therefore not done.
-struct LeftOut {
-    std::string what, why, saved;
-};
-
-/// In words: by any method.
-[[nodiscard]] std::vector<LeftOut> left_out(const Needs& needs);
-/// By this one, in a run that came to this solution.
-[[nodiscard]] std::vector<LeftOut> left_out(const Needs& needs, const Method& method,
-                                            const Solution& solution);
+/// So many triangles are one leaf of the tree, tested at once; with more of them boxes pay
+/// (measured; docs/results.md).
+inline constexpr std::size_t most_triangles_without_tree = 8;
 
 } // namespace hemilux

@@ -133,6 +133,14 @@ class Workers;
 using MakeStrategy = std::unique_ptr<Strategy> (*)(const SolverInput&, const Hemisphere&,
                                                    const Workers&);
 
+/// Work of a method that a scene may not need.
+struct MethodWork {
+    bool densities = false;      ///< counts surfaces before it solves
+    bool pairs = false;          ///< looks from patches to patches
+    bool linear_systems = false; ///< solves one for each channel
+    bool passes = false;         ///< solves again and again, to take the mean or with more rays
+};
+
 /// A method as the user picks it.
 struct Method {
     std::string_view name;    ///< of --method

@@ -1,6 +1,7 @@
 // What is left out changes nothing: the same solution with all that is not needed and without it.
 #include "radiosity/convex_enclosure.h"
 #include "radiosity/density.h"
+#include "radiosity/left_out.h"
 #include "radiosity/lit_facets.h"
 #include "radiosity/make_tracer.h"
 #include "radiosity/point_to_patch.h"
