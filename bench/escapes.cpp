@@ -6,12 +6,12 @@
 // box of slivers, or with --scene the closed parts of that scene. A third of the rays leave patches
 // in bundles and a third in streams, cosine distributed; a third are aimed exactly at vertices and
 // at points of edges, which is where tracers leak. Ends with 1 if a ray has struck nothing.
-#include "bvh/wide_bvh.h"
+#include "bvh/wide/wide_bvh.h"
 #include "closed_meshes.h"
-#include "io/obj.h"
-#include "radiosity/mesh.h"
-#include "radiosity/shot.h"
-#include "radiosity/workers.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/mesh.h"
 
 #include <algorithm>
 #include <atomic>

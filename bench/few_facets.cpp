@@ -1,13 +1,13 @@
 // What the tree costs where all triangles fit one of its leaves: nanoseconds a ray with the tree,
-// without it (radiosity/needs.h leaves it out there), and by a loop over the facets one after the
-// other. One thread.
+// without it (radiosity/scene/needs.h leaves it out there), and by a loop over the facets one after
+// the other. One thread.
 //
 //     few_facets
 #include "bvh/brute_force.h"
-#include "bvh/wide_bvh.h"
+#include "bvh/wide/wide_bvh.h"
 #include "contest.h"
-#include "radiosity/rng.h"
-#include "radiosity/shot.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
 
 #include <cstdio>
 

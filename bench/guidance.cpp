@@ -8,9 +8,9 @@
 // all patches, over those of the groups named detail..., and over the rest. The reference is
 // `matrix`.
 #include "bvh/bvh.h"
-#include "io/obj.h"
-#include "radiosity/mesh.h"
-#include "radiosity/solver.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -6,9 +6,9 @@
 // CPU time, Embree and hemilux in turn, the fastest of the rounds. `ratio` is to Embree's
 // rtcIntersect1 on the same rays in random order; of `count` to the best of Embree's ways to count
 // exactly; of `build` to its medium quality.
-#include "bvh/wide_bvh.h"
+#include "bvh/wide/wide_bvh.h"
 #include "contest.h"
-#include "io/obj.h"
+#include "io/scene_files/obj.h"
 #include "rays.h"
 #include "scenes.h"
 #if defined(HEMILUX_EMBREE)

@@ -6,11 +6,11 @@
 // Prints: each triangle that is left, its level, mean density and solid angle, and what is kept in
 // all. Octants without the stack stay whole.
 
-#include "bvh/wide_bvh.h"
-#include "radiosity/density.h"
-#include "radiosity/mesh.h"
-#include "radiosity/solver.h"
-#include "radiosity/workers.h"
+#include "bvh/wide/wide_bvh.h"
+#include "radiosity/hemisphere/density.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
+#include "radiosity/sampling/workers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 
 #include "geometry/form_factor.h"
 #include "geometry/polygon.h"
-#include "radiosity/rng.h"
+#include "radiosity/sampling/rng.h"
 
 #include <cmath>
 #include <cstdio>

@@ -5,10 +5,10 @@
 // method the rays, the mean of B, the largest miss of any patch, and how many standard errors the
 // largest is. None may exceed 5.
 
-#include "bvh/wide_bvh.h"
-#include "io/obj.h"
-#include "radiosity/mesh.h"
-#include "radiosity/solver.h"
+#include "bvh/wide/wide_bvh.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
 
 #include <cmath>
 #include <cstdio>

@@ -5,11 +5,11 @@
 // subdivision method, render through a camera.
 // Prints: the estimated error after each step that doubles the rays, at last where the picture is.
 
-#include "bvh/wide_bvh.h"
-#include "io/obj.h"
-#include "io/render.h"
-#include "radiosity/mesh.h"
-#include "radiosity/solver.h"
+#include "bvh/wide/wide_bvh.h"
+#include "io/scene_files/obj.h"
+#include "io/pictures/render.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
 
 #include <bit>
 #include <cstdio>

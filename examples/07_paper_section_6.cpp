@@ -7,11 +7,11 @@
 // its mean square error in the detailed regions and in the others relative to the classical method,
 // and its memory, as a table in Markdown. FOLDER gets the pictures.
 
-#include "bvh/wide_bvh.h"
-#include "io/obj.h"
-#include "io/render.h"
-#include "radiosity/mesh.h"
-#include "radiosity/solver.h"
+#include "bvh/wide/wide_bvh.h"
+#include "io/scene_files/obj.h"
+#include "io/pictures/render.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
 
 #include <array>
 #include <chrono>

@@ -10,7 +10,7 @@
 // shares that sum to 1, Lambert's law, the furnace, agreement with `matrix`. A file in
 // src/radiosity/strategies/ is found without being named.
 
-#include "radiosity/shooting.h"
+#include "radiosity/shooting/shooting.h"
 
 namespace hemilux {
 namespace {

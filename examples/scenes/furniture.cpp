@@ -1,6 +1,6 @@
 #include "furniture.h"
 
-#include "radiosity/rng.h"
+#include "radiosity/sampling/rng.h"
 
 namespace hemilux {
 

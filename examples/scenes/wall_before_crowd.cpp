@@ -4,7 +4,7 @@
 #include "furniture.h"
 #include "scenes.h"
 
-#include "radiosity/rng.h"
+#include "radiosity/sampling/rng.h"
 
 namespace hemilux {
 

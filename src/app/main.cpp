@@ -1,14 +1,14 @@
 // The command-line program: hemilux SUBCOMMAND ...
 
-#include "app/commands.h"
-#include "app/density.h"
-#include "app/exit_code.h"
-#include "app/formfactors.h"
-#include "app/names.h"
-#include "app/options.h"
-#include "app/signals.h"
-#include "io/error.h"
-#include "io/printable.h"
+#include "app/command_line/options.h"
+#include "app/commands/commands.h"
+#include "app/commands/density.h"
+#include "app/commands/formfactors.h"
+#include "app/running/signals.h"
+#include "app/settings/exit_code.h"
+#include "app/settings/names.h"
+#include "io/files/error.h"
+#include "io/files/printable.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -2,8 +2,8 @@
 // not of this run.
 #include "app/program.h"
 #include "app/running.h"
-#include "io/checkpoint.h"
-#include "radiosity/solver.h"
+#include "io/results/checkpoint.h"
+#include "radiosity/solving/solver.h"
 
 #include <catch2/catch.hpp>
 

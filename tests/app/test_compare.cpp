@@ -1,6 +1,6 @@
 // What `hemilux compare` writes and says.
 #include "app/program.h"
-#include "radiosity/solver.h"
+#include "radiosity/solving/solver.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // What the system does to a run: signals, full disks, closed files, little memory.
-#include "app/memory.h"
 #include "app/program.h"
 #include "app/running.h"
-#include "radiosity/mesh.h"
+#include "app/settings/memory.h"
+#include "radiosity/scene/mesh.h"
 #include "support/scenes.h"
 
 #include <catch2/catch.hpp>

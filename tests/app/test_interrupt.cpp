@@ -1,7 +1,7 @@
 // Ctrl-C, and the progress bar that only a terminal gets to see.
 #include "app/program.h"
 #include "app/running.h"
-#include "app/signals.h"
+#include "app/running/signals.h"
 
 #include <catch2/catch.hpp>
 

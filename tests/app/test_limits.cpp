@@ -1,7 +1,7 @@
 // --time and --memory hold whatever else is asked for.
 #include "app/program.h"
-#include "app/step_size.h"
-#include "radiosity/solver.h"
+#include "app/running/step_size.h"
+#include "radiosity/solving/solver.h"
 
 #include <catch2/catch.hpp>
 

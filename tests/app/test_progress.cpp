@@ -1,5 +1,5 @@
 // The progress bar's arithmetic.
-#include "app/progress.h"
+#include "app/terminal/progress.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // What the program says about how a run ended.
-#include "app/run_notes.h"
+#include "app/running/run_notes.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // Faces that look away: a room as Blender writes it is lit by the default command, and where the
 // file is trusted the program names the option that lights it.
 #include "app/program.h"
-#include "io/obj.h"
-#include "io/tables.h"
-#include "radiosity/orientation.h"
+#include "io/results/tables.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/sides/orientation.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // What `hemilux solve` and `hemilux info` write and say.
 #include "app/program.h"
-#include "io/tables.h"
+#include "io/results/tables.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // Names, numbers and figures as the user types and reads them.
-#include "app/names.h"
-#include "app/numbers.h"
-#include "app/outputs.h"
-#include "app/overrides.h"
-#include "app/text.h"
+#include "app/settings/names.h"
+#include "app/settings/numbers.h"
+#include "app/settings/outputs.h"
+#include "app/settings/overrides.h"
+#include "app/settings/text.h"
 
 #include <catch2/catch.hpp>
 

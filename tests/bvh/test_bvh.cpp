@@ -1,7 +1,7 @@
 // The BVH against brute force, and what must not break it.
 #include "bvh/brute_force.h"
 #include "bvh/bvh.h"
-#include "radiosity/rng.h"
+#include "radiosity/sampling/rng.h"
 
 #include <catch2/catch.hpp>
 #include <limits>

@@ -1,8 +1,8 @@
 // The wide tree answers as brute force does, bit for bit, in every form and with every instruction
 // set.
 #include "bvh/brute_force.h"
-#include "bvh/kernel_choice.h"
-#include "bvh/wide_bvh.h"
+#include "bvh/wide/kernel_choice.h"
+#include "bvh/wide/wide_bvh.h"
 #include "support/soups.h"
 
 #include <catch2/catch.hpp>

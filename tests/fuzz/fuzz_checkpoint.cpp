@@ -3,12 +3,12 @@
 // refused, by both kinds of solvers.
 
 #include "bvh/brute_force.h"
-#include "io/checkpoint.h"
-#include "io/checksum.h"
-#include "io/error.h"
-#include "radiosity/mesh.h"
-#include "radiosity/solver.h"
-#include "radiosity/state.h"
+#include "io/files/error.h"
+#include "io/results/checkpoint.h"
+#include "io/results/checksum.h"
+#include "radiosity/saving/state.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
 
 #include <cstdlib>
 #include <memory>

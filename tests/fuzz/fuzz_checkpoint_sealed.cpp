@@ -2,13 +2,13 @@
 // solvers: each is refused, or loaded by some method, which then takes a step to finite numbers.
 
 #include "bvh/brute_force.h"
-#include "io/checkpoint.h"
-#include "io/checksum.h"
-#include "io/error.h"
-#include "radiosity/mesh.h"
-#include "radiosity/solve_error.h"
-#include "radiosity/solver.h"
-#include "radiosity/state.h"
+#include "io/files/error.h"
+#include "io/results/checkpoint.h"
+#include "io/results/checksum.h"
+#include "radiosity/saving/state.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solve_error.h"
+#include "radiosity/solving/solver.h"
 
 #include <algorithm>
 #include <cmath>

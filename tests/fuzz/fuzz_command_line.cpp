@@ -1,9 +1,9 @@
 // Any lines as the arguments of the program: understood, or refused by one of its two errors.
 
-#include "app/density.h"
-#include "app/exit_code.h"
-#include "app/formfactors.h"
-#include "app/options.h"
+#include "app/command_line/options.h"
+#include "app/commands/density.h"
+#include "app/commands/formfactors.h"
+#include "app/settings/exit_code.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdint>

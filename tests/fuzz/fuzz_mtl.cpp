@@ -1,8 +1,8 @@
 // Any bytes as an MTL file: read or refused by InputError, and colours are finite.
 
 #include "fuzz/input_file.h"
-#include "io/error.h"
-#include "io/mtl.h"
+#include "io/files/error.h"
+#include "io/scene_files/mtl.h"
 
 #include <cmath>
 

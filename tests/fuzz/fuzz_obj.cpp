@@ -1,9 +1,9 @@
 // Any bytes as an OBJ file: read or refused by InputError; a scene that was read can be divided.
 
 #include "fuzz/input_file.h"
-#include "io/error.h"
-#include "io/obj.h"
-#include "radiosity/mesh.h"
+#include "io/files/error.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/scene/mesh.h"
 
 #include <stdexcept>
 

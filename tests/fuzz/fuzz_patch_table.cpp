@@ -1,8 +1,8 @@
 // Any bytes as a patch table: read or refused by InputError, and its columns are of one length.
 
 #include "fuzz/input_file.h"
-#include "io/error.h"
-#include "io/tables.h"
+#include "io/files/error.h"
+#include "io/results/tables.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const hemilux::fuzz::InputFile file("a.csv");

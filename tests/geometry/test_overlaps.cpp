@@ -1,7 +1,7 @@
 // What flat polygons have in common, and which of many rectangles overlap.
 #include "geometry/flat_polygon.h"
 #include "geometry/rectangle_pairs.h"
-#include "radiosity/rng.h"
+#include "radiosity/sampling/rng.h"
 
 #include <catch2/catch.hpp>
 

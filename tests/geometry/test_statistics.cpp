@@ -1,6 +1,6 @@
 // The tests' own statistics against values known in closed form or from tables.
 
-#include "radiosity/rng.h"
+#include "radiosity/sampling/rng.h"
 #include "support/statistics.h"
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // Everything that a broken or odd OBJ or MTL file may hold: refused with one message that names
 // file, line and what was expected, or read and warned about once; in bounded time.
 
-#include "io/error.h"
-#include "io/obj.h"
+#include "io/files/error.h"
+#include "io/scene_files/obj.h"
 #include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>

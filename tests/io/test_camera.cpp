@@ -1,7 +1,7 @@
 #include "bvh/bvh.h"
-#include "io/automatic_camera.h"
-#include "io/camera.h"
-#include "radiosity/mesh.h"
+#include "io/pictures/automatic_camera.h"
+#include "io/pictures/camera.h"
+#include "radiosity/scene/mesh.h"
 #include "support/scenes.h"
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
-#include "io/checkpoint.h"
+#include "io/results/checkpoint.h"
 
-#include "io/error.h"
-#include "radiosity/mesh.h"
-#include "radiosity/state.h"
+#include "io/files/error.h"
+#include "radiosity/saving/state.h"
+#include "radiosity/scene/mesh.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
-#include "io/error_curves.h"
-#include "radiosity/rng.h"
+#include "io/drawings/error_curves.h"
+#include "radiosity/sampling/rng.h"
 
 #include <catch2/catch.hpp>
 

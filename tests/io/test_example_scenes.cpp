@@ -2,7 +2,7 @@
 // the air, nothing that overlaps, groups of small detail.
 
 #include "geometry/box.h"
-#include "io/obj.h"
+#include "io/scene_files/obj.h"
 
 #include <catch2/catch.hpp>
 

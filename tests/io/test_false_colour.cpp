@@ -1,4 +1,4 @@
-#include "io/false_colour.h"
+#include "io/drawings/false_colour.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // Which file a path names, what may be read, and what a replaced file keeps.
-#include "io/atomic_file.h"
-#include "io/error.h"
-#include "io/file_identity.h"
-#include "io/mtl.h"
-#include "io/obj.h"
+#include "io/files/atomic_file.h"
+#include "io/files/error.h"
+#include "io/files/file_identity.h"
+#include "io/scene_files/mtl.h"
+#include "io/scene_files/obj.h"
 #include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // Drawings of divided hemispheres, and the colours of densities.
-#include "io/colour_bar.h"
-#include "io/density_picture.h"
-#include "io/hemisphere_svg.h"
-#include "radiosity/workers.h"
+#include "io/drawings/colour_bar.h"
+#include "io/drawings/density_picture.h"
+#include "io/drawings/hemisphere_svg.h"
+#include "radiosity/sampling/workers.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

@@ -1,6 +1,6 @@
-#include "io/atomic_file.h"
-#include "io/error.h"
-#include "io/image.h"
+#include "io/files/atomic_file.h"
+#include "io/files/error.h"
+#include "io/pictures/image.h"
 #include "io/png_reader.h"
 #include "support/temporary_folder.h"
 

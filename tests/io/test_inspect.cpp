@@ -1,4 +1,4 @@
-#include "io/inspect.h"
+#include "io/scene_files/inspect.h"
 
 #include "support/temporary_folder.h"
 

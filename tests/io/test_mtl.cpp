@@ -1,7 +1,7 @@
-#include "io/mtl.h"
+#include "io/scene_files/mtl.h"
 
-#include "io/error.h"
-#include "io/material_table.h"
+#include "io/files/error.h"
+#include "io/scene_files/material_table.h"
 #include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // Matrices as files.
-#include "io/error.h"
-#include "io/factor_table.h"
-#include "io/npy.h"
+#include "io/files/error.h"
+#include "io/results/factor_table.h"
+#include "io/results/npy.h"
 #include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "io/obj.h"
+#include "io/scene_files/obj.h"
 
 #include "support/temporary_folder.h"
 

@@ -1,8 +1,8 @@
 // Bad files: one clear message with file and line, never a crash.
 
-#include "io/error.h"
-#include "io/obj.h"
-#include "radiosity/rng.h"
+#include "io/files/error.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/sampling/rng.h"
 #include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
-#include "io/canvas.h"
-#include "io/log_axis.h"
-#include "io/plot.h"
+#include "io/drawings/canvas.h"
+#include "io/drawings/log_axis.h"
+#include "io/drawings/plot.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
-#include "io/error.h"
-#include "io/ply.h"
-#include "radiosity/mesh.h"
+#include "io/files/error.h"
+#include "io/results/ply.h"
+#include "radiosity/scene/mesh.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
 

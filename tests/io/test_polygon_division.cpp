@@ -1,9 +1,9 @@
-#include "io/polygon_division.h"
+#include "io/scene_files/polygon_division.h"
 
 #include "geometry/frame.h"
 #include "geometry/polygon.h"
-#include "io/ear_clipping.h"
-#include "radiosity/rng.h"
+#include "io/scene_files/ear_clipping.h"
+#include "radiosity/sampling/rng.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // Text from files: what reaches a terminal, a drawing or a spreadsheet.
-#include "io/printable.h"
+#include "io/files/printable.h"
 
-#include "io/canvas.h"
-#include "io/csv.h"
+#include "io/drawings/canvas.h"
+#include "io/results/csv.h"
 
 #include <catch2/catch.hpp>
 

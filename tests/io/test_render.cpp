@@ -1,7 +1,7 @@
 #include "bvh/bvh.h"
-#include "io/render.h"
-#include "io/smooth.h"
-#include "radiosity/mesh.h"
+#include "io/pictures/render.h"
+#include "io/results/smooth.h"
+#include "radiosity/scene/mesh.h"
 #include "support/scenes.h"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
-#include "io/smooth.h"
-#include "io/weld.h"
-#include "radiosity/mesh.h"
-#include "radiosity/rng.h"
+#include "io/results/smooth.h"
+#include "io/results/weld.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/mesh.h"
 #include "support/scenes.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "io/statistics.h"
+#include "io/results/statistics.h"
 
 #include <catch2/catch.hpp>
 

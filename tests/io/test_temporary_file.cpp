@@ -1,6 +1,6 @@
 // What killed processes leave behind is removed; what others write to is not.
-#include "io/atomic_file.h"
-#include "io/temporary_file.h"
+#include "io/files/atomic_file.h"
+#include "io/files/temporary_file.h"
 #include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>

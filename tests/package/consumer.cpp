@@ -1,7 +1,7 @@
 // Uses the library from its installed headers: a lamp above a floor, solved in one step.
-#include "bvh/wide_bvh.h"
-#include "radiosity/mesh.h"
-#include "radiosity/solver.h"
+#include "bvh/wide/wide_bvh.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
 
 #include <cstdio>
 

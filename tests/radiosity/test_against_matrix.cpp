@@ -1,6 +1,6 @@
 // Proof of the estimators: every unbiased method against the reference, patch by patch, on scenes
 // with occlusion, within the standard errors that both report.
-#include "io/obj.h"
+#include "io/scene_files/obj.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

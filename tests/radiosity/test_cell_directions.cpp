@@ -1,8 +1,8 @@
 // Directions into the cells of the hemisphere, many at once.
 
 #include "geometry/instruction_set.h"
-#include "radiosity/cell_directions.h"
-#include "radiosity/rng.h"
+#include "radiosity/hemisphere/cell_directions.h"
+#include "radiosity/sampling/rng.h"
 #include "support/statistics.h"
 
 #include <catch2/catch.hpp>

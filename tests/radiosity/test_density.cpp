@@ -1,7 +1,7 @@
 // The density store: what is counted, and in how many bytes.
-#include "radiosity/density.h"
+#include "radiosity/hemisphere/density.h"
 
-#include "radiosity/workers.h"
+#include "radiosity/sampling/workers.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

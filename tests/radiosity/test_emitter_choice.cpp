@@ -1,9 +1,9 @@
 // Which emitters shadow rays go to.
-#include "radiosity/direct_light.h"
-#include "radiosity/emitter_choice.h"
-#include "radiosity/pair_factor.h"
-#include "radiosity/shot.h"
-#include "radiosity/small_emitters.h"
+#include "radiosity/form_factors/pair_factor.h"
+#include "radiosity/gathering/direct_light.h"
+#include "radiosity/gathering/emitter_choice.h"
+#include "radiosity/gathering/small_emitters.h"
+#include "radiosity/rays/shot.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

@@ -1,7 +1,7 @@
 // The linear solver against systems with known solutions.
-#include "radiosity/gmres.h"
+#include "radiosity/linear/gmres.h"
 
-#include "radiosity/rng.h"
+#include "radiosity/sampling/rng.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

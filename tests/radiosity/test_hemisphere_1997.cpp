@@ -1,10 +1,10 @@
 // The technique of 1997: where its vertices move, what it estimates, and how its triangles and rays
 // lie.
 #include "geometry/spherical_triangle.h"
-#include "radiosity/edge_division.h"
-#include "radiosity/hemisphere.h"
-#include "radiosity/strategy.h"
-#include "radiosity/workers.h"
+#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/edge_division.h"
+#include "radiosity/shooting/strategy.h"
 #include "support/directions.h"
 #include "support/scenes.h"
 #include "support/solve.h"

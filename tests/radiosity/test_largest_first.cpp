@@ -1,6 +1,6 @@
 // The order in which monte-carlo takes the patches.
-#include "radiosity/largest_first.h"
-#include "radiosity/rng.h"
+#include "radiosity/sampling/largest_first.h"
+#include "radiosity/sampling/rng.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,9 +1,9 @@
 // What a small file or a large option may cost: counted, or ended by the time of the run.
-#include "radiosity/coplanar_overlaps.h"
-#include "radiosity/mesh.h"
-#include "radiosity/rng.h"
-#include "radiosity/stacked_facets.h"
-#include "radiosity/time_limit.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/coplanar_overlaps.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/scene/stacked_facets.h"
+#include "radiosity/solving/time_limit.h"
 #include "support/after_streams.h"
 
 #include "support/scenes.h"

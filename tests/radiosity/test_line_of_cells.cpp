@@ -1,8 +1,8 @@
 // Rays of a patch and its cells: however many there are, each ray goes to the cell on whose part of
 // the line it stands.
 
-#include "radiosity/line_of_cells.h"
-#include "radiosity/rng.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/shooting/line_of_cells.h"
 
 #include <catch2/catch.hpp>
 

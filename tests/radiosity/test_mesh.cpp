@@ -1,8 +1,8 @@
 // Division of facets into patches, and the way back from a hit to its patch.
-#include "radiosity/mesh.h"
+#include "radiosity/scene/mesh.h"
 
 #include "bvh/bvh.h"
-#include "radiosity/rng.h"
+#include "radiosity/sampling/rng.h"
 #include "support/scenes.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // Every method on scenes whose solution is known in closed form, patch by patch: a mean would not
 // see a broken direction law. Scenes where a method is added inherit all of this.
-#include "radiosity/rng.h"
+#include "radiosity/sampling/rng.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

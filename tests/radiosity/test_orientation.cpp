@@ -1,8 +1,8 @@
 // Faces that look away from the light: found where the evidence is clear, left alone where not.
 #include "geometry/polygon.h"
-#include "radiosity/orientation.h"
-#include "radiosity/rng.h"
-#include "radiosity/shells.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sides/orientation.h"
+#include "radiosity/sides/shells.h"
 #include "support/scenes.h"
 #include "support/sided_scenes.h"
 #include "support/solve.h"

@@ -1,5 +1,5 @@
 // Progressive radiosity against the matrix, its energy, and its options.
-#include "radiosity/pair_factor.h"
+#include "radiosity/form_factors/pair_factor.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

@@ -2,10 +2,10 @@
 
 #include "geometry/instruction_set.h"
 #include "geometry/vector.h"
-#include "radiosity/matrix_kernels.h"
-#include "radiosity/rng.h"
-#include "radiosity/sampling_kernels.h"
-#include "radiosity/sobol.h"
+#include "radiosity/sampling/matrix_kernels.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/sampling_kernels.h"
+#include "radiosity/sampling/sobol.h"
 
 #include <catch2/catch.hpp>
 

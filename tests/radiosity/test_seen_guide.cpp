@@ -1,11 +1,11 @@
 // The hemisphere guided by what is seen: unbiased, honest, and the same for any number of threads.
-#include "radiosity/seen_guide.h"
+#include "radiosity/guiding/seen_guide.h"
 
-#include "radiosity/hemisphere.h"
-#include "radiosity/shooting.h"
-#include "radiosity/state.h"
-#include "radiosity/strategy.h"
-#include "radiosity/workers.h"
+#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/saving/state.h"
+#include "radiosity/shooting/shooting.h"
+#include "radiosity/shooting/strategy.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

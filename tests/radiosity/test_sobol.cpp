@@ -1,8 +1,8 @@
 // The points are nets, uniform, independent between seeds, and integrate smooth functions faster
 // than random numbers do.
 
-#include "radiosity/rng.h"
-#include "radiosity/sobol.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/sobol.h"
 #include "support/statistics.h"
 
 #include <catch2/catch.hpp>

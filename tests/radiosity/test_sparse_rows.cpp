@@ -1,7 +1,7 @@
 // Sparse matrices by rows: their mean against sums over dense ones.
-#include "radiosity/sparse_rows.h"
+#include "radiosity/form_factors/sparse_rows.h"
 
-#include "radiosity/rng.h"
+#include "radiosity/sampling/rng.h"
 
 #include <catch2/catch.hpp>
 

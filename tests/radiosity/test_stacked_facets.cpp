@@ -1,10 +1,10 @@
 // Facets that lie over each other in one plane: all are found, and laid apart in an order.
 #include "geometry/flat_polygon.h"
 #include "geometry/frame.h"
-#include "radiosity/coplanar_overlaps.h"
-#include "radiosity/mesh.h"
-#include "radiosity/rng.h"
-#include "radiosity/stacked_facets.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/coplanar_overlaps.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/scene/stacked_facets.h"
 #include "support/scenes.h"
 
 #include <catch2/catch.hpp>

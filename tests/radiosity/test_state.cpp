@@ -1,6 +1,6 @@
 // Solver::save and load, for all methods that say that they have them.
 
-#include "radiosity/state.h"
+#include "radiosity/saving/state.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

@@ -1,10 +1,10 @@
 // Rays that run exactly through vertices and edges, along axes and within planes: nothing leaks, no
 // surface is counted twice, and all tracers and all forms of a question agree.
 #include "bvh/brute_force.h"
-#include "bvh/wide_bvh.h"
-#include "radiosity/density.h"
-#include "radiosity/hemisphere.h"
-#include "radiosity/rng.h"
+#include "bvh/wide/wide_bvh.h"
+#include "radiosity/hemisphere/density.h"
+#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/sampling/rng.h"
 #include "support/directions.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,6 +1,6 @@
 // Scenes and options with next to nothing in them: every method ends, and nothing is NaN.
 
-#include "radiosity/needs.h"
+#include "radiosity/scene/needs.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

@@ -1,7 +1,7 @@
 // Scenes in which one thing is far larger, brighter, thinner or nearer than another, or in which
 // faces lie where no real surface could: each against the same scene without the oddity, against a
 // closed form, or against the balance of energy.
-#include "radiosity/needs.h"
+#include "radiosity/scene/needs.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

@@ -1,8 +1,8 @@
 // One room in any unit and anywhere: the same solution, as long as doubles tell its corners apart.
-#include "bvh/wide_bvh.h"
-#include "io/error.h"
-#include "io/obj.h"
-#include "radiosity/needs.h"
+#include "bvh/wide/wide_bvh.h"
+#include "io/files/error.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/scene/needs.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 #include "support/temporary_folder.h"

@@ -1,7 +1,7 @@
 #pragma once
 // Scenes whose solution is known, made in code.
 
-#include "radiosity/scene.h"
+#include "radiosity/scene/scene.h"
 
 namespace hemilux::test {
 

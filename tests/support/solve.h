@@ -2,8 +2,8 @@
 // A mesh with its BVH, and a run of a method over it.
 
 #include "bvh/bvh.h"
-#include "radiosity/mesh.h"
-#include "radiosity/solver.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
 
 #include <cstring>
 #include <utility>

@@ -16,11 +16,11 @@
 // one patch are traced at once. Costs one ray after the other and no memory to speak of.
 
 #include "geometry/frame.h"
-#include "radiosity/largest_first.h"
-#include "radiosity/shot.h"
-#include "radiosity/solve_error.h"
-#include "radiosity/stepwise.h"
-#include "radiosity/workers.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/largest_first.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/shooting/stepwise.h"
+#include "radiosity/solving/solve_error.h"
 
 #include <cmath>
 #include <utility>

@@ -24,12 +24,12 @@
 // patches and high reflectances, as each patch shoots many times. No memory to speak of. Not
 // unbiased: after a finite number of shots some light is missing.
 
-#include "radiosity/alike_neighbours.h"
-#include "radiosity/check_input.h"
-#include "radiosity/mesh.h"
-#include "radiosity/progressive_pass.h"
-#include "radiosity/solve_error.h"
-#include "radiosity/solver.h"
+#include "radiosity/scene/alike_neighbours.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/shooting/progressive_pass.h"
+#include "radiosity/solving/check_input.h"
+#include "radiosity/solving/solve_error.h"
+#include "radiosity/solving/solver.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 // combined by their numbers of rays; with equal steps the rule "divide by k what was received" is
 // the running mean. Needs no preprocessing and no memory. The yardstick for all others.
 
-#include "radiosity/shooting.h"
+#include "radiosity/shooting/shooting.h"
 
 namespace hemilux {
 namespace {

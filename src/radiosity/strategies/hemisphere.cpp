@@ -15,10 +15,10 @@
 // visible or learned rays follow what is seen instead, which the wall does not mislead
 // (seen_guide.h).
 
-#include "radiosity/density.h"
-#include "radiosity/mesh.h"
-#include "radiosity/seen_guide.h"
-#include "radiosity/shooting.h"
+#include "radiosity/guiding/seen_guide.h"
+#include "radiosity/hemisphere/density.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/shooting/shooting.h"
 
 #include <algorithm>
 #include <optional>

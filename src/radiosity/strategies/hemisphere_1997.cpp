@@ -22,10 +22,10 @@
 // and, with directions stored in floats, 13 bytes for each of them: 2132 bytes per patch, where the
 // method `hemisphere` needs 41.
 
-#include "radiosity/density.h"
-#include "radiosity/edge_division.h"
-#include "radiosity/mesh.h"
-#include "radiosity/shooting.h"
+#include "radiosity/hemisphere/density.h"
+#include "radiosity/scene/edge_division.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/shooting/shooting.h"
 
 #include <algorithm>
 #include <atomic>

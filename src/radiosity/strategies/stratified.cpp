@@ -3,7 +3,7 @@
 // All triangles of the last level, rays in proportion to power: what the technique gains by merely
 // dividing the hemisphere, before it has looked at the scene. No density rays, no memory.
 
-#include "radiosity/shooting.h"
+#include "radiosity/shooting/shooting.h"
 
 namespace hemilux {
 namespace {

@@ -1,9 +1,9 @@
 // Ordinary scenes, on which a method that is careful with the others must not do worse than before.
 // Their references are means of several runs of the method `matrix`, whose spread is their error.
 
-#include "io/obj.h"
-#include "radiosity/make_tracer.h"
-#include "radiosity/solver.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/rays/make_tracer.h"
+#include "radiosity/solving/solver.h"
 #include "support/families/builders.h"
 #include "support/families/families.h"
 #include "support/scenes.h"

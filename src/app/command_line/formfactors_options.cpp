@@ -1,0 +1,57 @@
+#include "app/command_line/option_groups.h"
+#include "app/command_line/option_kinds.h"
+#include "app/commands/formfactors.h"
+#include "app/settings/extension.h"
+
+#include <CLI/CLI.hpp>
+#include <bit>
+
+namespace hemilux {
+
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  hemilux formfactors room.obj -o factors.csv
+  hemilux formfactors room.obj --exact -o factors.npy -o factors.csv
+)";
+
+std::optional<std::string> matrix_path(const std::string& path) {
+    const std::string extension = extension_of(path);
+    return extension == ".csv" || extension == ".npy" ? std::optional(path) : std::nullopt;
+}
+
+std::optional<std::uint32_t> power_of_two(const std::string& text) {
+    constexpr std::uint64_t most = 1u << 20;
+    const std::optional<std::uint64_t> value = parse_whole(text);
+    return value && std::has_single_bit(*value) && *value <= most
+               ? std::optional(static_cast<std::uint32_t>(*value))
+               : std::nullopt;
+}
+
+} // namespace
+
+CLI::App* add_formfactors_command(CLI::App& program, FormFactorSettings& settings) {
+    CLI::App* const app =
+        program.add_subcommand("formfactors", "write the form factors between all patches");
+    add_scene_options(*app, settings.scene);
+    add_parsed(*app, "--rays", "N", "rays per patch, a power of two [4096]",
+               "a power of two from 1 to 1048576", power_of_two,
+               [&settings](std::uint32_t rays) { settings.rays = rays; })
+        ->group("Method");
+    app->add_flag("--exact", settings.options.exact,
+                  "without chance where nothing can stand between two patches; up to 2000 patches")
+        ->group("Method");
+    add_random_options(*app, settings.options);
+    repeatable(
+        add_parsed(*app, "-o,--output", "FILE",
+                   "i,j,F of the factors above 0 .csv, dense NumPy array .npy; repeatable",
+                   "a file name that ends with .csv or .npy", matrix_path,
+                   [&settings](const std::string& path) { settings.outputs.push_back(path); }))
+        ->required()
+        ->group(output_group);
+    add_talk_options(*app, settings.talk);
+    app->footer(examples);
+    return app;
+}
+
+} // namespace hemilux

@@ -1,0 +1,12 @@
+#pragma once
+// The subcommands. Each returns the exit code or throws UsageError, InputError or OutputError.
+
+#include "app/settings/settings.h"
+
+namespace hemilux {
+
+int solve(const SolveSettings& settings);
+int compare(const CompareSettings& settings);
+int info(const InfoSettings& settings);
+
+} // namespace hemilux

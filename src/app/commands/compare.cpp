@@ -1,0 +1,181 @@
+// hemilux compare: a reference, all runs, files and a table.
+
+#include "app/commands/commands.h"
+#include "app/commands/compare_outputs.h"
+#include "app/commands/compare_run.h"
+#include "app/commands/compare_summary.h"
+#include "app/loading/load.h"
+#include "app/running/signals.h"
+#include "app/settings/exit_code.h"
+#include "app/settings/memory.h"
+#include "app/settings/method_options.h"
+#include "app/settings/text.h"
+#include "app/settings/view.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/summary.h"
+#include "app/terminal/talk.h"
+#include "io/files/error.h"
+#include "radiosity/sampling/rng.h"
+
+#include <atomic>
+#include <iostream>
+
+namespace hemilux {
+
+namespace {
+
+/// Below this share of a method's error the reference's own error does not matter.
+constexpr double reference_share = 1.0 / 3;
+
+bool wants_bar(const CompareSettings& settings) {
+    return settings.talk != Talk::quiet && stderr_is_terminal();
+}
+
+/// The matrix method until it is good enough or interrupted, with random numbers that no run has.
+/// Empty where not even its first step was done.
+std::optional<Reference> compute_reference(const CompareSettings& settings, const Mesh& mesh,
+                                           const Tracer& tracer, const Needs& needs,
+                                           Monitor& monitor) {
+    const StopRule stop{.steps = {}, .seconds = {}, .error = settings.reference_error};
+    const Method& method = *find_method("matrix");
+    SolveOptions options = settings.options;
+    options.literal = false;
+    options.seed = hash_words({options.seed, 0x7265666572656e63u});
+    const SolverInput input{mesh, tracer, options, monitor, needs};
+    Progress progress(monitor, share_of(stop, method), wants_bar(settings));
+    progress.set_topic("reference");
+    const std::unique_ptr<Solver> solver = method.make(input);
+    run(*solver, input, stop, [&](const StepRecord& record, const Solution&) {
+        progress.step_done(record);
+        if (settings.talk == Talk::verbose)
+            progress.say("reference, " + step_text({"matrix", 0, record, std::nullopt}));
+    });
+    const Solution& solution = solver->solution();
+    if (solution.steps == 0)
+        return std::nullopt;
+    return Reference{solution.radiosity, solution.standard_error, {}};
+}
+
+double own_error(const Mesh& mesh, const Reference& reference) {
+    Solution solution;
+    solution.radiosity = reference.radiosity;
+    solution.standard_error = reference.standard_error;
+    return estimated_error(mesh, solution);
+}
+
+std::vector<MethodRuns> run_with_progress(const Contest& contest,
+                                          std::optional<SolveError>& fault) {
+    std::atomic<double> share_done{0};
+    Progress progress(
+        contest.monitor, [&](const ProgressState&) { return share_done.load(); },
+        wants_bar(contest.settings));
+    return run_methods(contest, fault, [&](const StepRow& row, double share) {
+        share_done = share;
+        const std::string topic = row.method + formatted(", run %u", row.run + 1);
+        progress.set_topic(topic);
+        if (contest.settings.talk == Talk::verbose)
+            progress.say(topic + ", " + step_text(row));
+    });
+}
+
+/// Methods that were interrupted before their first step have nothing to show.
+void drop_empty(std::vector<MethodRuns>& results) {
+    for (MethodRuns& result : results)
+        std::erase_if(result.runs, [](const MethodRun& run) { return run.rows.empty(); });
+    std::erase_if(results, [](const MethodRuns& result) { return result.runs.empty(); });
+}
+
+void judge_reference(const Contest& contest, std::span<const MethodSummary> summaries) {
+    const double own = own_error(contest.mesh, contest.reference);
+    say(contest.settings.talk, Talk::normal, "the reference's own error: " + percent(own));
+    for (const MethodSummary& summary : summaries)
+        if (own > reference_share * summary.error.all)
+            say(contest.settings.talk, Talk::normal,
+                "warning: that is much of the " + percent(summary.error.all) + " of " +
+                    summary.label + "; --reference-error asks for a better one");
+}
+
+int finish(const Contest& contest, std::vector<MethodRuns> results) {
+    const Talk talk = contest.settings.talk;
+    drop_empty(results);
+    WriteReport report;
+    if (!results.empty()) {
+        const auto summaries = summarise(results, contest.settings.options.literal);
+        report = write_comparison(contest, results, summaries);
+        judge_reference(contest, summaries);
+        std::cout << summary_table(summaries) << std::flush;
+        if (const std::string note = gain_note(summaries); !note.empty())
+            say(talk, Talk::normal, note);
+        if (!std::cout)
+            throw OutputError("standard output", "cannot be written");
+    }
+    report.say(talk);
+    if (contest.monitor.interrupted)
+        say(talk, Talk::quiet,
+            results.empty() ? "interrupted before the first step of a method was done"
+                            : "interrupted; the results are those of the steps that were done");
+    if (!report.failed.empty())
+        return exit_output;
+    return contest.monitor.interrupted ? exit_code_of_signal() : exit_done;
+}
+
+/// Fills in the lines of the faces as soon as they are known.
+int run_comparison(const CompareSettings& settings, std::vector<std::uint32_t>& face_lines) {
+    std::vector<const Method*> methods;
+    for (const Entrant& entrant : settings.entrants)
+        methods.push_back(entrant.method);
+    if (settings.reference.empty())
+        methods.push_back(find_method("matrix"));
+    check_own_options(settings.options, methods);
+    make_folder(settings.folder);
+    const RunFiles files = check_files(settings);
+    Monitor monitor;
+    InterruptGuard guard;
+    LoadedMesh loaded = load_mesh(settings.scene, files, settings.options, methods, settings.talk,
+                                  bytes_of_compared_pictures(settings.view.size));
+    face_lines = std::move(loaded.face_lines);
+    const Mesh& mesh = loaded.mesh;
+    check_camera(settings.view, mesh);
+    check_exact(settings.options, mesh.patches().size());
+    std::vector<bool> detail = detail_mask(mesh, settings.detail);
+    std::optional<Reference> reference;
+    if (!settings.reference.empty())
+        reference = read_reference(settings.reference, mesh, {});
+    const Prepared prepared = prepare(loaded, settings.options);
+    const Needs& needs = prepared.needs;
+    const auto& [tracer, tree] = prepared.made;
+    guard.watch(monitor.interrupted);
+    say(settings.talk, Talk::verbose, tracer_text(tree, prepared.seconds));
+    if (!reference)
+        reference = compute_reference(settings, mesh, *tracer, needs, monitor);
+    if (!reference) {
+        say(settings.talk, Talk::quiet, "interrupted before there was a reference");
+        return exit_code_of_signal();
+    }
+    reference->detail = std::move(detail);
+    const Contest contest{mesh, *tracer, settings, *reference, monitor, needs};
+    if (settings.reference.empty()) {
+        const WriteReport report = write_reference(contest);
+        report.say(settings.talk);
+        if (!report.failed.empty())
+            return exit_output;
+    }
+    std::optional<SolveError> fault;
+    const int code = finish(contest, run_with_progress(contest, fault));
+    if (fault && code == exit_done)
+        throw SolveError(*fault);
+    return code;
+}
+
+} // namespace
+
+int compare(const CompareSettings& settings) {
+    std::vector<std::uint32_t> face_lines;
+    try {
+        return run_comparison(settings, face_lines);
+    } catch (const SolveError& error) {
+        throw as_input_error(error, settings.scene.path, face_lines);
+    }
+}
+
+} // namespace hemilux

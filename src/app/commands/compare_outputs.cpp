@@ -1,0 +1,152 @@
+#include "app/commands/compare_outputs.h"
+
+#include "app/settings/text.h"
+#include "app/settings/view.h"
+#include "io/drawings/false_colour.h"
+#include "io/drawings/plot.h"
+#include "io/files/atomic_file.h"
+#include "io/files/error.h"
+#include "io/files/input_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <unistd.h>
+
+namespace hemilux {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string path_in(const Contest& contest, const std::string& name) {
+    return (fs::path(contest.settings.folder) / name).string();
+}
+
+std::vector<StepRow> all_rows(std::span<const MethodRuns> results) {
+    std::vector<StepRow> rows;
+    for (const MethodRuns& result : results)
+        for (const MethodRun& run : result.runs)
+            rows.insert(rows.end(), run.rows.begin(), run.rows.end());
+    return rows;
+}
+
+MeanCurve in_per_cent(MeanCurve curve) {
+    for (std::vector<double>* const errors : {&curve.mean, &curve.low, &curve.high})
+        for (double& error : *errors)
+            error *= 100;
+    return curve;
+}
+
+Chart chart_of(const Contest& contest, std::span<const MethodSummary> summaries) {
+    const CompareSettings& settings = contest.settings;
+    Chart chart;
+    chart.title = fs::path(settings.scene.path).filename().string() + ": " +
+                  counted(contest.mesh.patches().size(), "patch", "patches") + ", mean of " +
+                  counted(settings.runs, "run", "runs");
+    chart.y_label = "relative error, %";
+    Panel by_seconds{"seconds, preprocessing included", {}};
+    Panel by_rays{"rays, density rays included", {}};
+    for (const MethodSummary& summary : summaries) {
+        chart.names.push_back(summary.label);
+        by_seconds.curves.push_back(in_per_cent(summary.by_seconds));
+        by_rays.curves.push_back(in_per_cent(summary.by_rays));
+    }
+    chart.panels = {by_seconds, by_rays};
+    return chart;
+}
+
+void write_charts(const Contest& contest, std::span<const MethodSummary> summaries,
+                  WriteReport& report) {
+    const Chart chart = chart_of(contest, summaries);
+    const std::string svg = path_in(contest, "error.svg"), png = path_in(contest, "error.png");
+    report.attempt(svg, [&] { write_atomically(svg, chart_svg(chart)); });
+    report.attempt(png, [&] { write_png(png, chart_image(chart), 1); });
+}
+
+void write_pictures(const Contest& contest, std::span<const MethodRuns> results,
+                    WriteReport& report) {
+    const ViewSettings& view = contest.settings.view;
+    const Reference& reference = contest.reference;
+    const Camera camera = camera_of(view, contest.mesh, contest.tracer, reference.radiosity);
+    const PictureTime time(contest.monitor.interrupted);
+    const auto picture = [&](std::span<const Vec3> radiosity) {
+        return render_view(view, contest.mesh, contest.tracer, radiosity, camera,
+                           contest.settings.options.threads, time);
+    };
+    const Image truth = picture(reference.radiosity);
+    const double exposure = exposure_of(view, truth);
+    const auto write = [&](const std::string& name, const Image& image, double factor) {
+        const std::string path = path_in(contest, name);
+        report.attempt(path, [&] { write_png(path, image, factor); });
+    };
+    write("reference.png", truth, exposure);
+    std::vector<std::vector<float>> differences;
+    for (const MethodRuns& result : results) {
+        const Image image = picture(result.runs.front().radiosity);
+        write(result.entrant.name + ".png", image, exposure);
+        differences.push_back(luminance_difference(image, truth, exposure));
+    }
+    const DifferenceScale scale = common_scale(differences);
+    for (std::size_t i = 0; i < results.size(); ++i)
+        write(results[i].entrant.name + "_difference.png",
+              false_colour(differences[i], truth.width, truth.height, scale), 1);
+}
+
+} // namespace
+
+void make_folder(const std::string& folder) {
+    std::error_code failure;
+    if (fs::exists(folder, failure) && !fs::is_directory(folder, failure))
+        throw OutputError(folder, "is a file; a folder is needed");
+    fs::create_directories(folder, failure);
+    if (failure)
+        throw OutputError(folder, "the folder cannot be made: " + failure.message());
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+        throw OutputError(folder,
+                          std::string("cannot write to the folder: ") + std::strerror(errno));
+}
+
+RunFiles check_files(const CompareSettings& settings) {
+    std::vector<std::string> names{"error.csv", "error.svg", "error.png", "reference.png"};
+    for (const Entrant& entrant : settings.entrants)
+        for (const char* const end : {".png", "_difference.png"})
+            names.push_back(entrant.name + end);
+    if (settings.reference.empty())
+        names.push_back("reference.csv");
+    for (std::string& name : names)
+        name = (fs::path(settings.folder) / name).string();
+    RunFiles files = check_files(names, settings.scene.path);
+    if (!settings.reference.empty()) {
+        files.read("reference", settings.reference);
+        check_input(settings.reference, InputKind::stream);
+    }
+    return files;
+}
+
+WriteReport write_comparison(const Contest& contest, std::span<const MethodRuns> results,
+                             std::span<const MethodSummary> summaries) {
+    WriteReport report;
+    const std::string log = path_in(contest, "error.csv");
+    report.attempt(log, [&] { write_steps_log(log, all_rows(results)); });
+    write_charts(contest, summaries, report);
+    try {
+        write_pictures(contest, results, report);
+    } catch (const Interrupted&) {
+        report.left_out.push_back(path_in(contest, "*.png"));
+    }
+    return report;
+}
+
+WriteReport write_reference(const Contest& contest) {
+    WriteReport report;
+    const std::string path = path_in(contest, "reference.csv");
+    report.attempt(path, [&] {
+        write_patch_table(path, contest.mesh, contest.reference.radiosity,
+                          contest.reference.standard_error,
+                          Workers(contest.settings.options.threads));
+    });
+    return report;
+}
+
+} // namespace hemilux

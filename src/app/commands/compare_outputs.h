@@ -1,0 +1,31 @@
+#pragma once
+// The folder that a comparison leaves behind.
+
+#include "app/commands/compare_run.h"
+#include "app/commands/compare_summary.h"
+#include "app/running/write_report.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+/// Makes the folder where it is not there. Throws OutputError where nothing can be written to it.
+void make_folder(const std::string& folder);
+
+/// The files of the run. Throws UsageError where a file that is read would be replaced, OutputError
+/// where a file cannot be made, InputError where one cannot be read.
+[[nodiscard]] RunFiles check_files(const CompareSettings& settings);
+
+/// error.csv, error.svg, error.png, reference.png, and METHOD.png with METHOD_difference.png from
+/// the first run of each method. All pictures have one camera and one exposure, all differences one
+/// scale.
+[[nodiscard]] WriteReport write_comparison(const Contest& contest,
+                                           std::span<const MethodRuns> results,
+                                           std::span<const MethodSummary> summaries);
+
+/// reference.csv, for use with --reference.
+[[nodiscard]] WriteReport write_reference(const Contest& contest);
+
+} // namespace hemilux

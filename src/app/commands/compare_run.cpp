@@ -1,0 +1,168 @@
+#include "app/commands/compare_run.h"
+
+#include "app/running/step_size.h"
+#include "app/settings/memory.h"
+#include "app/terminal/stopwatch.h"
+#include "radiosity/solving/time_limit.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace hemilux {
+
+namespace {
+
+/// The budget as given, or the usual number of rays.
+Budget budget_of(const Contest& contest) {
+    Budget budget = contest.settings.budget;
+    if (!budget.rays && !budget.seconds)
+        budget.rays = Budget::default_steps * contest.settings.options.rays *
+                      static_cast<double>(contest.mesh.patches().size());
+    return budget;
+}
+
+/// A method at work. Its time is the sum of its own steps and of what it does before the first.
+class Runner {
+  public:
+    Runner(const Contest& contest, const Entrant& entrant, std::uint32_t run, const Budget& budget)
+        : contest_(contest), entrant_(entrant), run_(run), budget_(budget),
+          options_(with_memory(contest.settings.options, contest.settings.scene)) {
+        options_.rays = rays_of_step(options_.rays, budget.seconds, *entrant.method,
+                                     contest.mesh.patches().size());
+        options_.seed += run;
+        options_.literal = options_.literal && entrant.method->has_literal;
+        options_.guide = entrant.guide.value_or(options_.guide);
+        const Stopwatch preparing;
+        solver_ = entrant.method->make(
+            {contest.mesh, contest.tracer, options_, contest.monitor, contest.needs});
+        seconds_ = preparing.seconds();
+    }
+
+    /// False when it was interrupted, or cut short as it took much longer than the budget.
+    bool step() {
+        const double before = used();
+        const Stopwatch stepping;
+        const TimeLimit limit(contest_.monitor.interrupted, seconds_left());
+        if (!solver_->step()) {
+            cut_short_ = !contest_.monitor.interrupted.load();
+            return false;
+        }
+        seconds_ += stepping.seconds();
+        step_before_ = last_step_;
+        last_step_ = used() - before;
+        result_.rows.push_back(row());
+        return true;
+    }
+
+    /// Whether the next step would end farther from the budget than the last one did.
+    [[nodiscard]] bool done() const {
+        if (cut_short_)
+            return true;
+        if (result_.rows.empty())
+            return false;
+        const double growth =
+            step_before_ > 0 ? std::clamp(last_step_ / step_before_, 1.0, 2.0) : 1.0;
+        return solver_->finished() || used() + growth * last_step_ / 2 > limit();
+    }
+    [[nodiscard]] double share() const { return done() ? 1 : std::min(1.0, used() / limit()); }
+    [[nodiscard]] const StepRow& last_row() const { return result_.rows.back(); }
+
+    [[nodiscard]] MethodRun result() {
+        const Solution& solution = solver_->solution();
+        result_.radiosity = solution.radiosity;
+        result_.bytes_density = solution.bytes_density;
+        result_.complete = done();
+        return std::move(result_);
+    }
+
+  private:
+    /// A step may end as far behind the budget as another would end before it.
+    [[nodiscard]] std::optional<double> seconds_left() const {
+        constexpr double least = 1;
+        if (!budget_.seconds)
+            return std::nullopt;
+        return std::max(2 * *budget_.seconds - seconds_, least);
+    }
+    [[nodiscard]] double limit() const { return budget_.rays ? *budget_.rays : *budget_.seconds; }
+    [[nodiscard]] double used() const {
+        return budget_.rays ? static_cast<double>(rays()) : seconds_;
+    }
+    [[nodiscard]] std::uint64_t rays() const {
+        return solver_->solution().rays_energy + solver_->solution().rays_density;
+    }
+    [[nodiscard]] StepRow row() const {
+        const Solution& solution = solver_->solution();
+        const auto step = static_cast<std::uint32_t>(result_.rows.size() + 1);
+        return {entrant_.name, run_,
+                StepRecord{step, rays(), seconds_, estimated_error(contest_.mesh, solution)},
+                contest_.reference.error(contest_.mesh, solution.radiosity)};
+    }
+
+    const Contest& contest_;
+    const Entrant& entrant_;
+    std::uint32_t run_;
+    Budget budget_;
+    SolveOptions options_;
+    std::unique_ptr<Solver> solver_;
+    bool cut_short_ = false;
+    double seconds_ = 0;
+    double last_step_ = 0, step_before_ = 0; ///< of the budget
+    MethodRun result_;
+};
+
+using Runners = std::vector<std::unique_ptr<Runner>>;
+
+double mean_share(const Runners& runners, std::size_t of) {
+    double sum = 0;
+    for (const auto& runner : runners)
+        sum += runner->share();
+    return sum / static_cast<double>(of);
+}
+
+/// One run of all methods, each until its budget is used up or all are interrupted. The runners
+/// are filled in as they are made, so that they remain when a step cannot be done.
+void run_once(const Contest& contest, std::uint32_t run, Runners& runners,
+              const std::function<void(const StepRow&, double share)>& after_step) {
+    const Budget budget = budget_of(contest);
+    const std::vector<Entrant>& entrants = contest.settings.entrants;
+    for (const Entrant& entrant : entrants) {
+        if (contest.monitor.interrupted)
+            return;
+        runners.push_back(std::make_unique<Runner>(contest, entrant, run, budget));
+    }
+    while (!contest.monitor.interrupted) {
+        const auto least = std::ranges::min_element(
+            runners, {}, [](const auto& runner) { return runner->share(); });
+        if ((*least)->done())
+            break;
+        if (!(*least)->step())
+            continue;
+        after_step((*least)->last_row(), mean_share(runners, entrants.size()));
+    }
+}
+
+} // namespace
+
+std::vector<MethodRuns>
+run_methods(const Contest& contest, std::optional<SolveError>& fault,
+            const std::function<void(const StepRow&, double share)>& after_step) {
+    std::vector<MethodRuns> results;
+    for (const Entrant& entrant : contest.settings.entrants)
+        results.push_back({entrant, {}});
+    const std::uint32_t runs = contest.settings.runs;
+    for (std::uint32_t run = 0; run < runs && !contest.monitor.interrupted && !fault; ++run) {
+        Runners runners;
+        try {
+            run_once(contest, run, runners, [&](const StepRow& row, double share) {
+                after_step(row, (run + share) / runs);
+            });
+        } catch (const SolveError& error) {
+            fault = error;
+        }
+        for (std::size_t m = 0; m < runners.size(); ++m)
+            results[m].runs.push_back(runners[m]->result());
+    }
+    return results;
+}
+
+} // namespace hemilux

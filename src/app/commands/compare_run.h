@@ -1,0 +1,45 @@
+#pragma once
+// Runs several methods at once, step by step, so that whatever else disturbs the machine disturbs
+// all alike: the next step is always that of the method which is least far in its budget.
+
+#include "app/loading/reference.h"
+#include "app/settings/settings.h"
+#include "io/results/tables.h"
+#include "radiosity/solving/solve_error.h"
+
+#include <functional>
+#include <vector>
+
+namespace hemilux {
+
+/// One run of one entrant.
+struct MethodRun {
+    std::vector<StepRow> rows;
+    std::vector<Vec3> radiosity; ///< at the end of the budget
+    std::uint64_t bytes_density = 0;
+    bool complete = false; ///< not interrupted
+};
+
+/// All runs of one entrant; those that were begun.
+struct MethodRuns {
+    Entrant entrant;
+    std::vector<MethodRun> runs;
+};
+
+/// What the runs have in common; all of it outlives them.
+struct Contest {
+    const Mesh& mesh;
+    const Tracer& tracer;
+    const CompareSettings& settings;
+    const Reference& reference;
+    Monitor& monitor;
+    const Needs& needs;
+};
+
+/// `after_step` is told the share of all runs that is done, 0 to 1.
+/// `fault`: what kept a step from being done; the results are then those of the steps before.
+[[nodiscard]] std::vector<MethodRuns>
+run_methods(const Contest& contest, std::optional<SolveError>& fault,
+            const std::function<void(const StepRow&, double share)>& after_step);
+
+} // namespace hemilux

@@ -1,0 +1,47 @@
+#pragma once
+// What the runs of several methods say about them.
+
+#include "app/commands/compare_run.h"
+#include "io/drawings/error_curves.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+/// How many times less of it the base method's error costs; see `speed_up`.
+struct Gain {
+    double times = 1;
+    std::optional<double> standard_error; ///< 0 for the base method; empty: unknown, as of one run
+};
+
+/// Means over the runs at their ends, geometric ones for errors; NaN: unknown.
+struct MethodSummary {
+    std::string label;
+    double rays = 0, seconds = 0;
+    RelativeError error;
+    double estimated_error = 0;
+    std::uint64_t bytes_density = 0;
+    std::vector<ErrorCurve> runs_by_seconds, runs_by_rays; ///< true error
+    MeanCurve by_seconds, by_rays;                         ///< mean of these
+    std::size_t runs = 0;                                  ///< that count
+    std::optional<Gain> gain_seconds, gain_rays;
+};
+
+/// The method that gains are relative to.
+inline constexpr std::string_view base_method = "progressive-monte-carlo";
+
+/// In the order of the results. Runs that were interrupted count only where a method has no other.
+[[nodiscard]] std::vector<MethodSummary> summarise(std::span<const MethodRuns> results,
+                                                   bool literal);
+
+/// A line of headings, then one per method; errors in per cent. A gain comes with its standard
+/// error, or with a question mark where that is unknown.
+[[nodiscard]] std::string summary_table(std::span<const MethodSummary> summaries);
+
+/// What the standard errors of the gains come from; empty where no gain has or lacks one.
+[[nodiscard]] std::string gain_note(std::span<const MethodSummary> summaries);
+
+} // namespace hemilux

@@ -1,0 +1,24 @@
+#pragma once
+// hemilux density: what preprocessing found (paper section 5a), as drawings.
+
+#include "app/settings/command_line.h"
+#include "app/settings/settings.h"
+
+namespace hemilux {
+
+struct DensitySettings {
+    SceneSettings scene;
+    SolveOptions options;               ///< depth, threshold, seed, threads
+    std::optional<std::uint32_t> patch; ///< whose hemisphere; empty: the largest spread
+    std::uint32_t rays = 0;             ///< energy rays to show in it
+    ViewSettings view;
+    std::vector<std::string> outputs; ///< .svg: a hemisphere; .png: mean densities
+    Talk talk = Talk::normal;
+};
+
+CLI::App* add_density_command(CLI::App& program, DensitySettings& settings);
+
+/// Returns the exit code or throws UsageError, InputError or OutputError.
+int density(const DensitySettings& settings);
+
+} // namespace hemilux

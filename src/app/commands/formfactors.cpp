@@ -1,0 +1,95 @@
+#include "app/commands/formfactors.h"
+
+#include "app/loading/load_geometry.h"
+#include "app/running/signals.h"
+#include "app/running/write_report.h"
+#include "app/settings/exit_code.h"
+#include "app/settings/extension.h"
+#include "app/settings/method_options.h"
+#include "app/settings/text.h"
+#include "app/terminal/talk.h"
+#include "bvh/wide/wide_bvh.h"
+#include "io/results/factor_table.h"
+#include "io/results/npy.h"
+#include "radiosity/form_factors/exact_form_factors.h"
+#include "radiosity/form_factors/matrix_quality.h"
+
+#include <algorithm>
+
+namespace hemilux {
+
+namespace {
+
+bool is_dense(const std::string& path) { return extension_of(path) == ".npy"; }
+
+void check_size(const FormFactorSettings& settings, std::size_t patches) {
+    if (patches > settings.most_dense && std::ranges::any_of(settings.outputs, is_dense))
+        throw UsageError("a dense .npy matrix is for up to " + grouped(settings.most_dense) +
+                         " patches, not " + grouped(patches) + "; write .csv instead");
+    check_exact(settings.options, patches);
+}
+
+void say_quality(Talk talk, const MatrixQuality& quality) {
+    const auto line = [talk](const std::string& text) { say(talk, Talk::normal, text); };
+    line(counted(quality.entries, "factor", "factors") +
+         formatted(" above 0, from %.3g to %.6g", quality.least, quality.most));
+    line(formatted("rows: |sum - 1 + lost| %.2g on average, %.2g at most", quality.closure_mean,
+                   quality.closure_most) +
+         "; lost " + percent(quality.lost_mean) + " on average");
+    line(formatted("reciprocity: |A_i F_ij - A_j F_ji| is %.2g of the whole; as a factor %.2g at "
+                   "most",
+                   quality.reciprocity_mean, quality.reciprocity_most));
+}
+
+/// The matrix, or nothing where the user interrupted.
+std::optional<SparseMatrix> compute(const FormFactorSettings& settings, const Mesh& mesh,
+                                    SampledFormFactors& samples, const Workers& workers,
+                                    Monitor& monitor) {
+    const std::uint64_t traced = samples.trace_up_to(settings.rays, workers, monitor);
+    if (monitor.interrupted)
+        return std::nullopt;
+    say(settings.talk, Talk::normal,
+        counted(mesh.patches().size(), "patch", "patches") + ", " +
+            short_count(static_cast<double>(traced)) + " rays");
+    if (!settings.options.exact)
+        return samples.matrix();
+    const ExactFormFactors exact(mesh, workers, monitor);
+    if (monitor.interrupted)
+        return std::nullopt;
+    say(settings.talk, Talk::normal,
+        counted(exact.exact_pairs(), "pair", "pairs") + " by contour integration, " +
+            grouped(exact.sampled_pairs()) + " by rays");
+    return exact.matrix(samples);
+}
+
+} // namespace
+
+int formfactors(const FormFactorSettings& settings) {
+    const RunFiles files = check_files(settings.outputs, settings.scene.path);
+    Monitor monitor;
+    InterruptGuard guard;
+    const Mesh mesh = load_geometry(settings.scene, files, settings.talk);
+    check_size(settings, mesh.patches().size());
+    const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
+    guard.watch(monitor.interrupted);
+    const Workers workers(settings.options.threads);
+    SampledFormFactors samples(mesh, bvh, {}, settings.options.seed);
+    const auto matrix = compute(settings, mesh, samples, workers, monitor);
+    if (!matrix) {
+        say(settings.talk, Talk::quiet, "interrupted; nothing was written");
+        return exit_code_of_signal();
+    }
+    say_quality(settings.talk, judge_matrix(*matrix, mesh, samples));
+    WriteReport report;
+    for (const std::string& path : settings.outputs)
+        report.attempt(path, [&] {
+            if (is_dense(path))
+                write_npy(path, *matrix, &monitor.interrupted);
+            else
+                write_factor_table(path, *matrix, &monitor.interrupted);
+        });
+    report.say(settings.talk);
+    return report.exit_code(monitor.interrupted);
+}
+
+} // namespace hemilux

@@ -1,0 +1,24 @@
+#pragma once
+// hemilux formfactors: the matrix that the method `matrix` solves with.
+
+#include "app/settings/command_line.h"
+#include "app/settings/settings.h"
+
+namespace hemilux {
+
+struct FormFactorSettings {
+    SceneSettings scene;
+    SolveOptions options;      ///< seed, threads, exact
+    std::uint32_t rays = 4096; ///< per patch; a power of two
+    std::vector<std::string> outputs;
+    Talk talk = Talk::normal;
+
+    static constexpr std::size_t most_dense = 20'000; ///< patches
+};
+
+CLI::App* add_formfactors_command(CLI::App& program, FormFactorSettings& settings);
+
+/// Returns the exit code or throws UsageError, InputError or OutputError.
+int formfactors(const FormFactorSettings& settings);
+
+} // namespace hemilux

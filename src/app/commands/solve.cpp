@@ -1,0 +1,227 @@
+// hemilux solve: read, divide, build, run, write.
+
+#include "app/commands/commands.h"
+#include "app/loading/load.h"
+#include "app/loading/reference.h"
+#include "app/loading/sides.h"
+#include "app/running/checkpointing.h"
+#include "app/running/results.h"
+#include "app/running/run_notes.h"
+#include "app/running/signals.h"
+#include "app/running/step_pictures.h"
+#include "app/running/step_size.h"
+#include "app/settings/exit_code.h"
+#include "app/settings/memory.h"
+#include "app/settings/method_options.h"
+#include "app/settings/text.h"
+#include "app/settings/view.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/stopwatch.h"
+#include "app/terminal/summary.h"
+#include "app/terminal/talk.h"
+#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/solving/error_spread.h"
+#include "radiosity/solving/left_out.h"
+
+#include <algorithm>
+#include <span>
+
+namespace hemilux {
+
+namespace {
+
+/// A run to an error ends at a number of rays at the latest, if nothing else ends it.
+std::uint64_t default_max_rays(std::size_t patches) {
+    constexpr std::uint64_t least = 100'000'000, each = 1000;
+    return least + each * patches;
+}
+
+StopRule stop_rule(const SolveSettings& settings, std::size_t patches) {
+    StopRule stop = settings.stop;
+    if (!stop.steps && !stop.seconds && !stop.error) {
+        stop = settings.method->default_stop;
+        stop.rays = settings.stop.rays;
+    }
+    if (!stop.steps && !stop.seconds && !stop.error)
+        stop.steps = StopRule::default_steps;
+    if (!stop.steps && !stop.seconds && !stop.rays)
+        stop.rays = default_max_rays(patches);
+    return stop;
+}
+
+void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
+          const Solution& solution, double seconds_solver) {
+    statistics.patches = mesh.patches().size();
+    statistics.faces = mesh.scene().faces;
+    statistics.materials = mesh.scene().materials.size();
+    statistics.method = settings.method->name;
+    statistics.seed = settings.options.seed;
+    statistics.threads = Workers(settings.options.threads).threads();
+    statistics.steps = solution.steps;
+    statistics.rays_energy = solution.rays_energy;
+    statistics.rays_density = solution.rays_density;
+    statistics.seconds_density = solution.seconds_density;
+    statistics.seconds_solve = std::max(0.0, seconds_solver - solution.seconds_density);
+    statistics.rays_per_second =
+        static_cast<double>(solution.rays_energy + solution.rays_density) / seconds_solver;
+    statistics.bytes_density = solution.bytes_density;
+    statistics.bytes_transport = solution.bytes_transport;
+    if (solution.bytes_density > 0)
+        statistics.bytes_density_paper =
+            statistics.patches * Hemisphere::cells_up_to(settings.options.depth);
+    statistics.estimated_error = estimated_error(mesh, solution);
+    statistics.estimated_error_uncertainty =
+        statistics.estimated_error * error_spread(mesh, solution).uncertainty();
+    statistics.energy = solution.energy;
+}
+
+std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverInput& input,
+                                    std::span<const std::uint32_t> face_lines) {
+    try {
+        return settings.method->make(input);
+    } catch (const SolveError& error) {
+        throw as_input_error(error, settings.scene.path, face_lines);
+    }
+}
+
+void say_lost_light(const SolveSettings& settings, const Results& results) {
+    const LightShares light = find_light_shares(results.mesh, results.tracer);
+    const std::string text =
+        lost_light_text(results.mesh, results.solution.radiosity, light, settings.scene.sides);
+    if (!text.empty())
+        say(settings.talk, Talk::normal, "warning: " + text);
+}
+
+/// The last words; returns the exit code.
+int finish(const SolveSettings& settings, const Results& results, const WriteReport& of_steps,
+           const std::optional<Reference>& reference, const RunNotes& notes, bool interrupted) {
+    WriteReport report = write_results(settings, results);
+    report.add(of_steps);
+    say(settings.talk, Talk::normal, run_text(results.statistics));
+    for (const std::string& note : notes.texts(results.statistics.estimated_error, interrupted))
+        say(settings.talk, Talk::normal, "warning: " + note);
+    if (results.solution.steps > 0)
+        say_lost_light(settings, results);
+    else if (!interrupted)
+        say(settings.talk, Talk::quiet,
+            "warning: the time ended before the first step was done; the outputs hold emission "
+            "alone; a longer --time or fewer --rays give a solution");
+    say(settings.talk, Talk::verbose, memory_text(results.statistics));
+    if (reference) {
+        const Solution& solution = results.solution;
+        say(settings.talk, Talk::normal,
+            error_text(reference->error(results.mesh, solution.radiosity)));
+        say(settings.talk, Talk::normal,
+            z_scores_text(
+                z_scores(results.mesh, solution, reference->radiosity, reference->standard_error)));
+    }
+    report.say(settings.talk);
+    if (interrupted)
+        say(settings.talk, Talk::quiet,
+            results.solution.steps > 0
+                ? "interrupted; the outputs hold " +
+                      counted(results.solution.steps, "step", "steps")
+                : "interrupted before the first step was done; the outputs hold emission alone");
+    return report.exit_code(results.interrupted);
+}
+
+} // namespace
+
+int solve(const SolveSettings& settings) {
+    const RunFiles files = check_files(settings);
+    const std::span methods(&settings.method, 1);
+    check_own_options(settings.options, methods);
+    check_checkpoint_options(settings);
+    Monitor monitor;
+    InterruptGuard guard;
+    Statistics statistics;
+
+    Workers(settings.options.threads).start();
+    const std::optional<Checkpoint> resumed = read_resumed(settings);
+    LoadedMesh loaded = load_mesh(settings.scene, files, settings.options, methods, settings.talk,
+                                  std::ranges::any_of(settings.outputs, is_picture, &Output::kind)
+                                      ? bytes_of_picture(settings.view.size)
+                                      : 0);
+    const Mesh& mesh = loaded.mesh;
+    check_camera(settings.view, mesh);
+    check_exact(settings.options, mesh.patches().size());
+    const StopRule stop = stop_rule(settings, mesh.patches().size());
+    statistics.seconds_read = loaded.seconds_read;
+    std::vector<bool> detail = detail_mask(mesh, settings.detail);
+    std::optional<Reference> reference;
+    if (!settings.reference.empty())
+        reference = read_reference(settings.reference, mesh, std::move(detail));
+    const Prepared prepared = prepare(loaded, settings.options);
+    const Needs& needs = prepared.needs;
+    const auto& [tracer, tree] = prepared.made;
+    statistics.seconds_bvh = prepared.seconds;
+    guard.watch(monitor.interrupted);
+    say(settings.talk, Talk::verbose, tracer_text(tree, statistics.seconds_bvh));
+
+    Progress progress(monitor, share_of(stop, *settings.method),
+                      settings.talk != Talk::quiet && stderr_is_terminal());
+    const Stopwatch solving;
+    SolveOptions options = with_memory(settings.options, settings.scene);
+    options.rays =
+        rays_of_step(options.rays, settings.stop.seconds, *settings.method, mesh.patches().size());
+    say_rays_of_step(settings.talk, settings.options.rays, options.rays);
+    options.growing_steps = !stop.steps;
+    options.aim = stop.error.value_or(0);
+    options.expected_steps = expected_steps(stop);
+    const SolverInput input{mesh, *tracer, options, monitor, needs};
+    const std::unique_ptr<Solver> solver = make_solver(settings, input, loaded.face_lines);
+    std::vector<StepRow> rows;
+    Before before;
+    if (resumed) {
+        before = resume(*resumed, settings, mesh, *solver);
+        rows = resumed->rows;
+    }
+    Checkpointer checkpointer(settings, mesh, *solver);
+    StepPictures step_pictures(settings, mesh, *tracer, monitor.interrupted);
+    RunNotes notes(stop);
+    const auto after_step = [&](const StepRecord& record, const Solution& solution) {
+        notes.step_done(record);
+        rows.push_back({std::string(settings.method->name), 0, record, std::nullopt});
+        if (reference)
+            rows.back().error = reference->error(mesh, solution.radiosity);
+        progress.step_done(record);
+        if (settings.every_step)
+            step_pictures.write(solution.radiosity, record.step);
+        if (settings.talk == Talk::verbose)
+            progress.say(step_text(rows.back()));
+        checkpointer.step_done(rows, record.seconds);
+    };
+    bool completed = false;
+    std::optional<InputError> fault; // in a step; those before it are written
+    try {
+        completed = run(*solver, input, stop, after_step, before);
+    } catch (const SolveError& error) {
+        fault = as_input_error(error, settings.scene.path, loaded.face_lines);
+        if (solver->solution().steps == 0)
+            throw *fault;
+    }
+    const double seconds_solver = solving.seconds() + (resumed ? resumed->seconds : 0);
+    progress.close();
+    checkpointer.finish(rows, seconds_solver);
+
+    fill(statistics, settings, mesh, solver->solution(), seconds_solver);
+    statistics.left_out = left_out(needs, *settings.method, solver->solution());
+    statistics.bytes_peak = peak_memory_bytes();
+    WriteReport of_run = step_pictures.report();
+    of_run.add(checkpointer.report());
+    const bool interrupted = !completed && !fault;
+    const int code =
+        finish(settings, {mesh, *tracer, solver->solution(), statistics, rows, monitor.interrupted},
+               of_run, reference, notes, interrupted);
+    if (interrupted)
+        end_at_once(code);
+    if (!fault || code != exit_done)
+        return code;
+    say(settings.talk, Talk::quiet,
+        std::string("hemilux: ") + fault->what() + "\nthe outputs hold " +
+            counted(solver->solution().steps, "step", "steps") + " before that");
+    return exit_input;
+}
+
+} // namespace hemilux

@@ -1,0 +1,150 @@
+#include "app/loading/load.h"
+
+#include "app/loading/sides.h"
+#include "app/settings/exit_code.h"
+#include "app/settings/memory.h"
+#include "app/settings/names.h"
+#include "app/settings/text.h"
+#include "app/terminal/stopwatch.h"
+#include "app/terminal/summary.h"
+#include "app/terminal/talk.h"
+#include "io/files/error.h"
+#include "io/scene_files/inspect.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/convex_enclosure.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace hemilux {
+
+namespace {
+
+std::vector<bool> materials_in_use(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size());
+    for (const Facet& facet : scene.facets)
+        used[facet.material] = true;
+    return used;
+}
+
+void check_reflectances(const ReadResult& read, const std::string& path) {
+    const std::vector<std::string> bad = find_bad_reflectances(read);
+    if (bad.empty())
+        return;
+    const std::string more =
+        bad.size() > 1 ? " (and " + std::to_string(bad.size() - 1) + " more)" : "";
+    throw InputError(path, bad.front() + more +
+                               "; --reflectance 'MATERIAL=R,G,B' replaces what the file says");
+}
+
+void check_emission(const Material& material, const std::string& path) {
+    const Vec3& e = material.emission;
+    const auto bad = [](double channel) { return !emission_range.contains(channel); };
+    if (bad(e.r) || bad(e.g) || bad(e.b))
+        throw InputError(path, "material '" + material.name + "' has emission " +
+                                   formatted("%g,%g,%g", e.r, e.g, e.b) +
+                                   "; --emission 'MATERIAL=R,G,B' replaces what the file says");
+}
+
+} // namespace
+
+ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
+    std::string extension = std::filesystem::path(settings.path).extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension != ".obj")
+        throw InputError(settings.path, "not a kind of scene that can be read; .obj can");
+    ReadResult read = read_obj(settings.path, memory_guard(settings.path, settings.memory));
+    for (const std::string& library : read.libraries)
+        files.read("material library", library);
+    for (const std::string& texture : read.textures)
+        if (std::error_code ignored; std::filesystem::exists(texture, ignored))
+            files.read("texture", texture);
+    apply_overrides(read.scene, &Material::emission, settings.emission);
+    apply_overrides(read.scene, &Material::reflectance, settings.reflectance);
+    return read;
+}
+
+void check_solvable(const ReadResult& read, const std::string& path) {
+    if (read.scene.facets.empty())
+        throw InputError(path, "there is no face with an area");
+    check_reflectances(read, path);
+    const std::vector<bool> used = materials_in_use(read.scene);
+    bool emits = false;
+    std::vector<std::string> names;
+    for (std::size_t m = 0; m < used.size(); ++m) {
+        if (!used[m])
+            continue;
+        check_emission(read.scene.materials[m], path);
+        emits = emits || read.scene.materials[m].emission != Vec3(0.0);
+        names.push_back(read.scene.materials[m].name);
+    }
+    if (!emits)
+        throw InputError(path, "nothing emits light; make a material do so with --emission "
+                               "'MATERIAL=R,G,B'. Its materials: " +
+                                   list_names(names));
+}
+
+InputError as_input_error(const SolveError& error, const std::string& path,
+                          std::span<const std::uint32_t> face_lines) {
+    return error.face < face_lines.size() ? InputError(path, face_lines[error.face], error.what())
+                                          : InputError(path, error.what());
+}
+
+Mesh divide_scene(Scene scene, const SceneSettings& settings) {
+    try {
+        return Mesh(std::move(scene), settings.mesh);
+    } catch (const std::invalid_argument& error) {
+        if (settings.mesh.max_edge > 0)
+            throw UsageError(std::string("--max-edge: ") + error.what());
+        throw InputError(settings.path, error.what());
+    }
+}
+
+/// Either by a thread of its own, where there are two.
+Prepared prepare(LoadedMesh& loaded, const SolveOptions& options) {
+    const Stopwatch preparing;
+    const Mesh& mesh = loaded.mesh;
+    Prepared prepared{.needs = {}, .made = std::move(loaded.made), .seconds = 0};
+    Workers(options.threads).for_chunks(2, 1, [&](std::size_t part, std::size_t) {
+        if (part == 0 && !prepared.made.tracer)
+            prepared.made =
+                make_tracer(mesh, options.keep_all || needs_tree(mesh), options.threads);
+        else if (part == 0)
+            return;
+        else if (options.keep_all)
+            prepared.needs.closed = is_convex_enclosure(mesh);
+        else
+            prepared.needs = find_needs(mesh);
+    });
+    prepared.seconds = loaded.seconds_sides + preparing.seconds();
+    return prepared;
+}
+
+LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
+                     const SolveOptions& options, std::span<const Method* const> methods, Talk talk,
+                     double bytes_of_pictures) {
+    const Stopwatch reading;
+    check_memory_to_read(settings.path, settings.memory);
+    ReadResult read = load_scene(settings, files);
+    say_warnings(talk, read.warnings);
+    check_solvable(read, settings.path);
+    const double seconds = reading.seconds();
+    MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods);
+    need.pictures = bytes_of_pictures;
+    check_memory(need, settings.memory, settings.path);
+    const Stopwatch dividing;
+    SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, talk);
+    LoadedMesh loaded{std::move(sided.mesh), std::move(sided.made), seconds, dividing.seconds(),
+                      std::move(read.face_lines)};
+    if (!loaded.mesh.is_laid_apart())
+        say(talk, Talk::normal,
+            "warning: " + settings.path +
+                ": very many faces lie over each other in one plane; for some of them it was not "
+                "found out which of two covers the other, and rays meet either");
+    say(talk, Talk::verbose, mesh_text(loaded.mesh));
+    return loaded;
+}
+
+} // namespace hemilux

@@ -1,0 +1,54 @@
+#pragma once
+// From a path on the command line to a scene that can be solved.
+
+#include "app/settings/settings.h"
+#include "io/files/error.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/rays/make_tracer.h"
+#include "radiosity/solving/solve_error.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+/// Reads a scene by its extension and applies what the command line changes in it. Throws
+/// InputError for the file, UsageError for the changes and where a file that the scene refers to is
+/// an output of the run.
+[[nodiscard]] ReadResult load_scene(const SceneSettings& settings, const RunFiles& files);
+
+/// Throws InputError for what no method can solve: no faces, a material in use that reflects
+/// more than all light, negative emission, or a scene in which nothing emits.
+void check_solvable(const ReadResult& read, const std::string& path);
+
+/// What cannot be solved, as an error of the file with the line of the face.
+[[nodiscard]] InputError as_input_error(const SolveError& error, const std::string& path,
+                                        std::span<const std::uint32_t> face_lines);
+
+struct LoadedMesh {
+    Mesh mesh;
+    MadeTracer made; ///< where the sides of the faces needed one
+    double seconds_read, seconds_sides;
+    std::vector<std::uint32_t> face_lines; ///< ReadResult
+};
+/// All of this together, with what there is to say about it. Throws MemoryError where the methods
+/// would need more than they may.
+[[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
+                                   const SolveOptions& options,
+                                   std::span<const Method* const> methods, Talk talk,
+                                   double bytes_of_pictures);
+
+struct Prepared {
+    Needs needs; ///< everything with --keep-all
+    MadeTracer made;
+    double seconds; ///< with those of the sides
+};
+/// What solving needs besides the mesh, which must outlive it. Takes over what was made.
+[[nodiscard]] Prepared prepare(LoadedMesh& loaded, const SolveOptions& options);
+
+/// Divides the faces; throws UsageError where --max-edge would give too many patches.
+[[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings);
+
+} // namespace hemilux

@@ -1,0 +1,32 @@
+#pragma once
+// A known solution on the same patches, to tell the true error of a run.
+
+#include "io/results/tables.h"
+#include "radiosity/scene/mesh.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+struct Reference {
+    std::vector<Vec3> radiosity;
+    std::vector<Vec3> standard_error; ///< may be NaN
+    std::vector<bool> detail;         ///< patches that are reported apart
+
+    [[nodiscard]] RelativeError error(const Mesh& mesh, std::span<const Vec3> solution) const {
+        return true_error(mesh, solution, radiosity, detail);
+    }
+};
+
+/// From a patch table. Throws InputError, naming the file, unless its rows are the mesh's patches.
+[[nodiscard]] Reference read_reference(const std::string& path, const Mesh& mesh,
+                                       std::vector<bool> detail);
+
+/// Which patches belong to the groups named, or, where none is, to those whose name begins with
+/// `detail`. Throws UsageError for a group that the scene does not have.
+[[nodiscard]] std::vector<bool> detail_mask(const Mesh& mesh,
+                                            const std::vector<std::string>& groups);
+
+} // namespace hemilux

@@ -1,0 +1,34 @@
+#pragma once
+// --sides: faces that look away from the light are turned or reported, and a black picture with an
+// error of 0 % does not pass for a result.
+
+#include "app/settings/settings.h"
+#include "radiosity/rays/make_tracer.h"
+#include "radiosity/sides/orientation.h"
+
+#include <span>
+#include <string>
+
+namespace hemilux {
+
+struct SidedMesh {
+    Mesh mesh;
+    MadeTracer made; ///< of the mesh; empty with --sides both, which needs none to be divided
+};
+
+/// Divides the faces and turns them where --sides says so; says on stderr what was turned, what
+/// looks away all the same, or what lamps emit that shine to both sides. Throws as divide_scene().
+[[nodiscard]] SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings,
+                                          const SolveOptions& options, Talk talk);
+
+/// Lines of `info`: names on the left, figures on the right. What is as it should be gets no line.
+[[nodiscard]] std::string describe(const Orientation& orientation, const Scene& scene, Sides sides);
+/// The same of lamps that shine to both sides.
+[[nodiscard]] std::string describe_both_sides(const Scene& scene);
+
+/// Words for a run whose light was lost: nothing is lit, or more than nine tenths of the light fell
+/// on backs or left the scene. Empty for others.
+[[nodiscard]] std::string lost_light_text(const Mesh& mesh, std::span<const Vec3> radiosity,
+                                          const LightShares& light, Sides sides);
+
+} // namespace hemilux

@@ -1,0 +1,149 @@
+#include "app/running/checkpointing.h"
+
+#include "app/settings/exit_code.h"
+#include "app/terminal/talk.h"
+#include "io/files/error.h"
+#include "io/results/csv.h"
+#include "radiosity/saving/state.h"
+
+#include <algorithm>
+
+namespace hemilux {
+
+namespace {
+
+using Options = std::vector<std::pair<std::string, std::string>>;
+
+std::string exact_text(double value) {
+    std::string text;
+    csv::append_number(text, value);
+    return text;
+}
+
+std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
+
+/// All but what decides when to stop, where to write and how many threads work. What changes the
+/// scene is in its hash.
+Options options_of(const SolveSettings& settings) {
+    const SolveOptions& o = settings.options;
+    return {{"hemilux", HEMILUX_VERSION},
+            {"--method", std::string(settings.method->name)},
+            {"--rays", exact_text(o.rays)},
+            {"--depth", std::to_string(o.depth)},
+            {"--threshold", exact_text(o.threshold)},
+            {"--guide", guide_names[static_cast<std::size_t>(o.guide)]},
+            {"--seed", std::to_string(o.seed)},
+            {"--literal", yes_or_no(o.literal)},
+            {"--keep-all", yes_or_no(o.keep_all)}};
+}
+
+void check_options(const Options& found, const Options& wanted, const std::string& file) {
+    for (const auto& [name, value] : wanted) {
+        const auto same = std::ranges::find(found, name, &Options::value_type::first);
+        const std::string there = same == found.end() ? "nothing" : same->second;
+        if (there != value)
+            throw InputError(file, "is a checkpoint of another run: expected " + name + " " +
+                                       value + ", it has " + there);
+    }
+    if (found.size() != wanted.size())
+        throw InputError(file, "is a checkpoint of another run, with options unknown here");
+}
+
+std::string resumable_methods() {
+    std::string names;
+    for (const Method* const method : methods())
+        if (method->can_resume())
+            names += (names.empty() ? "" : ", ") + std::string(method->name);
+    return names;
+}
+
+} // namespace
+
+void check_checkpoint_options(const SolveSettings& settings) {
+    const CheckpointSettings& asked = settings.checkpoint;
+    if (asked.every && asked.path.empty())
+        throw UsageError("--every says how often the file of --checkpoint is written; add it");
+    if (asked.path.empty() && asked.resumed.empty())
+        return;
+    if (!settings.method->can_resume())
+        throw UsageError("--checkpoint and --resume: --method " +
+                         std::string(settings.method->name) +
+                         " does not keep its state; these do: " + resumable_methods());
+    if (!asked.resumed.empty() && settings.every_step &&
+        !(settings.view.camera && settings.view.exposure))
+        throw UsageError("--every-step after --resume needs --camera and --exposure, which the "
+                         "first step would choose");
+}
+
+std::optional<Checkpoint> read_resumed(const SolveSettings& settings) {
+    const std::string& path = settings.checkpoint.resumed;
+    if (path.empty())
+        return std::nullopt;
+    Checkpoint checkpoint = read_checkpoint(path);
+    check_options(checkpoint.options, options_of(settings), path);
+    return checkpoint;
+}
+
+Before resume(const Checkpoint& checkpoint, const SolveSettings& settings, const Mesh& mesh,
+              Solver& solver) {
+    const std::string& path = settings.checkpoint.resumed;
+    if (checkpoint.scene != scene_hash(mesh))
+        throw InputError(path, "is a checkpoint of another scene; expected '" +
+                                   settings.scene.path +
+                                   "' as it is now, with the same --max-edge, --sides, "
+                                   "--emission and --reflectance");
+    const double density_now = solver.solution().seconds_density;
+    try {
+        StateReader state(checkpoint.state);
+        solver.load(state);
+        state.expect_end();
+    } catch (const StateError& error) {
+        throw InputError(path, std::string("is a damaged checkpoint: ") + error.what());
+    }
+    if (checkpoint.rows.size() != solver.solution().steps)
+        throw InputError(path, "is a damaged checkpoint: expected a row for each step");
+    for (std::size_t k = 0; k < checkpoint.rows.size(); ++k)
+        if (checkpoint.rows[k].record.step != k + 1 ||
+            checkpoint.rows[k].method != settings.method->name)
+            throw InputError(path, "is a damaged checkpoint: a row is not of its step");
+    const double density_before = solver.solution().seconds_density - density_now;
+    return {solver.solution().steps, checkpoint.seconds - density_before};
+}
+
+Checkpointer::Checkpointer(const SolveSettings& settings, const Mesh& mesh, const Solver& solver)
+    : settings_(settings), solver_(solver) {
+    if (!settings.checkpoint.path.empty())
+        scene_ = scene_hash(mesh);
+}
+
+void Checkpointer::step_done(const std::vector<StepRow>& rows, double seconds) {
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_;
+    if (since.count() >= settings_.checkpoint.every.value_or(CheckpointSettings::usually_every))
+        write(rows, seconds);
+}
+
+void Checkpointer::finish(const std::vector<StepRow>& rows, double seconds) {
+    if (steps_written_.value_or(0) != solver_.solution().steps)
+        write(rows, seconds);
+}
+
+void Checkpointer::write(const std::vector<StepRow>& rows, double seconds) {
+    const std::string& path = settings_.checkpoint.path;
+    if (path.empty())
+        return;
+    const bool first_failure = report_.failed.empty();
+    report_ = {};
+    report_.attempt(path, [&] {
+        StateWriter state;
+        solver_.save(state);
+        write_checkpoint(path,
+                         {options_of(settings_), scene_, seconds, rows, std::move(state).bytes()});
+    });
+    last_ = std::chrono::steady_clock::now();
+    if (!report_.written.empty())
+        steps_written_ = solver_.solution().steps;
+    else if (first_failure && !report_.failed.empty())
+        say(settings_.talk, Talk::normal, "warning: " + report_.failed.front());
+}
+
+} // namespace hemilux

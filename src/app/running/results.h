@@ -1,0 +1,34 @@
+#pragma once
+// What a run leaves behind: the files that were asked for.
+
+#include "app/running/write_report.h"
+#include "app/settings/settings.h"
+#include "io/results/statistics.h"
+#include "io/results/tables.h"
+
+#include <atomic>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+/// Everything that is known after a run; refers to what lives in the caller.
+struct Results {
+    const Mesh& mesh;
+    const Tracer& tracer;
+    const Solution& solution;
+    const Statistics& statistics;
+    std::span<const StepRow> steps;
+    const std::atomic<bool>& interrupted; ///< pictures are then left out where they take long
+};
+
+/// The files of the run, as far as they are known before the scene is read. Throws UsageError where
+/// nothing would be written or an output is another file of the run, OutputError where a file
+/// cannot be made, InputError where one cannot be read.
+[[nodiscard]] RunFiles check_files(const SolveSettings& settings);
+
+/// Writes all outputs.
+[[nodiscard]] WriteReport write_results(const SolveSettings& settings, const Results& results);
+
+} // namespace hemilux

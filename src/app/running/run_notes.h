@@ -1,0 +1,30 @@
+#pragma once
+// What a user must know of how a run ended, besides its numbers: that an error is not known, that
+// it was not reached, that the estimate has jumped.
+
+#include "radiosity/solving/solver.h"
+
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+class RunNotes {
+  public:
+    explicit RunNotes(const StopRule& stop) : stop_(stop) {}
+
+    void step_done(const StepRecord& record);
+
+    /// A sentence each, for stderr; none where there is nothing to say. `error` is the estimated
+    /// one of the solution, NaN where it is not known.
+    [[nodiscard]] std::vector<std::string> texts(double error, bool interrupted) const;
+
+  private:
+    StopRule stop_;
+    double least_ = 0;                  ///< estimated error so far; 0: none is known
+    double before_jump_ = 0, jump_ = 0; ///< the largest jump: from, to
+    std::uint64_t rays_ = 0;
+    std::uint32_t steps_ = 0;
+};
+
+} // namespace hemilux

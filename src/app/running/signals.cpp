@@ -1,0 +1,82 @@
+#include "app/running/signals.h"
+
+#include "app/settings/exit_code.h"
+#include "io/files/atomic_file.h"
+
+#include <csignal>
+#include <cstdio>
+#include <fcntl.h>
+#include <iostream>
+#include <poll.h>
+#include <string_view>
+#include <unistd.h>
+
+namespace hemilux {
+
+namespace {
+
+std::atomic<std::atomic<bool>*> interrupted{nullptr};
+std::atomic<int> exit_code{exit_interrupted};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "a signal handler must not wait for a lock");
+
+/// Only what is safe in a signal handler (POSIX.1, signal-safety).
+extern "C" void on_interrupt(int signal) {
+    constexpr int of_shells = 128;
+    std::atomic<bool>* const flag = interrupted;
+    if (flag && !flag->exchange(true)) {
+        exit_code = of_shells + signal;
+        return;
+    }
+    if (!flag) {
+        constexpr std::string_view text = "hemilux: interrupted before there was a result\n";
+        pollfd talk{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+        if (poll(&talk, 1, 0) > 0) // else nobody reads what is said
+            (void)!write(STDERR_FILENO, text.data(), text.size());
+    }
+    _exit(of_shells + signal);
+}
+
+} // namespace
+
+InterruptGuard::InterruptGuard() {
+    struct sigaction action {};
+    action.sa_handler = on_interrupt;
+    action.sa_flags = SA_RESTART; // a write that is under way goes on
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+InterruptGuard::InterruptGuard(std::atomic<bool>& flag) : InterruptGuard() { watch(flag); }
+
+InterruptGuard::~InterruptGuard() {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+    interrupted = nullptr;
+    end_waits_on(nullptr);
+}
+
+void InterruptGuard::watch(std::atomic<bool>& flag) {
+    end_waits_on(&flag);
+    interrupted = &flag;
+}
+
+int exit_code_of_signal() { return exit_code; }
+
+void end_at_once(int code) {
+    std::cout.flush();
+    std::fflush(nullptr);
+    _exit(code);
+}
+
+void prepare_process() {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+    // Opening takes the lowest number that is free. Writing to what is open for reading fails.
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(descriptor, F_GETFD) < 0)
+            (void)!open("/dev/null", O_RDONLY);
+}
+
+} // namespace hemilux

@@ -1,0 +1,42 @@
+#include "app/running/step_pictures.h"
+
+#include "app/settings/text.h"
+#include "app/settings/view.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+namespace hemilux {
+
+std::string step_path(const std::string& path, std::uint32_t step) {
+    const std::filesystem::path whole(path);
+    const std::string name =
+        whole.stem().string() + formatted("-%04u", step) + whole.extension().string();
+    return (whole.parent_path() / name).string();
+}
+
+void StepPictures::write(std::span<const Vec3> radiosity, std::uint32_t step) {
+    const PictureTime time(interrupted_);
+    std::optional<Image> image;
+    for (const Output& output : settings_.outputs) {
+        if (!is_picture(output.kind) || !report_.failed.empty() || !report_.left_out.empty())
+            continue;
+        const std::string path = step_path(output.path, step);
+        report_.attempt(path, [&] {
+            if (!view_.camera)
+                view_.camera = camera_of(view_, mesh_, tracer_, radiosity);
+            if (!image)
+                image = render_view(view_, mesh_, tracer_, radiosity, *view_.camera,
+                                    settings_.options.threads, time);
+            if (!view_.exposure)
+                view_.exposure = auto_exposure(*image);
+            if (output.kind == OutputKind::hdr)
+                write_hdr(path, *image);
+            else
+                write_png(path, *image, *view_.exposure);
+        });
+    }
+}
+
+} // namespace hemilux

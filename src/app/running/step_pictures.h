@@ -1,0 +1,42 @@
+#pragma once
+// A picture after every step, for those who want to see a method at work.
+
+#include "app/running/write_report.h"
+#include "app/settings/settings.h"
+#include "bvh/tracer.h"
+#include "io/pictures/image.h"
+
+#include <atomic>
+#include <span>
+#include <string>
+
+namespace hemilux {
+
+/// room.png of step 12: room-0012.png.
+[[nodiscard]] std::string step_path(const std::string& path, std::uint32_t step);
+
+/// One camera for all steps, chosen by the first that has light to show; and one exposure, so that
+/// one sees the light grow. Refers to the arguments.
+class StepPictures {
+  public:
+    StepPictures(const SolveSettings& settings, const Mesh& mesh, const Tracer& tracer,
+                 const std::atomic<bool>& interrupted)
+        : settings_(settings), mesh_(mesh), tracer_(tracer), interrupted_(interrupted),
+          view_(settings.view) {}
+
+    /// Nothing more after the first failure, or once a picture was interrupted.
+    void write(std::span<const Vec3> radiosity, std::uint32_t step);
+
+    /// What was written and what failed.
+    [[nodiscard]] const WriteReport& report() const { return report_; }
+
+  private:
+    const SolveSettings& settings_;
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    const std::atomic<bool>& interrupted_;
+    ViewSettings view_; ///< as far as it is known
+    WriteReport report_;
+};
+
+} // namespace hemilux

@@ -1,0 +1,34 @@
+#include "app/running/step_size.h"
+
+#include "app/settings/text.h"
+#include "app/terminal/talk.h"
+
+#include <algorithm>
+
+namespace hemilux {
+
+double rays_of_step(double rays, std::optional<double> seconds, const Method& method,
+                    std::size_t patches) {
+    /// A slow thread traces as many. What is usual is made less only where several fast threads
+    /// would hardly end a step.
+    constexpr double rays_per_second = 250e3, usual = 64, many_per_second = 2e6, least = 1;
+    if (!seconds)
+        return rays;
+    /// `matrix` takes --rays for each of its matrices, and then solves them.
+    constexpr double matrices = 16;
+    const double each = method.work.pairs && method.work.linear_systems ? matrices : 1;
+    const double per_patch = *seconds / each / static_cast<double>(patches);
+    const double most = std::max(
+        {rays_per_second * per_patch, std::min(usual, many_per_second * per_patch), least});
+    return std::min(rays, most);
+}
+
+void say_rays_of_step(Talk talk, double rays, double rays_of_step) {
+    if (rays_of_step < rays)
+        say(talk, Talk::normal,
+            formatted("warning: a step takes %.4g rays per patch instead of %.4g, so that the time "
+                      "is enough for some steps",
+                      rays_of_step, rays));
+}
+
+} // namespace hemilux

@@ -1,0 +1,18 @@
+#pragma once
+// --time holds within a step because a step is made small enough beforehand.
+
+#include "app/settings/settings.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace hemilux {
+
+/// --rays, or fewer where a step of so many would take most of the time that there is. It depends
+/// on the numbers given alone, not on the machine.
+[[nodiscard]] double rays_of_step(double rays, std::optional<double> seconds, const Method& method,
+                                  std::size_t patches);
+/// A warning where these are fewer.
+void say_rays_of_step(Talk talk, double rays, double rays_of_step);
+
+} // namespace hemilux

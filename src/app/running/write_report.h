@@ -1,0 +1,26 @@
+#pragma once
+// Which files were written: one that fails does not keep the others from being written.
+
+#include "app/settings/settings.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+struct WriteReport {
+    std::vector<std::string> written;  ///< paths
+    std::vector<std::string> failed;   ///< messages
+    std::vector<std::string> left_out; ///< paths, because the user asked the program to end
+
+    /// Calls `write` and notes whether it threw.
+    void attempt(const std::string& path, const std::function<void()>& write);
+    void add(const WriteReport& other);
+    /// A failure counts more than an interruption.
+    [[nodiscard]] int exit_code(bool interrupted) const;
+    /// Tells the user.
+    void say(Talk talk) const;
+};
+
+} // namespace hemilux

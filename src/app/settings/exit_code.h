@@ -1,0 +1,23 @@
+#pragma once
+// How the program ends, for the shell, and the errors that lead there. Bad input and failing output
+// are thrown as InputError and OutputError (io/files/error.h).
+
+#include <stdexcept>
+
+namespace hemilux {
+
+enum ExitCode : int {
+    exit_done = 0,
+    exit_usage = 1,
+    exit_input = 2,
+    exit_output = 3, ///< or the system failed
+    exit_interrupted = 130,
+    exit_terminated = 143
+};
+
+/// What the user asked for cannot be done, whatever the scene: what() says what to write instead.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+} // namespace hemilux

@@ -1,0 +1,192 @@
+#include "app/settings/memory.h"
+
+#include "app/settings/text.h"
+#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/scene/coplanar_overlaps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+namespace hemilux {
+
+namespace {
+
+/// The program itself, its libraries and threads.
+constexpr double bytes_of_program = 12e6;
+/// Arrays that grow keep the old one until the new one is filled.
+constexpr double growth = 2;
+/// Per triangle: boxes while the tree is built, and a leaf's share.
+constexpr double bytes_per_triangle = 150;
+/// Of a guide by what is seen: its byte, and the worth and number of the hits that it learns from.
+constexpr double bytes_per_leaf = 18;
+/// Of a stepwise method: solution, spread, one step.
+constexpr double bytes_per_solution = 225;
+/// Of a matrix of form factors: index, value, and the counts that they come from, with room to
+/// grow.
+constexpr double bytes_per_factor = 32;
+/// Independent matrices that `matrix` keeps to know its error.
+constexpr double replicates = 8;
+/// What `gathering` may use for its rays where --memory says nothing: a scene of a million patches
+/// then stays within 4 GiB.
+constexpr std::uint64_t usual_transport = std::uint64_t{5} << 29;
+/// Corners, planes and boxes of both sides of a facet, and its edges.
+constexpr double bytes_of_analysis = 350;
+/// Per pixel: the picture, its bytes, the rows that are compressed, and the file. For `compare`
+/// there are the reference, the method and their difference.
+constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
+/// Rays that wait to be summed.
+constexpr double bytes_of_volleys = 32e6;
+
+struct Lengths {
+    double along, across;
+};
+
+double length(const Scene& scene, const Facet& facet, std::size_t a, std::size_t b) {
+    return glm::length(scene.vertices[facet.vertex[b]] - scene.vertices[facet.vertex[a]]);
+}
+
+/// The sides by which a facet is divided (Mesh). The shortest side of a triangle decides how many
+/// columns there are, and there are as many rows as columns or more.
+Lengths lengths_of(const Scene& scene, const Facet& facet) {
+    if (!facet.is_triangle())
+        return {std::max(length(scene, facet, 0, 1), length(scene, facet, 3, 2)),
+                std::max(length(scene, facet, 0, 3), length(scene, facet, 1, 2))};
+    std::array<double, 3> sides{length(scene, facet, 0, 1), length(scene, facet, 1, 2),
+                                length(scene, facet, 2, 0)};
+    std::ranges::sort(sides);
+    return {sides[2], 2 * sides[0] >= sides[2] ? sides[2] : sides[0]};
+}
+
+double pieces(double length, double max_edge) {
+    return std::max(1.0, std::ceil(length / max_edge));
+}
+
+std::size_t leaves(int depth) {
+    return Hemisphere::cells_up_to(depth) - (depth > 0 ? Hemisphere::cells_up_to(depth - 1) : 0);
+}
+
+/// The methods that keep all pairs keep no more of them than rays were shot.
+double bytes_of(const Method& method, const SolveOptions& options, double patches) {
+    double bytes = bytes_per_solution * patches;
+    if (method.work.densities && options.guide == Guide::density)
+        bytes +=
+            growth * patches * static_cast<double>(Hemisphere(options.depth).vertices().size());
+    else if (method.work.densities)
+        bytes += bytes_per_leaf * patches * static_cast<double>(leaves(options.depth));
+    if (method.work.pairs && method.work.linear_systems)
+        bytes += replicates * bytes_per_factor * patches * std::min(patches, options.rays);
+    else if (method.work.pairs)
+        bytes += bytes_per_factor * patches * std::min(patches, options.rays);
+    return bytes + bytes_of_volleys;
+}
+
+std::string rounded(double bytes) {
+    return bytes < 1e18 ? byte_size(static_cast<std::uint64_t>(bytes))
+                        : formatted("%.2g bytes", bytes);
+}
+
+} // namespace
+
+std::optional<std::uint64_t> parse_bytes(std::string_view text) {
+    constexpr std::string_view units = "kMGT";
+    double unit = 1;
+    if (const std::size_t at = text.empty() ? text.npos : units.find(text.back());
+        at != text.npos) {
+        unit = std::ldexp(1.0, 10 * (static_cast<int>(at) + 1));
+        text.remove_suffix(1);
+    }
+    const std::optional<double> number = parse_number(text);
+    const double bytes = number.value_or(0) * unit;
+    constexpr double most = 9e18;
+    return bytes >= 1 && bytes <= most ? std::optional(static_cast<std::uint64_t>(bytes))
+                                       : std::nullopt;
+}
+
+double patches_of(const Scene& scene, const MeshOptions& options) {
+    const double sides = options.two_sided ? 2 : 1;
+    if (!(options.max_edge > 0))
+        return sides * static_cast<double>(scene.facets.size());
+    double patches = 0;
+    for (const Facet& facet : scene.facets) {
+        const auto [along, across] = lengths_of(scene, facet);
+        patches += pieces(along, options.max_edge) * pieces(across, options.max_edge);
+    }
+    return sides * patches;
+}
+
+MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveOptions& options,
+                       std::span<const Method* const> methods) {
+    const double patches = patches_of(scene, mesh);
+    const auto facets = static_cast<double>(scene.facets.size());
+    const auto vertices = static_cast<double>(scene.vertices.size());
+    MemoryNeed need;
+    need.scene = bytes_of_program + growth * (sizeof(Vec3) * vertices + sizeof(Facet) * facets);
+    need.mesh =
+        sizeof(Patch) * patches + sizeof(Vec3) * vertices + (sizeof(FacetCorners) + 48) * facets;
+    need.pairs =
+        OverlapLimits::bytes_per_pair * static_cast<double>(OverlapLimits::of(scene).pairs);
+    need.analysis = bytes_of_analysis * facets;
+    for (const Facet& facet : scene.facets)
+        need.tree += bytes_per_triangle * (facet.is_triangle() ? 1 : 2);
+    for (const Method* const method : methods)
+        need.method = std::max(need.method, bytes_of(*method, options, patches));
+    return need;
+}
+
+SolveOptions with_memory(SolveOptions options, const SceneSettings& scene) {
+    options.memory = scene.memory ? *scene.memory / 2 : usual_transport;
+    return options;
+}
+
+double bytes_of_picture(PixelSize size) {
+    return bytes_per_pixel * static_cast<double>(size.width) * size.height;
+}
+
+double bytes_of_compared_pictures(PixelSize size) {
+    return bytes_per_compared_pixel * static_cast<double>(size.width) * size.height;
+}
+
+namespace {
+
+/// Reading takes more than it may.
+MemoryError too_large_to_read(const std::string& path, double need, std::uint64_t limit) {
+    return MemoryError(path + ": needs " + rounded(need) + " to be read alone, and --memory is " +
+                       rounded(static_cast<double>(limit)));
+}
+
+} // namespace
+
+std::function<void(double bytes)> memory_guard(const std::string& path,
+                                               std::optional<std::uint64_t> limit) {
+    if (!limit)
+        return {};
+    return [path, limit](double bytes) {
+        if (const double need = bytes_of_program + bytes; need > static_cast<double>(*limit))
+            throw too_large_to_read(path, need, *limit);
+    };
+}
+
+void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    const double need = bytes_of_program + (error ? 0 : static_cast<double>(size));
+    if (limit && need > static_cast<double>(*limit))
+        throw too_large_to_read(path, need, *limit);
+}
+
+void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
+                  const std::string& path) {
+    if (!limit || need.all() <= static_cast<double>(*limit))
+        return;
+    throw MemoryError(path + ": needs about " + rounded(need.all()) + " (scene " +
+                      rounded(need.scene) + ", patches " + rounded(need.mesh) + ", tree " +
+                      rounded(need.tree) + ", method " + rounded(need.method) + ", pictures " +
+                      rounded(need.pictures) + "), and --memory is " +
+                      rounded(static_cast<double>(*limit)) +
+                      "; a larger --max-edge, fewer --rays or a smaller --size need less");
+}
+
+} // namespace hemilux

@@ -1,0 +1,63 @@
+#pragma once
+// --memory: what a scene will need is estimated before it is allocated.
+
+#include "app/settings/settings.h"
+#include "radiosity/scene/scene.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace hemilux {
+
+/// 800, 64k, 1.5G: bytes, in powers of 1024 with one of k, M, G, T behind.
+[[nodiscard]] std::optional<std::uint64_t> parse_bytes(std::string_view text);
+
+/// What a run needs at its peak, by parts [bytes].
+struct MemoryNeed {
+    double scene = 0;    ///< as read
+    double mesh = 0;     ///< patches
+    double tree = 0;     ///< for the rays
+    double pairs = 0;    ///< of facets in one plane, until they are laid apart
+    double analysis = 0; ///< which sides face the light, what light may reach
+    double method = 0;   ///< of several, the greediest
+    double pictures = 0; ///< while they are written
+    /// The list of patches grows by being copied, before there is anything else.
+    [[nodiscard]] double all() const {
+        return scene +
+               std::max(2 * mesh + pairs, mesh + tree + std::max(analysis, method + pictures));
+    }
+};
+
+/// Patches that a division of the faces will make, at the most.
+[[nodiscard]] double patches_of(const Scene& scene, const MeshOptions& options);
+[[nodiscard]] MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh,
+                                     const SolveOptions& options,
+                                     std::span<const Method* const> methods);
+
+/// With the part of --memory that a method may fill by and by.
+[[nodiscard]] SolveOptions with_memory(SolveOptions options, const SceneSettings& scene);
+
+/// A scene too large. Ends with exit code 3.
+struct MemoryError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+/// Bytes at the peak of writing a picture of so many pixels, or for `compare` all of its pictures.
+[[nodiscard]] double bytes_of_picture(PixelSize size);
+[[nodiscard]] double bytes_of_compared_pictures(PixelSize size);
+
+/// While the file is read: throws MemoryError once that takes more.
+[[nodiscard]] std::function<void(double bytes)> memory_guard(const std::string& path,
+                                                             std::optional<std::uint64_t> limit);
+/// Before the file is read, by its size.
+void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit);
+/// Before the faces are divided. Throws MemoryError, which says what is needed for what.
+void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
+                  const std::string& path);
+
+} // namespace hemilux

@@ -1,0 +1,20 @@
+#pragma once
+// Options that are of one method alone.
+
+#include "app/settings/command_line.h"
+#include "app/settings/settings.h"
+
+#include <span>
+
+namespace hemilux {
+
+/// --exact of `matrix`; --one-shot, --ambient and --overshoot of `progressive`.
+void add_own_options(CLI::App& app, SolveOptions& options);
+
+/// Throws UsageError where an option was given whose method is not among these.
+void check_own_options(const SolveOptions& options, std::span<const Method* const> methods);
+
+/// Throws UsageError where --exact would take too long.
+void check_exact(const SolveOptions& options, std::size_t patches);
+
+} // namespace hemilux

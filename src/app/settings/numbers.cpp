@@ -1,0 +1,79 @@
+#include "app/settings/numbers.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace hemilux {
+
+namespace {
+
+constexpr std::uint64_t largest_side = 16384;
+
+template <class T>
+std::optional<T> parse(std::string_view text) {
+    T value{};
+    const char* const end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stopped != end)
+        return std::nullopt;
+    return value;
+}
+
+std::string shortest(double x) {
+    std::array<char, 32> buffer;
+    const auto end = std::to_chars(buffer.begin(), buffer.end(), x).ptr;
+    return {buffer.begin(), end};
+}
+
+} // namespace
+
+std::string NumberRange::text() const {
+    std::string above = (low_included ? "at least " : "above ") + shortest(low);
+    if (high == no_limit)
+        return above;
+    if (low_included && high_included)
+        return "from " + shortest(low) + " to " + shortest(high);
+    return above + (high_included ? " and at most " : " and below ") + shortest(high);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+    const std::optional<double> value = parse<double>(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+std::optional<std::uint64_t> parse_whole(std::string_view text) {
+    return parse<std::uint64_t>(text);
+}
+
+std::optional<Vec3> parse_colour(std::string_view text, const NumberRange& range) {
+    Vec3 colour{0.0};
+    int channels = 0;
+    for (bool more = true; more; ++channels) {
+        const std::size_t comma = text.find(',');
+        const std::optional<double> value = parse_number(text.substr(0, comma));
+        if (channels == 3 || !value || !range.contains(*value))
+            return std::nullopt;
+        colour[channels] = *value;
+        more = comma != std::string_view::npos;
+        if (more)
+            text.remove_prefix(comma + 1);
+    }
+    if (channels == 1)
+        return Vec3(colour[0]);
+    return channels == 3 ? std::optional(colour) : std::nullopt;
+}
+
+std::optional<PixelSize> parse_size(std::string_view text) {
+    const std::size_t cross = text.find('x');
+    if (cross == std::string_view::npos)
+        return std::nullopt;
+    const auto width = parse_whole(text.substr(0, cross));
+    const auto height = parse_whole(text.substr(cross + 1));
+    const auto fits = [](std::uint64_t side) { return side >= 1 && side <= largest_side; };
+    if (!width || !height || !fits(*width) || !fits(*height))
+        return std::nullopt;
+    return PixelSize{static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+} // namespace hemilux

@@ -1,0 +1,56 @@
+#pragma once
+// Where results go. Each file is checked before the work begins, so that an hour of computing is
+// not lost to a mistyped folder.
+
+#include "io/files/file_identity.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hemilux {
+
+enum class OutputKind { png, hdr, ply, csv, json };
+
+/// A file that the user asked for.
+struct Output {
+    std::string path;
+    OutputKind kind;
+};
+
+[[nodiscard]] constexpr bool is_picture(OutputKind kind) {
+    return kind == OutputKind::png || kind == OutputKind::hdr;
+}
+
+/// By the extension of the path, in small or capital letters; empty where it is none of ours.
+[[nodiscard]] std::optional<Output> parse_output(std::string_view path);
+
+/// Throws OutputError where no file can be made or replaced at the path, links being followed.
+void check_writable(const std::string& path);
+
+/// The files of one run. An output replaces a file, so it may not be another output or a file that
+/// is read, under whatever name. All functions throw UsageError for such a pair.
+class RunFiles {
+  public:
+    void write(const std::string& role, const std::string& path);
+    /// The pictures of steps that exist, as step_path() names them.
+    void write_steps(const std::string& path);
+    /// A file that is read, after all that are written.
+    void read(const std::string& role, const std::string& path) const;
+
+  private:
+    struct Entry {
+        std::string role, path;
+        std::optional<FileIdentity> identity;
+    };
+    void check(const Entry& added) const;
+
+    std::vector<Entry> written_;
+};
+
+/// The files of a run that reads a scene and writes these outputs. Throws UsageError, OutputError.
+[[nodiscard]] RunFiles check_files(const std::vector<std::string>& outputs,
+                                   const std::string& scene);
+
+} // namespace hemilux

@@ -1,0 +1,41 @@
+#include "app/settings/overrides.h"
+
+#include "app/settings/exit_code.h"
+#include "app/settings/names.h"
+
+namespace hemilux {
+
+std::optional<Override> parse_override(std::string_view text, const NumberRange& range) {
+    // The value has no '='; a material's name may.
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string_view::npos || equals == 0)
+        return std::nullopt;
+    const std::optional<Vec3> value = parse_colour(text.substr(equals + 1), range);
+    if (!value)
+        return std::nullopt;
+    return Override{std::string(text.substr(0, equals)), *value};
+}
+
+void apply_overrides(Scene& scene, Vec3 Material::*quantity,
+                     const std::vector<Override>& overrides) {
+    for (const auto& [name, value] : overrides) {
+        bool found = false;
+        for (Material& material : scene.materials) {
+            if (name != "*" && name != material.name)
+                continue;
+            material.*quantity = value;
+            found = true;
+        }
+        if (!found)
+            throw UsageError(unknown_name("material", name, material_names(scene)));
+    }
+}
+
+std::vector<std::string> material_names(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Material& material : scene.materials)
+        names.push_back(material.name);
+    return names;
+}
+
+} // namespace hemilux

@@ -1,0 +1,34 @@
+#pragma once
+// What the command line says about materials: `--emission lamp=10,10,8`, `--reflectance '*=.5'`.
+
+#include "app/settings/numbers.h"
+#include "radiosity/scene/scene.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hemilux {
+
+/// A new value for a material's emission or reflectance; the material `*` stands for all.
+struct Override {
+    std::string material;
+    Vec3 value;
+};
+
+inline constexpr NumberRange emission_range = non_negative;
+inline constexpr NumberRange reflectance_range{.low = 0, .high = 1};
+
+/// "MATERIAL=R,G,B" or "MATERIAL=GREY"; empty where that is not what it is.
+[[nodiscard]] std::optional<Override> parse_override(std::string_view text,
+                                                     const NumberRange& range);
+
+/// Replaces the quantity in the materials named, in the order given. Throws UsageError for a
+/// material that the scene does not have.
+void apply_overrides(Scene& scene, Vec3 Material::*quantity,
+                     const std::vector<Override>& overrides);
+
+[[nodiscard]] std::vector<std::string> material_names(const Scene& scene);
+
+} // namespace hemilux

@@ -1,0 +1,101 @@
+#pragma once
+// What the command line asks for, once it has been read and its numbers are within their ranges.
+
+#include "app/settings/numbers.h"
+#include "app/settings/outputs.h"
+#include "app/settings/overrides.h"
+#include "io/pictures/camera.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+/// Which sides of faces emit and reflect, as --sides names them, in this order.
+enum class Sides { automatic, front, both };
+inline constexpr std::array<const char*, 3> sides_names = {"auto", "front", "both"};
+
+/// Which scene, and with which changes.
+struct SceneSettings {
+    std::string path;
+    std::vector<Override> emission, reflectance;
+    Sides sides = Sides::automatic;
+    MeshOptions mesh;                    ///< two-sided with Sides::both
+    std::optional<std::uint64_t> memory; ///< bytes that a run may need
+};
+
+/// As --guide names them, in the order of Guide.
+inline constexpr std::array<const char*, 3> guide_names = {"density", "visible", "learned"};
+
+/// How much is said on stderr.
+enum class Talk { quiet, normal, verbose };
+
+/// The view of a picture.
+struct ViewSettings {
+    std::optional<Camera> camera; ///< empty: chosen by the program
+    PixelSize size{800, 600};
+    std::optional<double> exposure; ///< empty: from the picture
+};
+
+/// --checkpoint, --every, --resume.
+struct CheckpointSettings {
+    std::string path, resumed;   ///< empty: none
+    std::optional<double> every; ///< seconds between two
+    static constexpr double usually_every = 60;
+};
+
+struct SolveSettings {
+    SceneSettings scene;
+    const Method* method = nullptr;
+    SolveOptions options;
+    StopRule stop; ///< as given; the method's own rule stands in for an empty one
+    ViewSettings view;
+    std::vector<Output> outputs;
+    std::string statistics, steps_log; ///< paths; empty: not asked for
+    bool every_step = false;           ///< pictures also after every step
+    std::string reference;             ///< path of a patch table; empty: none
+    std::vector<std::string> detail;   ///< groups; empty: those that begin with `detail`
+    CheckpointSettings checkpoint;
+    Talk talk = Talk::normal;
+};
+
+/// What each run of each method may use: one of the two.
+struct Budget {
+    std::optional<double> rays;                 ///< density rays included
+    std::optional<double> seconds;              ///< of its own, preprocessing included
+    static constexpr double default_steps = 64; ///< of the mean rays per patch and step
+};
+
+/// A method as `compare` names it: `hemisphere-visible` and `hemisphere-learned` are hemisphere
+/// with another guide.
+struct Entrant {
+    std::string name;
+    const Method* method = nullptr;
+    std::optional<Guide> guide; ///< empty: as --guide says
+};
+
+struct CompareSettings {
+    SceneSettings scene;
+    std::vector<Entrant> entrants;
+    SolveOptions options; ///< run r has the seed plus r; `literal` is for methods that have it
+    Budget budget;
+    std::uint32_t runs = 3;
+    std::string reference;         ///< path of a patch table; empty: computed by `matrix`
+    double reference_error = .002; ///< estimated error at which it is good enough
+    ViewSettings view;
+    std::string folder;
+    std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
+    Talk talk = Talk::normal;
+};
+
+struct InfoSettings {
+    SceneSettings scene;
+    Talk talk = Talk::normal;
+};
+
+} // namespace hemilux

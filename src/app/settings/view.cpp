@@ -1,0 +1,45 @@
+#include "app/settings/view.h"
+
+#include "app/settings/exit_code.h"
+#include "io/pictures/render.h"
+#include "radiosity/scene/mesh.h"
+
+namespace hemilux {
+
+void check_camera(const ViewSettings& view, const Mesh& mesh) {
+    if (view.camera &&
+        mesh.frame().to_local(view.camera->eye) == mesh.frame().to_local(view.camera->target))
+        throw UsageError("--camera: expected an eye and a target that differ; beside the scene's "
+                         "distance from the origin these two are the same point");
+}
+
+Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
+                 std::span<const Vec3> radiosity) {
+    const auto [width, height] = view.size;
+    return view.camera
+               ? *view.camera
+               : automatic_camera(mesh, tracer, radiosity, static_cast<double>(width) / height);
+}
+
+bool PictureTime::is_over() const {
+    constexpr std::chrono::seconds moment(2);
+    return interrupted_ && std::chrono::steady_clock::now() - start_ > moment;
+}
+
+Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
+                  std::span<const Vec3> radiosity, const Camera& camera, unsigned threads,
+                  const PictureTime& time, const CornerClasses* classes) {
+    const auto [width, height] = view.size;
+    return render(mesh, tracer, radiosity, camera,
+                  {.width = width,
+                   .height = height,
+                   .threads = threads,
+                   .classes = classes,
+                   .give_up = [&time] { return time.is_over(); }});
+}
+
+double exposure_of(const ViewSettings& view, const Image& image) {
+    return view.exposure ? *view.exposure : auto_exposure(image);
+}
+
+} // namespace hemilux

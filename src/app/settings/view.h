@@ -1,0 +1,43 @@
+#pragma once
+// The view of a scene that the user asked for.
+
+#include "app/settings/settings.h"
+#include "io/pictures/image.h"
+#include "io/results/smooth.h"
+
+#include <atomic>
+#include <chrono>
+#include <span>
+
+namespace hemilux {
+
+/// Throws UsageError for a camera given whose eye and target are one point where the scene is.
+void check_camera(const ViewSettings& view, const Mesh& mesh);
+
+/// The camera given, or one chosen for the scene.
+[[nodiscard]] Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
+                               std::span<const Vec3> radiosity);
+
+/// How long pictures may still take once the user asked the program to end: until two seconds
+/// after this was made, so that small ones are there.
+class PictureTime {
+  public:
+    explicit PictureTime(const std::atomic<bool>& interrupted) : interrupted_(interrupted) {}
+    [[nodiscard]] bool is_over() const;
+
+  private:
+    const std::atomic<bool>& interrupted_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Linear radiosity in the size asked for; the mesh's classes of corners, where they are known.
+/// Throws Interrupted when the time is over.
+[[nodiscard]] Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
+                                std::span<const Vec3> radiosity, const Camera& camera,
+                                unsigned threads, const PictureTime& time,
+                                const CornerClasses* classes = nullptr);
+
+/// The factor given, or one chosen for the picture.
+[[nodiscard]] double exposure_of(const ViewSettings& view, const Image& image);
+
+} // namespace hemilux

@@ -1,0 +1,140 @@
+#include "app/terminal/progress.h"
+
+#include "app/settings/text.h"
+#include "app/terminal/talk.h"
+#include "io/files/printable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+#include <sys/ioctl.h>
+#include <unistd.h>
+#include <utility>
+
+namespace hemilux {
+
+namespace {
+
+constexpr auto redraw_interval = std::chrono::milliseconds(150);
+constexpr std::size_t bar_cells = 24;
+constexpr std::size_t usual_width = 80;
+
+std::size_t terminal_width() {
+    winsize size{};
+    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col : usual_width;
+}
+
+} // namespace
+
+bool stderr_is_terminal() {
+    const char* const terminal = std::getenv("TERM");
+    return isatty(STDERR_FILENO) && terminal && std::string_view(terminal) != "dumb";
+}
+
+double share_done(const StopRule& stop, bool well_distributed, const ProgressState& state) {
+    const double steps = state.steps + std::clamp(state.step_share, 0.0, 1.0);
+    double share = 0;
+    if (stop.steps)
+        share = std::max(share, steps / *stop.steps);
+    if (stop.seconds)
+        share = std::max(share, state.seconds / *stop.seconds);
+    if (stop.error && state.steps > 0 && state.estimated_error > 0) {
+        const double growth =
+            std::pow(state.estimated_error / *stop.error, well_distributed ? 1 / .7 : 2);
+        share = std::max(share, static_cast<double>(state.rays_of_steps + state.rays_of_step) /
+                                    (growth * static_cast<double>(state.rays_of_steps)));
+    }
+    return std::min(share, 1.0);
+}
+
+ShareDone share_of(const StopRule& stop, const Method& method) {
+    return [stop, &method](const ProgressState& state) {
+        return share_done(stop, !method.unbiased, state);
+    };
+}
+
+std::string progress_line(double share, const ProgressState& state, std::size_t width) {
+    const auto full = static_cast<std::size_t>(share * bar_cells);
+    std::string line = "[" + std::string(full, '#') + std::string(bar_cells - full, '.') + "]" +
+                       formatted(" %3.0f %%  ", std::floor(100 * share)) + state.topic +
+                       (state.topic.empty() ? "" : ", ") + state.phase;
+    if (state.seconds > 0)
+        line += "  " + short_count(static_cast<double>(state.rays) / state.seconds) + " rays/s";
+    line += "  " + duration(state.seconds);
+    // The first few per cent say little about the rest.
+    if (share > 0.02)
+        line += ", " + duration(state.seconds * (1 - share) / share) + " left";
+    if (std::isfinite(state.estimated_error))
+        line += "  error " + percent(state.estimated_error);
+    return line.substr(0, width);
+}
+
+Progress::Progress(const Monitor& monitor, ShareDone share, bool bar)
+    : monitor_(monitor), share_(std::move(share)) {
+    if (bar)
+        thread_ = std::thread([this] { redraw_until_closed(); });
+}
+
+Progress::~Progress() { close(); }
+
+void Progress::step_done(const StepRecord& record) {
+    const std::scoped_lock lock(mutex_);
+    state_.steps = record.step;
+    state_.rays_of_steps = record.rays;
+    rays_before_step_ = monitor_.rays;
+    state_.estimated_error = record.estimated_error;
+}
+
+void Progress::set_topic(const std::string& topic) {
+    const std::scoped_lock lock(mutex_);
+    state_.topic = topic;
+}
+
+void Progress::say(const std::string& line) {
+    const std::scoped_lock lock(mutex_);
+    erase();
+    if (can_say())
+        std::fprintf(stderr, "%s\n", printable_message(line).c_str());
+}
+
+void Progress::close() {
+    {
+        const std::scoped_lock lock(mutex_);
+        closed_ = true;
+    }
+    wake_.notify_all();
+    if (thread_.joinable())
+        thread_.join();
+    const std::scoped_lock lock(mutex_);
+    erase();
+}
+
+void Progress::redraw_until_closed() {
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, redraw_interval, [this] { return closed_; }))
+        draw();
+}
+
+void Progress::draw() {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    state_.seconds = elapsed.count();
+    state_.rays = monitor_.rays;
+    state_.rays_of_step = state_.rays - rays_before_step_;
+    state_.step_share = monitor_.step_share;
+    state_.phase = monitor_.interrupted ? "stopping" : monitor_.phase.load();
+    const std::string line = progress_line(share_(state_), state_, terminal_width() - 1);
+    std::fprintf(stderr, "\r%s\033[K", line.c_str());
+    std::fflush(stderr);
+    drawn_ = true;
+}
+
+void Progress::erase() {
+    if (drawn_)
+        std::fputs("\r\033[K", stderr);
+    drawn_ = false;
+}
+
+} // namespace hemilux

@@ -1,0 +1,79 @@
+#pragma once
+// The progress bar: a line on the terminal that a thread of its own redraws a few times a second
+// from the solver's monitor.
+
+#include "radiosity/solving/solver.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace hemilux {
+
+/// What the bar shows.
+struct ProgressState {
+    const char* phase = "";
+    std::string topic{};     ///< what it works on; may be empty
+    std::uint32_t steps = 0; ///< finished
+    double step_share = 0;   ///< of the present step, 0 to 1
+    double seconds = 0;      ///< since the start
+    std::uint64_t rays = 0;
+    std::uint64_t rays_of_steps = 0;                                   ///< of the finished ones
+    std::uint64_t rays_of_step = 0;                                    ///< of the present one
+    double estimated_error = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not known yet
+};
+
+/// How much of the run is done, 0 to 1, by the part of the stop rule that will be met first. The
+/// error is taken to fall as rays^-1/2, or as rays^-.7 where points are well distributed.
+[[nodiscard]] double share_done(const StopRule& stop, bool well_distributed,
+                                const ProgressState& state);
+
+/// How much of the work is done, 0 to 1.
+using ShareDone = std::function<double(const ProgressState&)>;
+/// That of one run.
+[[nodiscard]] ShareDone share_of(const StopRule& stop, const Method& method);
+
+/// The bar as text of at most `width` columns.
+[[nodiscard]] std::string progress_line(double share, const ProgressState& state,
+                                        std::size_t width);
+
+class Progress {
+  public:
+    /// Without a bar it only passes on what is said.
+    Progress(const Monitor& monitor, ShareDone share, bool bar);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    void step_done(const StepRecord& record);
+    /// What stands before the phase.
+    void set_topic(const std::string& topic);
+    /// A line on stderr that stays, above the bar.
+    void say(const std::string& line);
+    /// Takes the bar away for good.
+    void close();
+
+  private:
+    void redraw_until_closed();
+    void draw();
+    void erase();
+
+    const Monitor& monitor_;
+    ShareDone share_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    ProgressState state_;
+    std::uint64_t rays_before_step_ = 0; ///< by the monitor
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool closed_ = false, drawn_ = false;
+    std::thread thread_;
+};
+
+/// Whether stderr is a terminal that can redraw a line.
+[[nodiscard]] bool stderr_is_terminal();
+
+} // namespace hemilux

@@ -1,0 +1,98 @@
+#include "app/terminal/summary.h"
+
+#include "app/settings/text.h"
+
+#include <cmath>
+
+namespace hemilux {
+
+namespace {
+
+double sum(const Vec3& v) { return v.r + v.g + v.b; }
+
+std::string energy_text(const EnergyBalance& energy) {
+    const double emitted = sum(energy.emitted);
+    const double absorbed = sum(energy.absorbed) / emitted;
+    const double escaped = sum(energy.escaped) / emitted;
+    const double unshot = sum(energy.unshot) / emitted;
+    return formatted("energy: %g W emitted, ", emitted) + percent(absorbed) + " absorbed, " +
+           percent(escaped) + " escaped, " + formatted("%.3f %% unshot", 100 * unshot) +
+           formatted("; balance closed to %.0e", energy.imbalance());
+}
+
+/// How well the estimated error is known.
+std::string uncertainty_text(const Statistics& s) {
+    return std::isfinite(s.estimated_error_uncertainty)
+               ? ", give or take " + percent(s.estimated_error_uncertainty)
+               : "";
+}
+
+} // namespace
+
+std::string mesh_text(const Mesh& mesh) {
+    const Scene& scene = mesh.scene();
+    return counted(scene.faces, "face", "faces") + ", " +
+           counted(mesh.patches().size(), "patch", "patches") + ", " +
+           counted(scene.materials.size(), "material", "materials") + ", " +
+           counted(scene.groups.size(), "group", "groups");
+}
+
+std::string tracer_text(const std::optional<BvhQuality>& tree, double seconds) {
+    if (!tree)
+        return "BVH: none, so few faces there are";
+    return "BVH: " + counted(tree->nodes, "node", "nodes") +
+           formatted(", depth %d, SAH cost %.1f, ", tree->depth, tree->sah_cost) +
+           byte_size(tree->bytes) + ", built in " + duration(seconds);
+}
+
+std::string step_text(const StepRow& row) {
+    std::string text = formatted("step %u: ", row.record.step) +
+                       short_count(static_cast<double>(row.record.rays)) + " rays, " +
+                       duration(row.record.seconds) + ", estimated error " +
+                       percent(row.record.estimated_error);
+    if (row.error)
+        text += ", true error " + percent(row.error->all);
+    return text;
+}
+
+std::string run_text(const Statistics& s) {
+    std::string text = s.method + ": " + counted(s.patches, "patch", "patches") + ", " +
+                       counted(s.steps, "step", "steps") + ", " +
+                       short_count(static_cast<double>(s.rays_energy)) + " energy rays";
+    if (s.rays_density > 0)
+        text += " and " + short_count(static_cast<double>(s.rays_density)) + " density rays";
+    text += " in " + duration(s.seconds_density + s.seconds_solve) + " (" +
+            short_count(s.rays_per_second) + " rays/s)";
+    if (s.steps > 0)
+        text += "\nestimated error " + percent(s.estimated_error) + uncertainty_text(s) + "\n" +
+                energy_text(s.energy);
+    return text;
+}
+
+std::string memory_text(const Statistics& s) {
+    std::string text = "memory: " + byte_size(s.bytes_peak) + " at the most";
+    if (s.bytes_density > 0)
+        text += ", of which densities " + byte_size(s.bytes_density) + " (" +
+                formatted("%.1f",
+                          static_cast<double>(s.bytes_density) / static_cast<double>(s.patches)) +
+                " per patch; a byte per triangle of the full tree would be " +
+                byte_size(s.bytes_density_paper) + ")";
+    return text;
+}
+
+std::string error_text(const RelativeError& error) {
+    std::string text = "true error " + percent(error.all);
+    if (std::isfinite(error.detail))
+        text += " (detail " + percent(error.detail) + ", rest " + percent(error.rest) + ")";
+    return text;
+}
+
+std::string z_scores_text(const ZScores& z) {
+    if (z.count == 0)
+        return "z-scores: no patch has enough hits and a standard error";
+    return formatted("z-scores: mean %.3f, rms %.3f, largest %.2f over ", z.mean, z.rms,
+                     z.largest) +
+           counted(z.count, "value", "values");
+}
+
+} // namespace hemilux

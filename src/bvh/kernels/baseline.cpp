@@ -1,4 +1,0 @@
-// The kernels for what the compiler takes without being told more.
-#define HEMILUX_KERNELS baseline
-#define HEMILUX_KERNELS_NAME "baseline"
-#include "bvh/kernels/table.h"

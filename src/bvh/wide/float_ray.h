@@ -1,0 +1,44 @@
+#pragma once
+// A ray of doubles as the wide tree's kernels see it, in the tree's units.
+
+#include "bvh/tracer.h"
+#include "bvh/wide/wide_layout.h"
+
+#include <cmath>
+
+namespace hemilux::wide {
+
+/// The box of the scene and the number its coordinates are divided by.
+struct Space {
+    Vec3 low, high;
+    double size;
+};
+
+/// Whether the kernels are to be asked.
+enum class Fit {
+    good,
+    misses, ///< surely, or it is no ray at all
+    too_far ///< from so far away that even doubles round coarsely: every facet is tried
+};
+
+[[nodiscard]] Fit scale_ray(const Ray& ray, const Space& space, FloatRay& scaled);
+
+/// More than the error of a scaled distance apart from its own rounding.
+inline constexpr double distance_slack = 0x1p-30;
+
+/// Sure bounds of a distance in scaled units; it may be infinite.
+[[nodiscard]] inline float below(const FloatRay& scaled, double t) {
+    const double at = (t - scaled.skipped) * scaled.per_unit;
+    return static_cast<float>(std::isinf(at) ? at : at - std::abs(at) * 0x1p-22 - distance_slack);
+}
+[[nodiscard]] inline float above(const FloatRay& scaled, double t) {
+    const double at = (t - scaled.skipped) * scaled.per_unit;
+    return static_cast<float>(at + std::abs(at) * 0x1p-22 + distance_slack);
+}
+
+/// Of a ray that has met nothing yet.
+[[nodiscard]] inline Nearest nothing_before(const FloatRay& scaled, double t_max) {
+    return {below(scaled, t_max), above(scaled, t_max), no_facet, 0};
+}
+
+} // namespace hemilux::wide

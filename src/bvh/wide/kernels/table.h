@@ -1,0 +1,30 @@
+// All kernels of one instruction set, gathered for the choice at run time. The file that includes
+// this names the set in HEMILUX_KERNELS.
+
+#include "bvh/wide/kernels/simd.h"
+
+#include "bvh/wide/kernels/sieve.h"
+
+#include "bvh/wide/kernels/stack.h"
+
+#include "bvh/wide/kernels/single.h"
+
+#include "bvh/wide/kernels/wave.h"
+
+#include "bvh/wide/kernels/pyramid.h"
+
+#include "bvh/wide/kernels/packet.h"
+
+#include "bvh/wide/kernels/shared_leaf.h"
+
+#include "bvh/wide/kernels/errands.h"
+
+#include "bvh/wide/kernels/bundle.h"
+
+namespace hemilux::wide::HEMILUX_KERNELS {
+
+extern const Kernels kernels;
+const Kernels kernels{HEMILUX_KERNELS_NAME, closest,         occluded,       count,
+                      closest_stream,       occluded_stream, closest_bundle, count_bundle};
+
+} // namespace hemilux::wide::HEMILUX_KERNELS

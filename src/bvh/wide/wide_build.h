@@ -1,0 +1,30 @@
+#pragma once
+// Builds the wide tree: top-down, eight children at a time, by the surface area heuristic over bins
+// (Wald 2007). A node's range of triangles is divided in two again and again, always the part with
+// the largest surface, until there are eight parts.
+//
+// The upper tree is built by one thread; the subtrees below it are jobs for all threads, cut by
+// size alone, so that the tree does not depend on the number of threads.
+
+#include "bvh/intersect.h"
+#include "bvh/quality.h"
+#include "bvh/wide/huge_array.h"
+#include "bvh/wide/wide_layout.h"
+
+namespace hemilux::wide {
+
+struct Built {
+    HugeArray<Node> nodes;    ///< none: the only leaf is the root
+    HugeArray<Leaf> leaves;   ///< none: nothing to strike
+    Vec3 low{0.0}, high{0.0}; ///< of all facets, in the soup's units
+    BvhQuality quality;
+};
+
+/// The power of two that the soup's coordinates are divided by, at least the largest of them.
+[[nodiscard]] double size_of(const Vec3& low, const Vec3& high);
+
+/// Facets with coordinates that are not finite are left out. threads == 0: one per core. Without
+/// `hierarchy` up to eight triangles are one leaf with no node above it.
+[[nodiscard]] Built build(const FacetSoup& soup, unsigned threads, bool hierarchy = true);
+
+} // namespace hemilux::wide

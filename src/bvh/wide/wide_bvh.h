@@ -1,0 +1,54 @@
+#pragma once
+// The fast tracer: a tree with eight children a node and eight triangles a leaf, traversed in
+// floats by vector instructions; what floats cannot tell is decided in doubles (wide_layout.h). It
+// answers as Bvh and BruteForce do, bit for bit.
+
+#include "bvh/wide/float_ray.h"
+#include "bvh/wide/wide_build.h"
+
+#include <string_view>
+
+namespace hemilux {
+
+struct WideBvhOptions {
+    unsigned threads = 0;         ///< that build the tree; 0: one per core
+    bool hierarchy = true;        ///< false: up to eight triangles are tested at once, no boxes
+    std::string_view kernels{""}; ///< "baseline", "avx2", "avx512"; "": the machine's best
+};
+
+class WideBvh final : public Tracer {
+  public:
+    /// The soup's memory must outlive the tracer. Facets with a coordinate that is not finite are
+    /// never hit.
+    explicit WideBvh(const FacetSoup& soup, const WideBvhOptions& options = {});
+
+    [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override;
+    [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target = none) const override;
+    [[nodiscard]] std::uint32_t count(const Ray& ray) const override;
+    void closest_bundle(const Bundle& bundle, std::span<Struck> out) const override;
+    void count_bundle(const Bundle& bundle, std::span<std::uint32_t> out) const override;
+    void closest_stream(std::span<const Ray> rays, std::span<Struck> out) const override;
+    void occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
+                         std::span<std::uint8_t> out) const override;
+    [[nodiscard]] Hit locate(const Ray& ray, std::uint32_t facet) const override;
+
+    [[nodiscard]] const BvhQuality& quality() const { return built_.quality; }
+    /// Of the kernels in use.
+    [[nodiscard]] std::string_view kernels() const { return kernels_->name; }
+
+  private:
+    struct Block;
+    using BundleKernel = bool (*)(const wide::Tree&, wide::Packet*, unsigned, const wide::Judge&);
+    template <class Done>
+    bool for_packets(const Bundle& bundle, BundleKernel kernel, const wide::Nearest& start,
+                     const Done& done) const;
+    [[nodiscard]] wide::Fit fit_ray(const Ray& ray, wide::FloatRay& scaled) const;
+    [[nodiscard]] wide::Tree tree() const;
+
+    FacetSoup soup_;
+    const wide::Kernels* kernels_;
+    wide::Built built_;
+    wide::Space space_;
+};
+
+} // namespace hemilux

@@ -1,0 +1,81 @@
+#pragma once
+// What drawings are made of: filled polygons, lines and text, on SVG or on pixels. Coordinates are
+// pixels from the top left.
+
+#include "geometry/vector.h"
+#include "io/pictures/image.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hemilux {
+
+/// As on a screen: sRGB, 8 bits.
+struct Colour {
+    std::uint8_t r = 0, g = 0, b = 0;
+};
+
+struct Stroke {
+    Colour colour{};
+    double width = 1;
+    double dash = 0; ///< length of dashes and of the gaps between them; 0: drawn through
+};
+
+/// Which part of a text stands at its place.
+enum class Anchor { start, middle, end };
+
+struct TextStyle {
+    Anchor anchor = Anchor::start;
+    double size = 13; ///< height of the line [pixels]
+    Colour colour{};
+};
+
+class Canvas {
+  public:
+    virtual ~Canvas() = default;
+    /// Even-odd rule.
+    virtual void polygon(std::span<const Vec2> corners, Colour fill, double opacity) = 0;
+    virtual void line(std::span<const Vec2> points, const Stroke& stroke) = 0;
+    /// One line; `at` is on its base line.
+    virtual void text(const Vec2& at, std::string_view text, const TextStyle& style) = 0;
+};
+
+class SvgCanvas final : public Canvas {
+  public:
+    SvgCanvas(int width, int height);
+    void polygon(std::span<const Vec2> corners, Colour fill, double opacity) override;
+    void line(std::span<const Vec2> points, const Stroke& stroke) override;
+    void text(const Vec2& at, std::string_view text, const TextStyle& style) override;
+    /// The whole file.
+    [[nodiscard]] std::string document() const { return body_ + "</svg>\n"; }
+
+  private:
+    std::string body_;
+};
+
+/// Smooth edges come from several samples a pixel. Text is in plain letters; others become `?`.
+class PixelCanvas final : public Canvas {
+  public:
+    /// White.
+    PixelCanvas(int width, int height);
+    void polygon(std::span<const Vec2> corners, Colour fill, double opacity) override;
+    void line(std::span<const Vec2> points, const Stroke& stroke) override;
+    void text(const Vec2& at, std::string_view text, const TextStyle& style) override;
+    /// Linear light, so that write_png with exposure 1 gives the colours that were drawn.
+    [[nodiscard]] Image image() const;
+
+  private:
+    void segment(const Vec2& a, const Vec2& b, const Stroke& stroke);
+    void disc(const Vec2& centre, double radius, Colour fill);
+
+    int width_, height_;          ///< of the picture
+    std::vector<Colour> samples_; ///< row by row
+};
+
+/// A rectangle with the sides of the axes.
+void fill_box(Canvas& canvas, const Vec2& low, const Vec2& high, Colour fill, double opacity = 1);
+
+} // namespace hemilux

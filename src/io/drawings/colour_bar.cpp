@@ -1,0 +1,60 @@
+#include "io/drawings/colour_bar.h"
+
+#include "io/drawings/log_axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hemilux {
+
+namespace {
+
+constexpr double text_size = 12;
+constexpr double most_ticks = 8;
+
+/// 1, 2 or 5 times a power of ten, so that at most `most_ticks` steps fit.
+double tick_step(double most) {
+    const double least = most / most_ticks;
+    const double decade = std::pow(10.0, std::floor(std::log10(least)));
+    for (const double digit : {1.0, 2.0, 5.0})
+        if (digit * decade >= least)
+            return digit * decade;
+    return 10 * decade;
+}
+
+} // namespace
+
+Colour heat_colour(double t) {
+    static constexpr std::array<Vec3, 5> stops{
+        {{252, 248, 226}, {246, 208, 124}, {228, 132, 72}, {166, 52, 84}, {62, 14, 82}}};
+    if (std::isnan(t))
+        return {128, 128, 128};
+    const double place = std::clamp(t, 0.0, 1.0) * double(stops.size() - 1);
+    const auto first = std::min(static_cast<std::size_t>(place), stops.size() - 2);
+    const Vec3 rgb = glm::mix(stops[first], stops[first + 1], place - double(first));
+    const auto byte = [](double x) { return static_cast<std::uint8_t>(std::lround(x)); };
+    return {byte(rgb.r), byte(rgb.g), byte(rgb.b)};
+}
+
+void draw_colour_bar(const ColourBar& bar, Canvas& canvas) {
+    const double width = bar.high.x - bar.low.x;
+    constexpr int cells = 128;
+    for (int i = 0; i < cells; ++i) {
+        // Each reaches to the end, under those that follow: so no seams are seen.
+        fill_box(canvas, {bar.low.x + width * i / cells, bar.low.y}, bar.high,
+                 heat_colour((i + 0.5) / cells));
+    }
+    const double step = bar.most > 0 ? tick_step(bar.most) : 1;
+    constexpr double rounding = 1 + 1e-9;
+    for (int i = 0; i * step <= bar.most * rounding; ++i) {
+        const double x = bar.low.x + (bar.most > 0 ? width * i * step / bar.most : 0.0);
+        canvas.line(std::array{Vec2(x, bar.high.y), Vec2(x, bar.high.y + 4)}, {});
+        canvas.text({x, bar.high.y + 16}, tick_text(i * step),
+                    {.anchor = Anchor::middle, .size = text_size});
+    }
+    canvas.text({(bar.low.x + bar.high.x) / 2, bar.high.y + 33}, bar.caption,
+                {.anchor = Anchor::middle, .size = text_size});
+}
+
+} // namespace hemilux

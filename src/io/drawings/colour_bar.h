@@ -1,0 +1,22 @@
+#pragma once
+// One colour per number from 0 up, and the bar that tells which.
+
+#include "io/drawings/canvas.h"
+
+#include <string>
+
+namespace hemilux {
+
+/// From 0 (pale) to 1 (dark), lightness falling all the way; beyond stays at the ends; NaN is grey.
+[[nodiscard]] Colour heat_colour(double t);
+
+struct ColourBar {
+    Vec2 low, high; ///< corners: top left, bottom right
+    double most;    ///< the number at the right end; 0 is at the left
+    std::string caption;
+};
+
+/// The bar with round numbers and the caption below it, in 40 pixels.
+void draw_colour_bar(const ColourBar& bar, Canvas& canvas);
+
+} // namespace hemilux

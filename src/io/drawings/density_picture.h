@@ -1,0 +1,17 @@
+#pragma once
+// A number per patch in false colour, seen through a camera.
+
+#include "io/pictures/render.h"
+
+#include <string>
+
+namespace hemilux {
+
+/// Each patch in the colour of its number, from 0 to the largest of all, on a white background; a
+/// colour bar is added below. For write_png with exposure 1. `numbers`: one per patch, not
+/// negative.
+[[nodiscard]] Image density_picture(const Mesh& mesh, const Tracer& tracer,
+                                    std::span<const double> numbers, const std::string& caption,
+                                    const Camera& camera, const RenderOptions& options);
+
+} // namespace hemilux

@@ -1,0 +1,145 @@
+#include "io/drawings/false_colour.h"
+
+#include "io/drawings/log_axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace hemilux {
+
+namespace {
+
+constexpr int bar_strip = 52; ///< height of what is below the picture
+constexpr double within_scale = 0.99;
+constexpr double least_scale = 1e-6; ///< where pictures do not differ
+
+/// One side of the scale, from white outwards.
+using Stops = std::array<glm::vec3, 4>;
+constexpr Stops blues{{{255, 255, 255}, {146, 197, 222}, {33, 113, 181}, {5, 30, 80}}};
+constexpr Stops reds{{{255, 255, 255}, {244, 165, 130}, {203, 40, 40}, {85, 0, 20}}};
+
+glm::vec3 along(const Stops& stops, double t) {
+    const double place = t * double(stops.size() - 1);
+    const auto first = std::min(static_cast<std::size_t>(place), stops.size() - 2);
+    return glm::mix(stops[first], stops[first + 1], static_cast<float>(place - double(first)));
+}
+
+glm::vec3 linear(Colour colour) {
+    return {linear_from_srgb(static_cast<float>(colour.r) / 255.0f),
+            linear_from_srgb(static_cast<float>(colour.g) / 255.0f),
+            linear_from_srgb(static_cast<float>(colour.b) / 255.0f)};
+}
+
+/// The smallest 1, 2 or 5 times a power of ten that is not below x.
+double round_up(double x) {
+    const double decade = std::pow(10.0, std::floor(std::log10(x)));
+    constexpr double rounding = 1 + 1e-6; // of floats
+    for (const double digit : {1.0, 2.0, 5.0})
+        if (x <= digit * decade * rounding)
+            return digit * decade;
+    return 10 * decade;
+}
+
+/// Almost all of what differs is within it.
+double scale_of(const std::vector<float>& difference) {
+    std::vector<float> sizes;
+    for (const float d : difference)
+        if (std::isfinite(d) && d != 0) // not the background
+            sizes.push_back(std::abs(d));
+    if (sizes.empty())
+        return least_scale;
+    const auto rank = static_cast<std::ptrdiff_t>(within_scale * double(sizes.size() - 1));
+    std::ranges::nth_element(sizes, sizes.begin() + rank);
+    return std::max(least_scale, double(sizes[static_cast<std::size_t>(rank)]));
+}
+
+void draw_bar(Canvas& canvas, const Vec2& low, const Vec2& high) {
+    const int cells = static_cast<int>(high.x - low.x);
+    for (int i = 0; i < cells; ++i)
+        fill_box(canvas, {low.x + i, low.y}, {low.x + i + 1, high.y},
+                 diverging_colour(2 * (i + 0.5) / cells - 1));
+}
+
+/// Positive differences to mark on the bar: both ends of the logarithmic part and its middle.
+std::vector<double> marks(const DifferenceScale& scale) {
+    if (scale.most < 4 * scale.typical)
+        return {scale.most / 2, scale.most};
+    std::vector<double> values{scale.most};
+    if (scale.most > 15 * scale.typical)
+        values.push_back(round_up(std::sqrt(scale.most * scale.typical) / 2));
+    constexpr double too_near_to_0 = 0.2;
+    if (scale.place(scale.typical) > too_near_to_0)
+        values.push_back(scale.typical);
+    return values;
+}
+
+/// The colour bar with its numbers, in per cent of white.
+Image bar_picture(int width, const DifferenceScale& scale) {
+    PixelCanvas canvas(width, bar_strip);
+    const double half = std::min(0.45 * width, 200.0), middle = width / 2.0;
+    draw_bar(canvas, {middle - half, 6}, {middle + half, 18});
+    const auto mark = [&](double difference, const char* sign) {
+        const std::string text = sign + tick_text(100 * std::abs(difference)) + " %";
+        canvas.text({middle + half * scale.place(difference), 32}, text,
+                    {.anchor = Anchor::middle, .size = 12});
+    };
+    mark(0, "");
+    for (const double difference : marks(scale)) {
+        mark(difference, "+");
+        mark(-difference, "-");
+    }
+    canvas.text({middle, 47}, "luminance minus that of the reference, in per cent of white",
+                {.anchor = Anchor::middle, .size = 12});
+    return canvas.image();
+}
+
+} // namespace
+
+Colour diverging_colour(double t) {
+    if (std::isnan(t))
+        return {128, 128, 128};
+    const glm::vec3 rgb = along(t < 0 ? blues : reds, std::min(std::abs(t), 1.0));
+    const auto byte = [](float x) { return static_cast<std::uint8_t>(std::lround(x)); };
+    return {byte(rgb.r), byte(rgb.g), byte(rgb.b)};
+}
+
+std::vector<float> luminance_difference(const Image& picture, const Image& reference,
+                                        double exposure) {
+    if (picture.width != reference.width || picture.height != reference.height)
+        throw std::invalid_argument("pictures of different sizes have no difference");
+    std::vector<float> difference;
+    difference.reserve(picture.pixels.size());
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+        difference.push_back(static_cast<float>(exposure) *
+                             (luminance(picture.pixels[i]) - luminance(reference.pixels[i])));
+    return difference;
+}
+
+double DifferenceScale::place(double difference) const {
+    return std::asinh(difference / typical) / std::asinh(most / typical);
+}
+
+DifferenceScale common_scale(std::span<const std::vector<float>> differences) {
+    std::vector<double> scales;
+    for (const std::vector<float>& difference : differences)
+        scales.push_back(scale_of(difference));
+    if (scales.empty())
+        return {};
+    std::ranges::sort(scales);
+    return {round_up(scales[(scales.size() - 1) / 2]), round_up(scales.back())};
+}
+
+Image false_colour(const std::vector<float>& difference, int width, int height,
+                   const DifferenceScale& scale) {
+    Image image(width, height + bar_strip);
+    for (std::size_t i = 0; i < difference.size(); ++i)
+        image.pixels[i] = linear(diverging_colour(scale.place(double(difference[i]))));
+    const Image bar = bar_picture(width, scale);
+    std::ranges::copy(bar.pixels,
+                      image.pixels.begin() + static_cast<std::ptrdiff_t>(difference.size()));
+    return image;
+}
+
+} // namespace hemilux

@@ -1,0 +1,179 @@
+#include "io/drawings/hemisphere_svg.h"
+
+#include "io/drawings/colour_bar.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace hemilux {
+
+namespace {
+
+constexpr Colour ink{40, 40, 40}, edge_ink{90, 90, 90}, white{255, 255, 255}, ray_blue{0, 90, 200};
+constexpr double side_elevation = 20, side_azimuth = 28; // degrees
+constexpr std::size_t most_labels = 150;                 // the vertices of depth 3 fit
+constexpr double text_size = 14, title_size = 17;
+
+/// A parallel projection of the unit sphere.
+struct DomeView {
+    Vec2 centre;
+    Vec3 right, up, toward; ///< the last to the viewer
+
+    [[nodiscard]] Vec2 place(const Vec3& d) const {
+        return centre + dome_radius * Vec2(glm::dot(d, right), -glm::dot(d, up));
+    }
+    [[nodiscard]] bool sees(const Vec3& d) const {
+        constexpr double rounding = 1e-12;
+        return glm::dot(d, toward) >= -rounding;
+    }
+};
+
+DomeView from_above() { return {centre_above, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
+
+DomeView from_side() {
+    constexpr double radian = std::numbers::pi / 180;
+    const double a = side_azimuth * radian, e = side_elevation * radian;
+    const Vec3 toward(std::cos(a) * std::cos(e), std::sin(a) * std::cos(e), std::sin(e));
+    const Vec3 right(-std::sin(a), std::cos(a), 0);
+    return {centre_side, right, glm::cross(toward, right), toward};
+}
+
+/// Points of the great-circle arc from a on, without b.
+void append_arc(const Vec3& a, const Vec3& b, int steps, std::vector<Vec3>& points) {
+    for (int i = 0; i < steps; ++i)
+        points.push_back(glm::normalize(glm::mix(a, b, double(i) / steps)));
+}
+
+std::vector<Vec3> outline_of(const Hemisphere::Cell& cell) {
+    const int steps = std::max(4, 24 >> cell.level);
+    const auto& v = cell.shape.vertices();
+    std::vector<Vec3> outline;
+    for (std::size_t i = 0; i < 3; ++i)
+        append_arc(v[i], v[(i + 1) % 3], steps, outline);
+    return outline;
+}
+
+/// The part of a triangle's outline that is turned to the viewer, closed along the silhouette.
+std::vector<Vec3> seen_part(const std::vector<Vec3>& outline, const DomeView& view) {
+    std::vector<Vec3> part;
+    std::size_t exit = outline.size(); // the point of `part` where the outline turns away
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Vec3 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+        if (view.sees(a))
+            part.push_back(a);
+        if (view.sees(a) == view.sees(b))
+            continue;
+        const double height_a = glm::dot(a, view.toward), height_b = glm::dot(b, view.toward);
+        if (view.sees(a))
+            exit = part.size();
+        part.push_back(glm::normalize(glm::mix(a, b, height_a / (height_a - height_b))));
+    }
+    if (exit >= part.size())
+        return part;
+    std::vector<Vec3> silhouette;
+    append_arc(part[exit], part[(exit + 1) % part.size()], 32, silhouette);
+    part.insert(part.begin() + static_cast<std::ptrdiff_t>(exit) + 1, silhouette.begin() + 1,
+                silhouette.end());
+    return part;
+}
+
+std::vector<Vec2> placed(const std::vector<Vec3>& directions, const DomeView& view) {
+    std::vector<Vec2> points;
+    for (const Vec3& d : directions)
+        points.push_back(view.place(d));
+    return points;
+}
+
+void draw_dot(const Vec2& at, double radius, Colour colour, Canvas& canvas) {
+    std::array<Vec2, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double angle = 2 * std::numbers::pi * (double(i) + 0.5) / double(corners.size());
+        corners[i] = at + radius * Vec2(std::cos(angle), std::sin(angle));
+    }
+    canvas.polygon(corners, colour, 1);
+}
+
+void draw_triangles(const HemisphereDrawing& drawing, const DomeView& view, double most,
+                    Canvas& canvas) {
+    std::vector<std::vector<Vec2>> edges;
+    for (const DensityLeaf& leaf : drawing.leaves) {
+        const Hemisphere::Cell& cell = drawing.hemisphere.cells()[leaf.cell];
+        std::vector<Vec2> points = placed(seen_part(outline_of(cell), view), view);
+        if (points.size() < 3)
+            continue;
+        canvas.polygon(points, heat_colour(most > 0 ? double(leaf.density) / most : 0), 1);
+        points.push_back(points.front());
+        edges.push_back(std::move(points));
+    }
+    for (const std::vector<Vec2>& edge : edges) // above all fillings
+        canvas.line(edge, {.colour = edge_ink, .width = 0.8});
+}
+
+void draw_counts(const HemisphereDrawing& drawing, const DomeView& view, bool labels,
+                 Canvas& canvas) {
+    const double radius = drawing.counts.size() > most_labels ? 1.2 : 2.6;
+    for (const DensityCount& count : drawing.counts) {
+        const Vec3& d = drawing.hemisphere.vertices()[count.vertex];
+        if (view.sees(d))
+            draw_dot(view.place(d), radius, ink, canvas);
+    }
+    if (!labels || drawing.counts.size() > most_labels)
+        return;
+    constexpr double size = 11, digit = 6.2;
+    for (const DensityCount& count : drawing.counts) {
+        const std::string text = std::to_string(count.surfaces);
+        const Vec2 at = view.place(drawing.hemisphere.vertices()[count.vertex]) + Vec2(5, -4);
+        fill_box(canvas, at + Vec2(-1, -9), at + Vec2(digit * double(text.size()) + 1, 1), white,
+                 0.75);
+        canvas.text(at, text, {.size = size, .colour = ink});
+    }
+}
+
+void draw_rays(std::span<const Vec3> rays, const DomeView& view, Canvas& canvas) {
+    const double half = rays.size() > 2000 ? 0.6 : 1.1;
+    for (const Vec3& ray : rays) {
+        const Vec2 at = view.place(ray);
+        fill_box(canvas, at - Vec2(half + 0.5), at + Vec2(half + 0.5), white, 0.7);
+        fill_box(canvas, at - Vec2(half), at + Vec2(half), ray_blue);
+    }
+}
+
+void draw_captions(const HemisphereDrawing& drawing, Canvas& canvas) {
+    const TextStyle middle{.anchor = Anchor::middle, .size = text_size, .colour = ink};
+    canvas.text({40, 30}, drawing.title, {.size = title_size, .colour = ink});
+    canvas.text({centre_above.x, 68}, "from above", middle);
+    canvas.text({centre_side.x, 68}, "from the side", middle);
+    std::string legend = "dots: density rays, with the surfaces counted";
+    if (drawing.counts.size() > most_labels)
+        legend = "dots: density rays";
+    if (!drawing.rays.empty())
+        legend += "; blue: " + std::to_string(drawing.rays.size()) + " energy rays";
+    canvas.text({centre_above.x, 708}, legend, middle);
+}
+
+} // namespace
+
+void draw(const HemisphereDrawing& drawing, Canvas& canvas) {
+    double most = 0;
+    for (const DensityLeaf& leaf : drawing.leaves)
+        most = std::max(most, double(leaf.density));
+    draw_captions(drawing, canvas);
+    const DomeView above = from_above(), side = from_side();
+    draw_triangles(drawing, above, most, canvas);
+    draw_rays(drawing.rays, above, canvas);
+    draw_counts(drawing, above, true, canvas);
+    draw_triangles(drawing, side, most, canvas);
+    draw_counts(drawing, side, false, canvas);
+    draw_colour_bar({{440, 732}, {840, 746}, most, "density, surfaces per ray"}, canvas);
+}
+
+std::string hemisphere_svg(const HemisphereDrawing& drawing) {
+    SvgCanvas canvas(dome_width, dome_height);
+    draw(drawing, canvas);
+    return canvas.document();
+}
+
+} // namespace hemilux

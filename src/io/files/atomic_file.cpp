@@ -1,0 +1,194 @@
+#include "io/files/atomic_file.h"
+
+#include "io/files/error.h"
+#include "io/files/file_identity.h"
+#include "io/files/temporary_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <mutex>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace hemilux {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t buffer_size = 1 << 16;
+
+/// Once for each folder.
+void clean(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> cleaned;
+    const std::lock_guard lock(mutex);
+    if (cleaned.insert(folder).second)
+        remove_stale_temporaries(folder);
+}
+
+bool is_pipe(const std::string& path) {
+    struct stat status {};
+    return ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
+}
+
+std::atomic<const std::atomic<bool>*> ends_waits{nullptr};
+
+/// A wait for another process, in short pauses: a signal may reach any thread at any moment, so
+/// only looking again and again never misses it.
+class Wait {
+  public:
+    static constexpr int milliseconds = 20; ///< of a pause
+
+    /// Before each pause.
+    [[nodiscard]] bool is_over() {
+        const std::atomic<bool>* const flag = ends_waits;
+        return flag && *flag && pauses_after_signal_++ * milliseconds >= 1000;
+    }
+
+  private:
+    int pauses_after_signal_ = 0;
+};
+
+} // namespace
+
+void end_waits_on(const std::atomic<bool>* flag) { ends_waits = flag; }
+
+bool wait_until_writable(int descriptor) {
+    pollfd pipe{.fd = descriptor, .events = POLLOUT, .revents = 0};
+    for (Wait wait; ::poll(&pipe, 1, Wait::milliseconds) <= 0;)
+        if (wait.is_over())
+            return false;
+    return true;
+}
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status))
+        throw OutputError(path, "is a folder");
+    const bool is_new = status.type() == fs::file_type::not_found;
+    if (is_new)
+        target_ = creation_path(path);
+    else if (fs::is_regular_file(status))
+        target_ = fs::canonical(path, error).string();
+    if (error && !is_new)
+        throw OutputError(path, "cannot open: " + error.message());
+    if (is_new || fs::is_regular_file(status)) {
+        const fs::path folder = fs::path(target_).parent_path();
+        clean(folder);
+        TemporaryFile temporary = is_new ? make_temporary(folder) : make_temporary(folder, 0600);
+        temporary_ = std::move(temporary.path);
+        descriptor_ = temporary.descriptor;
+    } else {
+        open_pipe();
+    }
+    if (descriptor_ < 0)
+        fail("open");
+}
+
+/// Or a device. Waits until somebody reads.
+void AtomicFile::open_pipe() {
+    for (Wait wait;;) {
+        descriptor_ = ::open(target_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+        if (descriptor_ >= 0 || (errno != ENXIO && errno != EINTR) || !is_pipe(target_))
+            return;
+        if (wait.is_over())
+            throw Interrupted();
+        ::poll(nullptr, 0, Wait::milliseconds);
+    }
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ < 0)
+        return;
+    ::close(descriptor_);
+    if (!temporary_.empty())
+        ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes) {
+    buffer_ += bytes;
+    if (buffer_.size() >= buffer_size)
+        flush();
+}
+
+void AtomicFile::commit(Durable durable) {
+    flush();
+    take_over_access();
+    if (durable == Durable::yes && !temporary_.empty() && ::fsync(descriptor_) != 0)
+        fail("write");
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    const bool renamed =
+        closed == 0 && (temporary_.empty() || ::rename(temporary_.c_str(), target_.c_str()) == 0);
+    if (renamed) {
+        if (durable == Durable::yes)
+            sync_folder();
+        return;
+    }
+    const int error = errno;
+    if (!temporary_.empty())
+        ::unlink(temporary_.c_str());
+    errno = error;
+    fail(closed == 0 ? "rename" : "write");
+}
+
+/// The new name too. Some file systems cannot do that for folders; the file itself is safe then.
+void AtomicFile::sync_folder() const {
+    const std::string parent = fs::path(target_).parent_path().string();
+    const int folder =
+        ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0)
+        return;
+    ::fsync(folder);
+    ::close(folder);
+}
+
+/// Of the file that is replaced. The content is complete by now, and until now only the user could
+/// read it. A group that cannot be kept has no more rights than all others.
+void AtomicFile::take_over_access() const {
+    struct stat old {};
+    if (temporary_.empty() || ::stat(target_.c_str(), &old) != 0)
+        return;
+    constexpr mode_t all = 0777, group = 0070, others = 0007;
+    mode_t mode = old.st_mode & all;
+    if (::fchown(descriptor_, old.st_uid, old.st_gid) != 0 &&
+        ::fchown(descriptor_, static_cast<uid_t>(-1), old.st_gid) != 0)
+        mode &= ~group | (mode & others) << 3;
+    (void)::fchmod(descriptor_, mode);
+}
+
+void AtomicFile::flush() {
+    std::string_view left = buffer_;
+    while (!left.empty()) {
+        const ssize_t written = ::write(descriptor_, left.data(), left.size());
+        if (written >= 0) {
+            left.remove_prefix(static_cast<std::size_t>(written));
+        } else if (errno == EAGAIN) {
+            if (!wait_until_writable(descriptor_))
+                throw Interrupted();
+        } else if (errno != EINTR) {
+            fail("write");
+        }
+    }
+    buffer_.clear();
+}
+
+void AtomicFile::fail(const char* action) const {
+    throw OutputError(path_, std::string("cannot ") + action + ": " + std::strerror(errno));
+}
+
+void write_atomically(const std::string& path, std::string_view content) {
+    AtomicFile file(path);
+    file.write(content);
+    file.commit();
+}
+
+} // namespace hemilux

@@ -1,0 +1,39 @@
+#include "io/files/file_identity.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include <sys/stat.h>
+
+namespace hemilux {
+
+namespace fs = std::filesystem;
+
+std::string creation_path(const std::string& path) {
+    constexpr int most_links = 40; // as many as Linux follows
+    std::error_code error;
+    fs::path at(path);
+    for (int links = 0; links < most_links && !fs::exists(at, error); ++links) {
+        const fs::path target = fs::read_symlink(at, error);
+        if (error)
+            return at.string();
+        at = at.parent_path() / target;
+    }
+    return path;
+}
+
+std::optional<FileIdentity> identity_of(const std::string& path) {
+    struct stat status {};
+    const auto identity = [&status](const std::string& name) {
+        return FileIdentity{std::uint64_t{status.st_dev}, std::uint64_t{status.st_ino}, name};
+    };
+    if (::stat(path.c_str(), &status) == 0)
+        return S_ISREG(status.st_mode) ? std::optional(identity("")) : std::nullopt;
+    const fs::path created(creation_path(path));
+    const std::string folder = created.parent_path().empty() ? "." : created.parent_path().string();
+    if (::stat(folder.c_str(), &status) != 0 || created.filename().empty())
+        return std::nullopt;
+    return identity(created.filename().string());
+}
+
+} // namespace hemilux

@@ -1,0 +1,98 @@
+#include "io/pictures/camera.h"
+
+#include "geometry/frame.h"
+#include "radiosity/scene/mesh.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace hemilux {
+namespace {
+
+[[noreturn]] void refuse(std::string_view text, const std::string& reason) {
+    throw std::invalid_argument("expected ex,ey,ez,tx,ty,tz or ex,ey,ez,tx,ty,tz,fov (eye, target, "
+                                "vertical angle in degrees), got '" +
+                                std::string(text) + "': " + reason);
+}
+
+/// Numbers between commas; blanks around them are allowed. Returns how many there are.
+std::size_t parse_numbers(std::string_view text, std::array<double, 7>& numbers) {
+    std::size_t count = 0;
+    std::string_view left = text;
+    for (;;) {
+        const std::string_view part = left.substr(0, left.find(','));
+        const std::size_t first = std::min(part.find_first_not_of(" \t"), part.size());
+        const std::string_view word = part.substr(first, part.find_last_not_of(" \t") + 1 - first);
+        if (count == numbers.size())
+            refuse(text, "there are more than 7 numbers");
+        const char* end = word.data() + word.size();
+        const auto [rest, error] = std::from_chars(word.data(), end, numbers[count++]);
+        if (error != std::errc() || rest != end || !std::isfinite(numbers[count - 1]))
+            refuse(text, "'" + std::string(word) + "' is not a finite number");
+        if (part.size() == left.size())
+            return count;
+        left.remove_prefix(part.size() + 1);
+    }
+}
+
+} // namespace
+
+Camera parse_camera(std::string_view text) {
+    std::array<double, 7> n{};
+    const std::size_t count = parse_numbers(text, n);
+    if (count < 6)
+        refuse(text, "there are only " + std::to_string(count) + " numbers");
+    Camera camera{.eye = {n[0], n[1], n[2]}, .target = {n[3], n[4], n[5]}};
+    if (camera.eye == camera.target)
+        refuse(text, "eye and target are the same point");
+    if (count == 7)
+        camera.vertical_fov_degrees = n[6];
+    if (!(camera.vertical_fov_degrees > 0 && camera.vertical_fov_degrees < 180))
+        refuse(text, "the angle must lie between 0 and 180 degrees");
+    return camera;
+}
+
+CameraRays::CameraRays(const Camera& camera, const Mesh& mesh, double aspect)
+    : eye_(mesh.frame().to_local(camera.eye)) {
+    const Vec3 view = mesh.frame().to_local(camera.target) - eye_;
+    if (!(glm::length(view) > 0))
+        throw std::invalid_argument("a camera's eye and target must be different points");
+    forward_ = glm::normalize(view);
+    const Vec3 side = glm::cross(forward_, camera.up);
+    constexpr double parallel = 1e-6; // looking straight up or down: any side does
+    const Vec3 right = glm::length(side) > parallel * glm::length(camera.up)
+                           ? glm::normalize(side)
+                           : Frame::from_normal(forward_).x;
+    const double half = std::tan(camera.vertical_fov_degrees * std::numbers::pi / 360);
+    right_ = half * aspect * right;
+    up_ = half * glm::cross(right, forward_);
+}
+
+Ray CameraRays::ray(double x, double y) const {
+    const Vec3 direction = forward_ + (2 * x - 1) * right_ + (1 - 2 * y) * up_;
+    return {.origin = eye_, .direction = glm::normalize(direction)};
+}
+
+std::optional<Seen> look(const Mesh& mesh, const Tracer& tracer, Ray ray) {
+    constexpr double same_place = 1e-12; // sheets modelled back to back
+    constexpr std::uint32_t most_backs = 10'000;
+    double last = -std::numeric_limits<double>::infinity();
+    for (std::uint32_t backs = 0; backs < most_backs; ++backs) {
+        const std::optional<Hit> hit = tracer.closest(ray);
+        if (!hit)
+            return std::nullopt;
+        if (const std::uint32_t patch = mesh.patch_at(*hit); patch != none)
+            return Seen{*hit, patch, backs};
+        // A front that coincides with this back is still to be seen; but go on from a second back.
+        ray.t_min = hit->t > last + same_place ? hit->t - same_place : hit->t + same_place;
+        ray.from = hit->facet;
+        last = hit->t;
+    }
+    return std::nullopt;
+}
+
+} // namespace hemilux

@@ -1,0 +1,93 @@
+#include "io/pictures/image.h"
+
+#include "io/files/atomic_file.h"
+#include "io/files/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#include <stb_image_write.h>
+
+namespace hemilux {
+namespace {
+
+/// What stb_image_write hands over piece by piece, kept in a std::string.
+void append(void* bytes, void* data, int size) {
+    static_cast<std::string*>(bytes)->append(static_cast<const char*>(data),
+                                             static_cast<std::size_t>(size));
+}
+
+std::uint8_t byte_of(float linear) {
+    return static_cast<std::uint8_t>(std::lround(255.0f * srgb_from_linear(linear)));
+}
+
+/// RGBE has no sign, no infinity and no NaN.
+float clean(float x) { return x > 0 ? std::min(x, std::numeric_limits<float>::max() / 2) : 0.0f; }
+
+} // namespace
+
+float srgb_from_linear(float linear) {
+    if (!(linear > 0)) // NaN is black
+        return 0;
+    if (linear >= 1)
+        return 1;
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+float linear_from_srgb(float encoded) {
+    if (!(encoded > 0)) // NaN is black
+        return 0;
+    if (encoded >= 1)
+        return 1;
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+double auto_exposure(const Image& image) {
+    constexpr double percentile = 0.9;
+    constexpr double contrast = 6;
+    constexpr double aim = 0.8;
+    std::vector<float> lit;
+    for (const glm::vec3& pixel : image.pixels)
+        if (const float y = luminance(pixel); y > 0 && std::isfinite(y))
+            lit.push_back(y);
+    if (lit.empty())
+        return 1;
+    const auto value_at = [&](double share) {
+        const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(lit.size() - 1));
+        std::nth_element(lit.begin(), lit.begin() + rank, lit.end());
+        return static_cast<double>(lit[static_cast<std::size_t>(rank)]);
+    };
+    return aim / std::min(value_at(percentile), contrast * value_at(0.5));
+}
+
+void write_png(const std::string& path, const Image& image, double exposure) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(3 * image.pixels.size());
+    for (const glm::vec3& pixel : image.pixels)
+        for (int channel = 0; channel < 3; ++channel)
+            bytes.push_back(
+                byte_of(static_cast<float>(exposure * static_cast<double>(pixel[channel]))));
+    std::string file;
+    if (!stbi_write_png_to_func(append, &file, image.width, image.height, 3, bytes.data(),
+                                3 * image.width))
+        throw OutputError(path, "cannot encode the picture");
+    write_atomically(path, file);
+}
+
+void write_hdr(const std::string& path, const Image& image) {
+    std::vector<float> values;
+    values.reserve(3 * image.pixels.size());
+    for (const glm::vec3& pixel : image.pixels)
+        for (int channel = 0; channel < 3; ++channel)
+            values.push_back(clean(pixel[channel]));
+    std::string file;
+    if (!stbi_write_hdr_to_func(append, &file, image.width, image.height, 3, values.data()))
+        throw OutputError(path, "cannot encode the picture");
+    write_atomically(path, file);
+}
+
+} // namespace hemilux

@@ -1,0 +1,30 @@
+#pragma once
+// Pictures of a solution.
+
+#include "io/pictures/automatic_camera.h"
+#include "io/pictures/camera.h"
+#include "io/pictures/image.h"
+
+#include <functional>
+#include <span>
+
+namespace hemilux {
+
+struct CornerClasses;
+
+struct RenderOptions {
+    int width = 800, height = 600; ///< pixels
+    int samples = 4;               ///< rays per pixel; more: smoother edges, proportionally slower
+    bool smooth = true;            ///< interpolate over patches; else each shows its own radiosity
+    unsigned threads = 0;          ///< 0: one per core. The picture does not depend on it
+    const CornerClasses* classes = nullptr; ///< of the mesh, where they are known already
+    /// Is asked by all threads before each row; true ends the picture with Interrupted.
+    std::function<bool()> give_up = {};
+};
+
+/// Linear radiosity seen through the camera; black where nothing is. Throws std::invalid_argument
+/// for a size or a number of samples below 1.
+[[nodiscard]] Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
+                           const Camera& camera, const RenderOptions& options = {});
+
+} // namespace hemilux

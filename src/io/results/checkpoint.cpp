@@ -1,0 +1,190 @@
+#include "io/results/checkpoint.h"
+
+#include "io/files/atomic_file.h"
+#include "io/files/error.h"
+#include "io/files/input_file.h"
+#include "io/results/checksum.h"
+#include "radiosity/saving/state.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace hemilux {
+namespace {
+
+constexpr std::string_view magic = "hemilux checkpoint, format ";
+constexpr std::string_view format = "5";
+constexpr std::size_t word = sizeof(std::uint64_t);
+constexpr std::size_t longest_format = 8; ///< digits of a version to come
+
+/// The least bytes that a row and an option take.
+constexpr std::size_t row_bytes = 6 * word, option_bytes = 2 * word;
+
+void add_row(StateWriter& out, const StepRow& row) {
+    out.add(std::string_view(row.method));
+    out.add(std::uint64_t{row.record.step});
+    out.add(row.record.rays);
+    out.add(row.record.seconds);
+    out.add(row.record.estimated_error);
+    out.add(std::uint64_t{row.error.has_value()});
+    const RelativeError error = row.error.value_or(RelativeError{});
+    for (const double value : {error.all, error.detail, error.rest})
+        out.add(value);
+}
+
+/// NaN: it is not known.
+double error_from(StateReader& in) {
+    const double error = in.number();
+    if (error < 0)
+        throw StateError("an error in it is negative");
+    return error;
+}
+
+StepRow row_from(StateReader& in) {
+    StepRow row;
+    row.method = in.text();
+    row.record.step =
+        static_cast<std::uint32_t>(in.whole_up_to(std::numeric_limits<std::uint32_t>::max()));
+    row.record.rays = in.whole();
+    row.record.seconds = in.number(bounds::non_negative);
+    row.record.estimated_error = error_from(in);
+    const bool has_error = in.flag();
+    RelativeError error;
+    for (double* value : {&error.all, &error.detail, &error.rest})
+        *value = error_from(in);
+    if (has_error)
+        row.error = error;
+    return row;
+}
+
+std::string content_of(const Checkpoint& checkpoint) {
+    StateWriter out;
+    out.add(std::uint64_t{checkpoint.options.size()});
+    for (const auto& [name, value] : checkpoint.options) {
+        out.add(std::string_view(name));
+        out.add(std::string_view(value));
+    }
+    out.add(checkpoint.scene);
+    out.add(checkpoint.seconds);
+    out.add(std::uint64_t{checkpoint.rows.size()});
+    for (const StepRow& row : checkpoint.rows)
+        add_row(out, row);
+    out.add(std::string_view(checkpoint.state));
+    return std::move(out).bytes();
+}
+
+Checkpoint parse_content(std::string_view bytes) {
+    StateReader in(bytes);
+    Checkpoint checkpoint;
+    for (std::size_t left = in.count(option_bytes); left > 0; --left) {
+        std::string name = in.text();
+        checkpoint.options.emplace_back(std::move(name), in.text());
+    }
+    checkpoint.scene = in.whole();
+    checkpoint.seconds = in.number(bounds::non_negative);
+    for (std::size_t left = in.count(row_bytes); left > 0; --left)
+        checkpoint.rows.push_back(row_from(in));
+    checkpoint.state = in.text();
+    in.expect_end();
+    return checkpoint;
+}
+
+std::uint64_t checksum_of(std::string_view bytes) {
+    Checksum sum;
+    sum.add(bytes);
+    return sum.value();
+}
+
+/// Takes the first line; what follows is of this version's format.
+void check_first_line(std::string_view& bytes, const std::string& file) {
+    const std::size_t end = bytes.substr(0, magic.size() + longest_format + 1).find('\n');
+    if (!bytes.starts_with(magic) || end == std::string_view::npos)
+        throw InputError(file, "expected a checkpoint written by hemilux --checkpoint");
+    const std::string_view found = bytes.substr(magic.size(), end - magic.size());
+    if (found != format)
+        throw InputError(file, "is a checkpoint of another version: expected format " +
+                                   std::string(format) + "; the version of hemilux that wrote it " +
+                                   "can go on with it");
+    bytes.remove_prefix(end + 1);
+}
+
+} // namespace
+
+std::uint64_t scene_hash(const Mesh& mesh) {
+    StateWriter out;
+    Checksum sum;
+    const auto flush = [&] {
+        sum.add(out.bytes());
+        out = {};
+    };
+    out.add(mesh.frame().centre);
+    out.add(mesh.frame().scale);
+    out.add(mesh.vertices());
+    flush();
+    for (const Facet& facet : mesh.scene().facets) {
+        for (const std::uint32_t v : facet.vertex)
+            out.add(std::uint64_t{v});
+        out.add(std::uint64_t{facet.material});
+        flush();
+    }
+    for (const Material& material : mesh.scene().materials) {
+        out.add(material.reflectance);
+        out.add(material.emission);
+    }
+    flush();
+    for (const Patch& patch : mesh.patches()) {
+        out.add(patch.centre);
+        out.add(patch.area);
+        out.add(std::uint64_t{patch.facet});
+        out.add(std::uint64_t{patch.back});
+        flush();
+    }
+    return sum.value();
+}
+
+std::string to_bytes(const Checkpoint& checkpoint) {
+    const std::string content = content_of(checkpoint);
+    StateWriter length, sum;
+    length.add(std::uint64_t{content.size()});
+    std::string bytes = std::string(magic) + std::string(format) + "\n" + length.bytes() + content;
+    sum.add(checksum_of(bytes));
+    return bytes + sum.bytes();
+}
+
+Checkpoint checkpoint_from(std::string_view bytes, const std::string& file) {
+    const std::string_view all = bytes;
+    check_first_line(bytes, file);
+    try {
+        StateReader header(bytes);
+        const std::uint64_t length = header.whole();
+        bytes.remove_prefix(word);
+        if (bytes.size() < word || length != bytes.size() - word)
+            throw StateError("its length is not what it was when it was written");
+        StateReader tail(bytes.substr(length));
+        if (tail.whole() != checksum_of(all.substr(0, all.size() - word)))
+            throw StateError("its checksum is wrong");
+        return parse_content(bytes.substr(0, length));
+    } catch (const StateError& error) {
+        throw InputError(file, std::string("is a damaged checkpoint: ") + error.what());
+    }
+}
+
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
+    AtomicFile file(path);
+    file.write(to_bytes(checkpoint));
+    file.commit(AtomicFile::Durable::yes);
+}
+
+Checkpoint read_checkpoint(const std::string& path) {
+    bool checked = false; // a large file of another kind is not read to its end
+    const auto check = [&](std::string_view bytes) {
+        if (!checked)
+            check_first_line(bytes, path);
+        checked = true;
+    };
+    return checkpoint_from(read_input(path, InputKind::regular, check), path);
+}
+
+} // namespace hemilux

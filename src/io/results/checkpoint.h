@@ -1,0 +1,41 @@
+#pragma once
+// A run that can be gone on with: what it had computed, and what it was computed from.
+//
+// The file: a line that names the format and its version, the length of what follows, the content
+// (radiosity/saving/state.h) and a checksum of all of it. It replaces the one before only when it
+// is on the disk, so there is always a good one.
+
+#include "io/results/tables.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+struct Checkpoint {
+    /// Options that the result depends on, as on the command line: name and value.
+    std::vector<std::pair<std::string, std::string>> options;
+    std::uint64_t scene = 0;   ///< scene_hash()
+    double seconds = 0;        ///< of the solver until now
+    std::vector<StepRow> rows; ///< of the steps log until now
+    std::string state;         ///< Solver::save()
+};
+
+/// Of all that the solvers see of a scene: places, patches, materials.
+[[nodiscard]] std::uint64_t scene_hash(const Mesh& mesh);
+
+[[nodiscard]] std::string to_bytes(const Checkpoint& checkpoint);
+/// `file` is for messages. Throws InputError for anything that to_bytes() did not make.
+[[nodiscard]] Checkpoint checkpoint_from(std::string_view bytes, const std::string& file);
+
+/// Is on the disk when this returns. Throws OutputError.
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
+/// Throws InputError.
+[[nodiscard]] Checkpoint read_checkpoint(const std::string& path);
+
+} // namespace hemilux

@@ -1,0 +1,107 @@
+#include "io/results/csv.h"
+
+#include "io/files/error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace hemilux::csv {
+namespace {
+
+/// A used field keeps its memory from record to record.
+std::string& field_at(std::vector<std::string>& fields, std::size_t index) {
+    if (index == fields.size())
+        fields.emplace_back();
+    fields[index].clear();
+    return fields[index];
+}
+
+} // namespace
+
+void append_number(std::string& line, double value) {
+    char text[32];
+    const double positive_nan = std::isnan(value) ? std::abs(value) : value;
+    line.append(text, std::to_chars(text, text + sizeof text, positive_nan).ptr);
+}
+
+void append_number(std::string& line, std::uint64_t value) {
+    char text[32];
+    line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+void append_text(std::string& line, std::string_view name) {
+    std::string text(name);
+    if (!text.empty() &&
+        std::string_view("=+-@\t\r\n").find(text.front()) != std::string_view::npos)
+        text.insert(text.begin(), '\'');
+    if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+        line += text;
+        return;
+    }
+    line += '"';
+    for (const char c : text)
+        line.append(c == '"' ? 2 : 1, c);
+    line += '"';
+}
+
+Reader::Reader(const std::string& file, std::string_view content) : file_(file), left_(content) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (left_.substr(0, byte_order_mark.size()) == byte_order_mark)
+        left_.remove_prefix(byte_order_mark.size());
+}
+
+bool Reader::next(std::vector<std::string>& fields) {
+    while (!left_.empty() && at_line_end())
+        skip_line_end();
+    line_ = next_line_;
+    if (left_.empty())
+        return false;
+    std::size_t count = 0;
+    for (;;) {
+        std::string& field = field_at(fields, count++);
+        if (!left_.empty() && left_.front() == '"') {
+            read_quoted(field);
+        } else {
+            const std::size_t length = std::min(left_.find_first_of(",\r\n"), left_.size());
+            field = left_.substr(0, length);
+            left_.remove_prefix(length);
+        }
+        if (left_.empty() || left_.front() != ',')
+            break;
+        left_.remove_prefix(1);
+    }
+    if (!left_.empty() && !at_line_end())
+        throw InputError(file_, next_line_,
+                         "expected a comma or the line's end after a quoted field");
+    if (!left_.empty())
+        skip_line_end();
+    fields.resize(count);
+    return true;
+}
+
+void Reader::read_quoted(std::string& field) {
+    for (;;) {
+        left_.remove_prefix(1); // the opening quote, or the first of a doubled one
+        const std::size_t length = left_.find('"');
+        if (length == std::string_view::npos)
+            throw InputError(file_, line_, "a quoted field has no closing quote");
+        const std::string_view part = left_.substr(0, length);
+        field += part;
+        next_line_ += static_cast<std::size_t>(std::count(part.begin(), part.end(), '\n'));
+        left_.remove_prefix(length + 1);
+        if (left_.empty() || left_.front() != '"')
+            return;
+        field += '"';
+    }
+}
+
+bool Reader::at_line_end() const { return left_.front() == '\n' || left_.front() == '\r'; }
+
+void Reader::skip_line_end() {
+    const bool two = left_.substr(0, 2) == "\r\n";
+    left_.remove_prefix(two ? 2 : 1);
+    ++next_line_;
+}
+
+} // namespace hemilux::csv

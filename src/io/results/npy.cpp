@@ -1,0 +1,60 @@
+#include "io/results/npy.h"
+
+#include "io/files/atomic_file.h"
+#include "io/files/error.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace hemilux {
+
+namespace {
+
+/// Magic, version, length of the text, and the text, padded so that the numbers begin at a multiple
+/// of 64 bytes.
+std::string header(std::size_t rows) {
+    const std::string n = std::to_string(rows);
+    std::string text =
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (" + n + ", " + n + "), }";
+    constexpr std::size_t before = 10, multiple = 64;
+    while ((before + text.size() + 1) % multiple != 0)
+        text += ' ';
+    text += '\n';
+    std::string bytes = "\x93NUMPY";
+    bytes += '\x01';
+    bytes += '\0';
+    bytes += static_cast<char>(text.size() & 0xff);
+    bytes += static_cast<char>(text.size() >> 8);
+    return bytes + text;
+}
+
+void append(std::string& bytes, double value) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    for (int shift = 0; shift < 64; shift += 8)
+        bytes += static_cast<char>(static_cast<unsigned char>(bits >> shift));
+}
+
+} // namespace
+
+void write_npy(const std::string& path, const SparseMatrix& matrix,
+               const std::atomic<bool>* interrupted) {
+    AtomicFile file(path);
+    file.write(header(matrix.rows()));
+    std::vector<double> row(matrix.rows());
+    std::string bytes;
+    for (std::size_t i = 0; i < matrix.rows(); ++i) {
+        if (interrupted && *interrupted)
+            throw Interrupted();
+        std::ranges::fill(row, 0.0);
+        for (std::size_t k = matrix.row_begin[i]; k < matrix.row_begin[i + 1]; ++k)
+            row[matrix.column[k]] = matrix.value[k];
+        bytes.clear();
+        for (const double value : row)
+            append(bytes, value);
+        file.write(bytes);
+    }
+    file.commit();
+}
+
+} // namespace hemilux

@@ -1,0 +1,69 @@
+#include "io/results/statistics.h"
+
+#include "io/files/atomic_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+namespace hemilux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json channels(const Vec3& power) { return Json::array({power.x, power.y, power.z}); }
+
+Json to_object(const Statistics& s) {
+    Json left_out = Json::array();
+    for (const LeftOut& item : s.left_out)
+        left_out.push_back({{"what", item.what}, {"why", item.why}, {"saved", item.saved}});
+    return {{"patches", s.patches},
+            {"faces", s.faces},
+            {"materials", s.materials},
+            {"method", s.method},
+            {"seed", s.seed},
+            {"threads", s.threads},
+            {"steps", s.steps},
+            {"rays_energy", s.rays_energy},
+            {"rays_density", s.rays_density},
+            {"seconds_read", s.seconds_read},
+            {"seconds_bvh", s.seconds_bvh},
+            {"seconds_density", s.seconds_density},
+            {"seconds_solve", s.seconds_solve},
+            {"rays_per_second", s.rays_per_second},
+            {"bytes_density", s.bytes_density},
+            {"bytes_density_paper", s.bytes_density_paper},
+            {"bytes_transport", s.bytes_transport},
+            {"bytes_peak", s.bytes_peak},
+            {"estimated_error", s.estimated_error},
+            {"estimated_error_uncertainty", s.estimated_error_uncertainty},
+            {"energy",
+             {{"emitted", channels(s.energy.emitted)},
+              {"absorbed", channels(s.energy.absorbed)},
+              {"escaped", channels(s.energy.escaped)},
+              {"unshot", channels(s.energy.unshot)},
+              {"imbalance", s.energy.imbalance()}}},
+            {"left_out", left_out}};
+}
+
+} // namespace
+
+std::string to_json(const Statistics& statistics) {
+    // A name that is not UTF-8 must not cost the user the file; NaN and infinity become null.
+    constexpr int indent = 2;
+    return to_object(statistics).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_statistics(const std::string& path, const Statistics& statistics) {
+    write_atomically(path, to_json(statistics));
+}
+
+std::uint64_t peak_memory_bytes() {
+    constexpr std::uint64_t unit = 1024; // Linux reports KiB
+    rusage usage{};
+    if (getrusage(RUSAGE_SELF, &usage) != 0)
+        return 0;
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * unit;
+}
+
+} // namespace hemilux

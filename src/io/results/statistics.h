@@ -1,0 +1,44 @@
+#pragma once
+// The figures of a run, as the JSON object that other tools read (docs: the program's outputs).
+
+#include "radiosity/solving/left_out.h"
+#include "radiosity/solving/solution.h"
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+struct Statistics {
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); ///< JSON: null
+
+    std::uint64_t patches = 0, faces = 0, materials = 0;
+    std::string method;
+    std::uint64_t seed = 0;
+    unsigned threads = 0;
+    std::uint64_t steps = 0;
+    std::uint64_t rays_energy = 0, rays_density = 0;
+    double seconds_read = unknown, seconds_bvh = unknown;
+    double seconds_density = unknown, seconds_solve = unknown;
+    double rays_per_second = unknown;
+    std::uint64_t bytes_density = 0;       ///< measured
+    std::uint64_t bytes_transport = 0;     ///< of the rays that `gathering` keeps
+    std::uint64_t bytes_density_paper = 0; ///< 4 (4^(n+1) - 1) / 3 per patch (paper section 6)
+    std::uint64_t bytes_peak = 0;          ///< of the process
+    double estimated_error = unknown;
+    double estimated_error_uncertainty = unknown; ///< one sigma; NaN before two steps
+    EnergyBalance energy;
+    std::vector<LeftOut> left_out;
+};
+
+/// The object's text, one key a line, in the order of the struct.
+[[nodiscard]] std::string to_json(const Statistics& statistics);
+/// Throws OutputError.
+void write_statistics(const std::string& path, const Statistics& statistics);
+
+/// The most memory that this process has held so far [bytes].
+[[nodiscard]] std::uint64_t peak_memory_bytes();
+
+} // namespace hemilux

@@ -1,0 +1,134 @@
+#include "io/results/tables.h"
+
+#include "io/files/atomic_file.h"
+#include "io/files/error.h"
+#include "io/results/csv.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+namespace hemilux {
+namespace {
+
+constexpr std::string_view patch_header =
+    "patch,face,material,group,area,x,y,z,nx,ny,nz,reflectance_r,reflectance_g,reflectance_b,"
+    "emission_r,emission_g,emission_b,radiosity_r,radiosity_g,radiosity_b,stderr_r,stderr_g,"
+    "stderr_b\n";
+constexpr std::string_view steps_header =
+    "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,true_error_rest\n";
+
+/// Some rows are written to the file while others are put into words: so many at once, about 4 MB.
+constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64;
+
+/// Fields that follow a comma.
+void add(std::string& line, double value) {
+    line += ',';
+    csv::append_number(line, value);
+}
+void add(std::string& line, std::uint64_t value) {
+    line += ',';
+    csv::append_number(line, value);
+}
+void add(std::string& line, const Vec3& v) {
+    for (int i = 0; i < 3; ++i)
+        add(line, v[i]);
+}
+void add_if_known(std::string& line, double value) {
+    line += ',';
+    if (!std::isnan(value))
+        csv::append_number(line, value);
+}
+
+/// The rows of a patch table. The texts that many of them share are made once.
+class PatchRows {
+  public:
+    PatchRows(const Mesh& mesh, std::span<const Vec3> radiosity,
+              std::span<const Vec3> standard_error)
+        : mesh_(mesh), radiosity_(radiosity), standard_error_(standard_error) {
+        for (const Material& m : mesh.scene().materials) {
+            csv::append_text(material_.emplace_back(","), m.name);
+            std::string& text = colours_.emplace_back();
+            add(text, m.reflectance);
+            add(text, m.emission);
+        }
+        for (const std::string& name : mesh.scene().groups)
+            csv::append_text(group_.emplace_back(","), name);
+    }
+
+    void append(std::size_t i, std::string& text) const {
+        const Patch& patch = mesh_.patches()[i];
+        const Facet& facet = mesh_.scene().facets[patch.facet];
+        const LocalFrame& frame = mesh_.frame();
+        csv::append_number(text, std::uint64_t{i});
+        add(text, std::uint64_t{facet.face});
+        text += material_[patch.material];
+        text += facet.group < group_.size() ? group_[facet.group] : ",";
+        add(text, frame.area_to_world(patch.area));
+        add(text, frame.to_world(patch.centre));
+        add(text, patch.normal);
+        text += colours_[patch.material];
+        add(text, radiosity_[i]);
+        add(text, standard_error_.empty() ? Vec3(0.0) : standard_error_[i]);
+        text += '\n';
+    }
+
+  private:
+    const Mesh& mesh_;
+    std::span<const Vec3> radiosity_, standard_error_;
+    std::vector<std::string> material_, colours_, group_;
+};
+
+} // namespace
+
+void write_patch_table(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
+                       std::span<const Vec3> standard_error, const Workers& workers) {
+    const std::size_t rows = mesh.patches().size();
+    assert(radiosity.size() == rows);
+    assert(standard_error.empty() || standard_error.size() == rows);
+    const PatchRows table(mesh, radiosity, standard_error);
+    AtomicFile file(path);
+    file.write(patch_header);
+    std::array<std::string, texts_at_a_time> texts;
+    for (std::size_t first = 0; first < rows; first += texts.size() * rows_per_text) {
+        const auto row = [&](std::size_t text) {
+            return std::min(first + text * rows_per_text, rows);
+        };
+        workers.for_each_in_order(
+            texts.size(),
+            [&](std::size_t k) {
+                texts[k].clear();
+                for (std::size_t i = row(k); i < row(k + 1); ++i)
+                    table.append(i, texts[k]);
+            },
+            [&](std::size_t k) { file.write(texts[k]); });
+    }
+    file.commit();
+}
+
+void write_steps_log(const std::string& path, std::span<const StepRow> rows) {
+    std::string text(steps_header);
+    for (const StepRow& row : rows) {
+        csv::append_text(text, row.method);
+        add(text, std::uint64_t{row.run});
+        add(text, std::uint64_t{row.record.step});
+        add(text, row.record.rays);
+        add(text, row.record.seconds);
+        add_if_known(text, row.record.estimated_error);
+        constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+        const RelativeError error = row.error.value_or(RelativeError{absent, absent, absent});
+        add_if_known(text, error.all);
+        add_if_known(text, error.detail);
+        add_if_known(text, error.rest);
+        text += '\n';
+    }
+    write_atomically(path, text);
+}
+
+} // namespace hemilux

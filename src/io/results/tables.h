@@ -1,0 +1,48 @@
+#pragma once
+// Tables of numbers as CSV (RFC 4180): the patch table, written and read again as a reference, and
+// the log of the steps. Columns are a contract that other tools read; numbers are the shortest text
+// that gives back the same double.
+
+#include "radiosity/sampling/workers.h"
+#include "radiosity/solving/solution.h"
+#include "radiosity/solving/solver.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+/// One row per patch in the mesh's order, in world units. An empty `standard_error` is written as
+/// zeros, a NaN as `nan`. The same bytes for any number of threads. Throws OutputError.
+void write_patch_table(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
+                       std::span<const Vec3> standard_error, const Workers& workers = Workers(1));
+
+/// What `solve --reference` needs of a patch table; one entry per patch, world units.
+struct PatchTable {
+    std::vector<Vec3> centre;
+    std::vector<double> area;
+    std::vector<Vec3> radiosity;
+    std::vector<Vec3> standard_error; ///< may be NaN
+};
+
+/// Columns are found by their names, in any order; others are skipped. Throws InputError with file
+/// and line.
+[[nodiscard]] PatchTable read_patch_table(const std::string& path);
+
+/// A row of the steps log.
+struct StepRow {
+    std::string method;
+    std::uint32_t run = 0; ///< which of several runs with different seeds
+    StepRecord record{};
+    std::optional<RelativeError> error; ///< against a reference, if there is one
+};
+
+/// What is absent or NaN stays an empty field. Throws OutputError.
+void write_steps_log(const std::string& path, std::span<const StepRow> rows);
+
+} // namespace hemilux

@@ -1,0 +1,172 @@
+#include "io/scene_files/inspect.h"
+
+#include "geometry/polygon.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/scene/stacked_facets.h"
+#include "radiosity/sides/welded_edges.h"
+#include "radiosity/solving/check_input.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+std::string text_of(double x) {
+    constexpr int digits = 6;
+    char buffer[32];
+    const auto end =
+        std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::general, digits);
+    return {buffer, end.ptr};
+}
+std::string text_of(std::size_t n) { return std::to_string(n); }
+std::string text_of(const Vec3& v) {
+    return text_of(v.x) + ' ' + text_of(v.y) + ' ' + text_of(v.z);
+}
+std::string text_of(const std::vector<std::string>& items) {
+    constexpr std::size_t longest_list = 8;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(items.size(), longest_list); ++i)
+        text += (i == 0 ? "" : ", ") + items[i];
+    if (items.size() > longest_list)
+        text += " and " + text_of(items.size() - longest_list) + " more";
+    return text;
+}
+
+void add_line(std::string& text, std::string name, const std::string& value) {
+    constexpr std::size_t column = 20;
+    name.resize(std::max(name.size() + 2, column), ' ');
+    text += name + value + '\n';
+}
+
+/// A doubt is worth a line only where there is one.
+void add_doubt(std::string& text, const std::string& name, std::size_t count,
+               const std::string& meaning) {
+    if (count > 0)
+        add_line(text, name, text_of(count) + " (" + meaning + ")");
+}
+
+std::vector<bool> find_used_materials(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size(), false);
+    for (const Facet& facet : scene.facets)
+        used[facet.material] = true;
+    return used;
+}
+
+bool emits(const Vec3& e) { return e.x > 0 || e.y > 0 || e.z > 0; }
+
+Box bounds_of(const Scene& scene) {
+    Box bounds;
+    for (const Facet& facet : scene.facets)
+        for (const std::uint32_t v : facet.vertex)
+            bounds.include(scene.vertices[v]);
+    return bounds;
+}
+
+/// Areas are computed in units in which the scene has a size of about 1, so that no square
+/// vanishes or overflows.
+void sum_areas(const Scene& scene, SceneInfo& info) {
+    const Vec3 extent = info.bounds.extent();
+    int exponent = 0;
+    std::frexp(std::max({extent.x, extent.y, extent.z}), &exponent);
+    const double scale = std::ldexp(1.0, -exponent);
+    for (const Facet& facet : scene.facets) {
+        Polygon shape;
+        for (std::size_t i = 0; i < 4; ++i)
+            shape.corner[i] = (scene.vertices[facet.vertex[i]] - info.bounds.low) * scale;
+        const double area = std::ldexp(shape.area(), 2 * exponent);
+        info.total_area += area;
+        info.emitted_power += area * scene.materials[facet.material].emission;
+    }
+}
+
+} // namespace
+
+SceneInfo inspect(const ReadResult& read) {
+    const Scene& scene = read.scene;
+    SceneInfo info;
+    info.faces = scene.faces;
+    info.facets = scene.facets.size();
+    info.triangles = static_cast<std::size_t>(
+        std::count_if(scene.facets.begin(), scene.facets.end(),
+                      [](const Facet& facet) { return facet.is_triangle(); }));
+    info.quads = info.facets - info.triangles;
+    info.vertices = scene.vertices.size();
+    info.materials = scene.materials.size();
+    info.groups = scene.groups.size();
+    info.bounds = bounds_of(scene);
+    sum_areas(scene, info);
+    const EdgeCounts edges = count_edges(scene);
+    info.open_edges = edges.open;
+    info.nonmanifold_edges = edges.nonmanifold;
+    const Stacks stacks = find_stacks(scene, LocalFrame::of(scene).to_local(scene.vertices));
+    info.covered_facets = stacks.covered;
+    info.all_compared = stacks.complete;
+    info.degenerate_faces = read.degenerate_faces;
+    info.nonplanar_faces = read.nonplanar_faces;
+    info.concave_faces = read.concave_faces;
+    const std::vector<bool> used = find_used_materials(scene);
+    for (std::size_t m = 0; m < used.size(); ++m)
+        if (used[m] && emits(scene.materials[m].emission))
+            info.emitters.push_back(scene.materials[m].name);
+    info.bad_reflectances = find_bad_reflectances(read);
+    return info;
+}
+
+std::vector<std::string> find_bad_reflectances(const ReadResult& read) {
+    const std::vector<bool> used = find_used_materials(read.scene);
+    std::vector<std::string> messages;
+    for (std::size_t m = 0; m < used.size(); ++m) {
+        const Material& material = read.scene.materials[m];
+        if (!used[m] || is_reflectance(material.reflectance))
+            continue;
+        const bool has_source = m < read.material_source.size() && !read.material_source[m].empty();
+        messages.push_back((has_source ? read.material_source[m] + ": " : "") + "material \"" +
+                           material.name + "\" has reflectance " + text_of(material.reflectance) +
+                           "; expected values from 0 to 1");
+    }
+    return messages;
+}
+
+std::string describe(const SceneInfo& info) {
+    std::string text;
+    add_line(text, "faces", text_of(info.faces));
+    add_line(text, "facets",
+             text_of(info.facets) + " (" + text_of(info.triangles) + " triangles, " +
+                 text_of(info.quads) + " quads)");
+    add_line(text, "vertices", text_of(info.vertices));
+    add_line(text, "materials", text_of(info.materials));
+    add_line(text, "groups", text_of(info.groups));
+    add_line(text, "lowest corner", text_of(info.bounds.low));
+    add_line(text, "highest corner", text_of(info.bounds.high));
+    add_line(text, "size", text_of(info.bounds.extent()));
+    add_line(text, "total area", text_of(info.total_area));
+    add_line(text, "emitted power", text_of(info.emitted_power) + " (red, green, blue)");
+    add_line(text, "emitting materials", info.emitters.empty() ? "none" : text_of(info.emitters));
+    add_doubt(text, "without area", info.degenerate_faces, "faces left out");
+    add_doubt(text, "not planar", info.nonplanar_faces, "faces divided into triangles");
+    add_doubt(text, "concave", info.concave_faces, "faces divided into triangles");
+    add_doubt(text, "open edges", info.open_edges,
+              "edges of only one face: a boundary, or a vertex on an edge of another face");
+    add_doubt(text, "shared edges", info.nonmanifold_edges, "edges of more than two faces");
+    add_doubt(text, "covered", info.covered_facets,
+              "facets in the place of another that faces the same way, wholly or in part; one of "
+              "them is seen");
+    if (!info.all_compared)
+        add_line(text, "covered",
+                 "perhaps more: too many facets lie over each other to compare them all");
+    for (const std::string& message : info.bad_reflectances)
+        add_line(text, "bad reflectance", message);
+    return text;
+}
+
+std::string describe(std::span<const LeftOut> left_out) {
+    std::string text;
+    for (const LeftOut& item : left_out)
+        add_line(text, text.empty() ? "not needed" : "",
+                 item.what + ": " + item.why + "; saves " + item.saved);
+    return text;
+}
+
+} // namespace hemilux

@@ -1,0 +1,45 @@
+#pragma once
+// What a scene is, and what is doubtful about it.
+
+#include "geometry/box.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/solving/left_out.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+struct SceneInfo {
+    std::size_t faces = 0;                            ///< in the file
+    std::size_t facets = 0, triangles = 0, quads = 0; ///< made of them
+    std::size_t vertices = 0, materials = 0, groups = 0;
+    Box bounds;              ///< of the facets [m]
+    double total_area = 0;   ///< of the front sides [m2]
+    Vec3 emitted_power{0.0}; ///< sum of E A [W per channel]
+
+    /// Edges of exactly one facet, and those of three or more, vertices at equal positions being
+    /// one. A closed scene has no open edges, unless vertices lie on edges of other facets.
+    std::size_t open_edges = 0, nonmanifold_edges = 0;
+    std::size_t covered_facets = 0; ///< stacked_facets.h
+    bool all_compared = true;       ///< else some more may be covered
+    std::size_t degenerate_faces = 0, nonplanar_faces = 0, concave_faces = 0;
+
+    std::vector<std::string> emitters; ///< names of materials that are used and emit
+    std::vector<std::string> bad_reflectances;
+};
+
+[[nodiscard]] SceneInfo inspect(const ReadResult& read);
+
+/// A message for each material in use whose reflectance is outside [0,1]: its name, the value and
+/// where it was defined, as far as known. No solution exists with such materials.
+[[nodiscard]] std::vector<std::string> find_bad_reflectances(const ReadResult& read);
+
+/// Lines of text: names on the left, figures on the right.
+[[nodiscard]] std::string describe(const SceneInfo& info);
+/// The same of what the scene does not need, a line each; empty if it needs everything.
+[[nodiscard]] std::string describe(std::span<const LeftOut> left_out);
+
+} // namespace hemilux

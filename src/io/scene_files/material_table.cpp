@@ -1,0 +1,188 @@
+#include "io/scene_files/material_table.h"
+
+#include "io/files/input_file.h"
+#include "io/files/text_words.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+/// For messages.
+std::string shortened(const std::string& text) {
+    constexpr std::size_t longest = 100;
+    return text.size() <= longest ? text : text.substr(0, longest) + "...";
+}
+
+std::string in_quotes(std::string_view name) { return '"' + shortened(std::string(name)) + '"'; }
+
+std::string counted_materials(std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " material" : " materials");
+}
+
+std::string without_quotes(std::string_view name) {
+    if (name.size() > 1 && name.front() == '"' && name.back() == '"')
+        name = name.substr(1, name.size() - 2);
+    return std::string(name);
+}
+
+} // namespace
+
+std::uint32_t MaterialTable::index_of(const std::string& name) {
+    const auto next = static_cast<std::uint32_t>(materials.size());
+    const auto [found, is_new] = index_.try_emplace(name, next);
+    if (is_new) {
+        materials.emplace_back().name = name;
+        sources.emplace_back();
+        entries_.emplace_back();
+    }
+    return found->second;
+}
+
+std::uint32_t MaterialTable::use(const std::string& name, std::size_t line) {
+    const std::uint32_t index = index_of(name);
+    Entry& entry = entries_[index];
+    if (!entry.used)
+        entry.first_use = line;
+    entry.used = true;
+    return index;
+}
+
+/// The file as named, relative to the OBJ file's folder; else, as paths of other machines are
+/// common, its last part in that folder. Empty where neither is a regular file.
+std::string MaterialTable::find_library(std::string_view name) const {
+    std::string plain = without_quotes(name);
+    std::replace(plain.begin(), plain.end(), '\\', '/');
+    const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
+    const std::filesystem::path given(plain);
+    for (const std::filesystem::path& candidate : {folder / given, folder / given.filename()}) {
+        if (is_input(candidate.string(), InputKind::regular)) // a pipe might never end
+            return candidate.string();
+    }
+    return {};
+}
+
+void MaterialTable::read_libraries(std::string_view names, std::size_t line) {
+    const std::string where = path_ + ":" + std::to_string(line) + ": ";
+    const std::string_view whole = name_in(names);
+    if (whole.empty()) {
+        if (libraries_missed_.insert("").second)
+            warnings.push_back(where + "no file name after mtllib");
+        return;
+    }
+    if (const std::string file = find_library(whole); !file.empty()) {
+        read_library(file, where);
+        return;
+    }
+    std::vector<std::string> found;
+    std::string missing;
+    for (std::string_view rest = names, word = take_word(rest); !word.empty();
+         word = take_word(rest))
+        if (std::string file = find_library(word); !file.empty())
+            found.push_back(std::move(file));
+        else
+            missing += (missing.empty() ? "" : ", ") + in_quotes(word);
+    if (found.empty())
+        missing = in_quotes(whole);
+    for (const std::string& file : found)
+        read_library(file, where);
+    if (!missing.empty() && libraries_missed_.insert(shortened(missing)).second)
+        warnings.push_back(where + "material library " + shortened(missing) +
+                           " not found or no regular file");
+}
+
+void MaterialTable::read_library(const std::string& file, const std::string& where) {
+    const std::optional<FileIdentity> identity = identity_of(file);
+    if (!identity || !libraries_read_.insert(*identity).second)
+        return;
+    warn_of_outside(file, where);
+    /// Of the shortest statements that make a material.
+    constexpr double bytes_per_character = 16;
+    std::error_code error;
+    if (const std::uintmax_t size = std::filesystem::file_size(file, error);
+        before_library_ && !error)
+        before_library_(bytes_per_character * static_cast<double>(size));
+    libraries.push_back(file);
+    MtlFile read = read_mtl(file);
+    for (const MtlMaterial& material : read.materials)
+        define(file, material);
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    for (const std::string& texture : read.textures)
+        textures.push_back((folder / texture).string());
+}
+
+/// Links are followed. The scene's author chose the file, and the reader of a scene from elsewhere
+/// may not expect it.
+void MaterialTable::warn_of_outside(const std::string& file, const std::string& where) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::path parent = fs::path(path_).parent_path();
+    const fs::path folder = fs::canonical(parent.empty() ? fs::path(".") : parent, error);
+    const fs::path inside = fs::canonical(file, error).lexically_relative(folder);
+    if (error || (!inside.empty() && *inside.begin() != "..") || std::exchange(outside_, true))
+        return;
+    warnings.push_back(where + "material library " + in_quotes(file) +
+                       " lies outside the scene's folder (this is the first)");
+}
+
+void MaterialTable::define(const std::string& file, const MtlMaterial& material) {
+    const std::string where = file + ":" + std::to_string(material.line);
+    const std::uint32_t index = index_of(material.name);
+    if (entries_[index].defined) {
+        if (std::exchange(entries_[index].redefined_in, file) == file)
+            return;
+        warnings.push_back(where + ": material " + in_quotes(material.name) + " is defined in " +
+                           sources[index] + " already, which is taken");
+        return;
+    }
+    entries_[index].defined = true;
+    sources[index] = where;
+    materials[index].reflectance = material.reflectance.value_or(Material().reflectance);
+    materials[index].emission = material.emission.value_or(Material().emission);
+    textured_ += material.textured;
+    textured_emission_ += material.textured_emission;
+    textured_without_colour_ += material.textured && !material.reflectance;
+}
+
+void MaterialTable::finish() {
+    warn_of_undefined();
+    warn_of_textures();
+}
+
+void MaterialTable::warn_of_undefined() {
+    constexpr std::size_t longest_list = 8;
+    std::size_t count = 0;
+    std::string names, where;
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        if (entries_[i].defined || entries_[i].first_use == 0)
+            continue;
+        if (count == 0)
+            where = path_ + ":" + std::to_string(entries_[i].first_use) + ": ";
+        if (count++ < longest_list)
+            names += (names.empty() ? "" : ", ") + in_quotes(materials[i].name);
+    }
+    if (count > longest_list)
+        names += " and " + std::to_string(count - longest_list) + " more";
+    if (count > 0)
+        warnings.push_back(where + counted_materials(count) + " used but not defined (" + names +
+                           "): reflectance 0.5, no emission");
+}
+
+void MaterialTable::warn_of_textures() {
+    if (textured_emission_ > 0)
+        warnings.push_back(path_ +
+                           ": textures are not read: " + counted_materials(textured_emission_) +
+                           " with map_Ke; their emission is Ke, or none");
+    if (textured_ == 0)
+        return;
+    std::string text =
+        path_ + ": textures are not read: " + counted_materials(textured_) + " with map_Kd";
+    if (textured_without_colour_ > 0)
+        text += ", of which " + std::to_string(textured_without_colour_) +
+                " without Kd: reflectance 0.5";
+    warnings.push_back(std::move(text));
+}
+
+} // namespace hemilux

@@ -1,0 +1,67 @@
+#pragma once
+// The materials of an OBJ file by name: used ones and those that its MTL files define, whichever
+// comes first. Of several definitions of a name the first is taken.
+
+#include "io/files/file_identity.h"
+#include "io/scene_files/mtl.h"
+#include "radiosity/scene/scene.h"
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace hemilux {
+
+class MaterialTable {
+  public:
+    /// `path` of the OBJ file; libraries are looked for in its folder.
+    /// Before a library is read `before_library` is called with about the bytes that it will take;
+    /// what that throws ends the reading.
+    explicit MaterialTable(const std::string& path,
+                           std::function<void(double bytes)> before_library = {})
+        : path_(path), before_library_(std::move(before_library)) {}
+
+    /// The material's index. `line` of the OBJ file is for messages.
+    [[nodiscard]] std::uint32_t use(const std::string& name, std::size_t line);
+    /// Reads what follows mtllib: a file name that may have blanks in it, or else several names.
+    /// A library that is missing is a warning. Throws InputError for one with errors.
+    void read_libraries(std::string_view names, std::size_t line);
+    /// Adds to the warnings what is only known at the end.
+    void finish();
+
+    std::vector<Material> materials;
+    std::vector<std::string> sources; ///< "file:line" of each definition; "" where there is none
+    std::vector<std::string> warnings;
+    std::vector<std::string> libraries; ///< paths of those that were read
+    std::vector<std::string> textures;  ///< where those that they name may lie; they are not read
+
+  private:
+    struct Entry {
+        std::size_t first_use = 0; ///< line of the OBJ file
+        bool used = false, defined = false;
+        std::string redefined_in; ///< file, which was said
+    };
+    [[nodiscard]] std::uint32_t index_of(const std::string& name);
+    [[nodiscard]] std::string find_library(std::string_view name) const;
+    void read_library(const std::string& file, const std::string& where);
+    void warn_of_outside(const std::string& file, const std::string& where);
+    void define(const std::string& file, const MtlMaterial& material);
+    void warn_of_undefined();
+    void warn_of_textures();
+
+    std::string path_;
+    std::function<void(double bytes)> before_library_;
+    std::set<FileIdentity> libraries_read_;
+    bool outside_ = false;                   ///< a library outside the scene's folder was reported
+    std::set<std::string> libraries_missed_; ///< which was said
+    std::unordered_map<std::string, std::uint32_t> index_;
+    std::vector<Entry> entries_;
+    std::size_t textured_ = 0, textured_without_colour_ = 0, textured_emission_ = 0;
+};
+
+} // namespace hemilux

@@ -1,0 +1,100 @@
+#include "io/scene_files/mtl.h"
+
+#include "io/files/error.h"
+#include "io/files/text_reader.h"
+#include "io/files/text_words.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <set>
+
+namespace hemilux {
+namespace {
+
+/// Three numbers, or one for all channels.
+Vec3 read_colour(const std::string& path, const Statement& statement) {
+    const std::string expected =
+        "expected 1 or 3 numbers of at least 0 after " + std::string(statement.keyword) + ", ";
+    std::string_view rest = statement.rest;
+    Vec3 colour(0.0);
+    for (int i = 0; i < 3; ++i) {
+        const std::string_view word = take_word(rest);
+        if (i == 1 && word.empty())
+            return Vec3(colour.x);
+        const std::optional<double> number = parse_decimal(word);
+        if (!number || *number < 0)
+            throw InputError(path, statement.line,
+                             expected + (number ? found_instead(word) + " (it is negative)"
+                                                : found_instead_of_number(word)));
+        colour[i] = *number;
+    }
+    return colour;
+}
+
+MtlMaterial new_material(const std::string& path, const Statement& statement) {
+    MtlMaterial material;
+    material.name = name_in(statement.rest);
+    material.line = statement.line;
+    if (material.name.empty())
+        throw InputError(path, statement.line, "expected a name after newmtl");
+    return material;
+}
+
+bool names_texture(std::string_view keyword) {
+    constexpr std::array<std::string_view, 5> others{"bump", "disp", "decal", "refl", "norm"};
+    return keyword.starts_with("map_") || std::ranges::find(others, keyword) != others.end();
+}
+
+void add_textures(std::string_view rest, std::set<std::string, std::less<>>& names) {
+    constexpr int most_words = 16; // of all options together
+    rest = name_in(rest);
+    const bool has_options = rest.starts_with('-');
+    for (int words = 0; !rest.empty() && words < most_words; ++words) {
+        if (!names.contains(rest))
+            names.emplace(rest);
+        if (!has_options)
+            return;
+        (void)take_word(rest);
+        rest = trimmed(rest);
+    }
+}
+
+} // namespace
+
+MtlFile read_mtl(const std::string& path) {
+    TextReader reader(read_text_file(path, InputKind::regular));
+    MtlFile file;
+    std::vector<MtlMaterial>& materials = file.materials;
+    std::set<std::string, std::less<>> textures;
+    Statement statement;
+    while (reader.next(statement)) {
+        for (const std::string_view keyword : {"newmtl", "Kd", "Ke", "map_Kd", "map_Ke"})
+            if (differ_in_case(statement.keyword, keyword))
+                throw InputError(path, statement.line,
+                                 "expected " + std::string(keyword) + ", " +
+                                     found_instead(statement.keyword) +
+                                     ": capitals make a difference in keywords");
+        if (names_texture(statement.keyword))
+            add_textures(statement.rest, textures);
+        if (statement.keyword == "newmtl")
+            materials.push_back(new_material(path, statement));
+        else if (materials.empty())
+            continue;
+        else if (statement.keyword == "Kd")
+            materials.back().reflectance = read_colour(path, statement);
+        else if (statement.keyword == "Ke")
+            materials.back().emission = read_colour(path, statement);
+        else if (statement.keyword == "map_Kd")
+            materials.back().textured = true;
+        else if (statement.keyword == "map_Ke")
+            materials.back().textured_emission = true;
+    }
+    for (std::string name : textures) {
+        std::ranges::replace(name, '\\', '/');
+        file.textures.push_back(std::move(name));
+    }
+    return file;
+}
+
+} // namespace hemilux

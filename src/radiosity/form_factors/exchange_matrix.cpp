@@ -1,0 +1,197 @@
+#include "radiosity/form_factors/exchange_matrix.h"
+
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+/// Each takes most of what is missing away. In open scenes no symmetric matrix may agree with all
+/// that was lost, and no number would be enough.
+constexpr int scalings = 6;
+/// Of the whole, from the mean of what its sets were scaled by.
+constexpr int scalings_of_all = 3;
+
+/// Fewer entries are read sooner than other threads would be called.
+constexpr std::size_t entries_for_one_thread = 60'000;
+
+/// Sum of value times x[column], in four sums that do not wait for each other.
+double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
+    const auto term = [&](const MatrixEntry& entry) {
+        return static_cast<double>(entry.value) * x[entry.column];
+    };
+    std::array<double, 4> sum{};
+    std::size_t next = 0;
+    for (; next + 4 <= row.size(); next += 4)
+        for (std::size_t k = 0; k < 4; ++k)
+            sum[k] += term(row[next + k]);
+    for (; next < row.size(); ++next)
+        sum[0] += term(row[next]);
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+} // namespace
+
+ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& set)
+    : scale_(mesh.patches().size(), 1.0), lost_(mesh.patches().size()) {
+    for (const Patch& patch : mesh.patches())
+        area_.push_back(patch.area);
+    find_lost(set);
+    store(set);
+    close(scalings, Workers(1));
+}
+
+ExchangeMatrix::ExchangeMatrix(std::vector<ExchangeMatrix> sets, const Workers& workers)
+    : scale_(sets[0].scale_.size()), area_(std::move(sets[0].area_)), rays_(area_.size()),
+      lost_(area_.size()) {
+    find_lost(sets);
+    for (const ExchangeMatrix& set : sets)
+        for (std::size_t i = 0; i < scale_.size(); ++i)
+            scale_[i] += set.scale_[i] / static_cast<double>(sets.size());
+    std::vector<SparseRows> rows;
+    for (ExchangeMatrix& set : sets)
+        rows.push_back(std::move(set.rows_));
+    sets.clear();
+    rows_ = SparseRows(std::move(rows), workers);
+    close(scalings_of_all, workers);
+}
+
+void ExchangeMatrix::find_lost(const RayCounts& set) {
+    for (std::uint32_t i = 0; i < lost_.size(); ++i) {
+        rays_.push_back(set.rays(i));
+        if (rays_[i] > 0)
+            lost_[i] = {set.escaped(i) / rays_[i], set.absorbed(i) / rays_[i]};
+    }
+}
+
+void ExchangeMatrix::find_lost(std::span<const ExchangeMatrix> sets) {
+    const auto count = static_cast<double>(sets.size());
+    for (const ExchangeMatrix& set : sets)
+        for (std::size_t i = 0; i < lost_.size(); ++i) {
+            rays_[i] += set.rays_[i];
+            lost_[i].escaped += set.lost_[i].escaped / count;
+            lost_[i].absorbed += set.lost_[i].absorbed / count;
+        }
+}
+
+/// First in each row stands what the patch saw, then by what it was seen.
+void ExchangeMatrix::store(const RayCounts& set) {
+    const auto n = static_cast<std::uint32_t>(area_.size());
+    std::vector<double> rays_per_area(n);
+    std::vector<std::uint32_t> sizes(n);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        rays_per_area[i] = area_[i] > 0 ? rays_[i] / area_[i] : 0;
+        sizes[i] += static_cast<std::uint32_t>(set.row(i).size());
+        for (const RayCounts::Count& count : set.row(i))
+            ++sizes[count.patch];
+    }
+    rows_ = SparseRows(std::move(sizes));
+    std::vector<MatrixEntry*> next(n);
+    for (std::uint32_t i = 0; i < n; ++i)
+        next[i] = rows_.to_write(i) + set.row(i).size();
+    for (std::uint32_t i = 0; i < n; ++i) {
+        MatrixEntry* seen = rows_.to_write(i);
+        for (const auto& [j, hits] : set.row(i)) {
+            const auto value = static_cast<float>(hits / (rays_per_area[i] + rays_per_area[j]));
+            *seen++ = {j, value};
+            *next[j]++ = {i, value};
+        }
+    }
+}
+
+Workers ExchangeMatrix::readers(const Workers& workers) const {
+    return rows_.entries() < entries_for_one_thread ? Workers(1) : workers;
+}
+
+/// What the rows are to sum to; less than 0: unknown, as the patch itself has not looked.
+///
+/// A patch's own rays tell it by how many of them met no patch; the rays between it and others,
+/// those of the others included, tell it too. Each counts by the inverse of its variance. In a
+/// closed room the first is known to be all. But a ground under a lamp with a narrow shade loses
+/// nearly all of its rays, and what little is left is known much better from the lamp's side.
+std::vector<double> ExchangeMatrix::due(const Workers& workers) const {
+    const std::size_t n = area_.size();
+    std::vector<double> due(n, -1.0), rays_per_area(n);
+    double all = 0, lost = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        rays_per_area[i] = area_[i] > 0 ? rays_[i] / area_[i] : 0;
+        all += rays_[i];
+        lost += rays_[i] * (lost_[i].escaped + lost_[i].absorbed);
+    }
+    for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (!(rays_[i] > 0))
+                continue;
+            const double kept = std::max(1 - lost_[i].escaped - lost_[i].absorbed, 0.0);
+            due[i] = area_[i] * kept;
+            if (!(lost > 0))
+                continue;
+            // As if one ray more had met what rays meet on average.
+            const double share = (rays_[i] * (1 - kept) + lost / all) / (rays_[i] + 1);
+            const double variance = area_[i] * area_[i] * share * (1 - share) / rays_[i];
+            double sum = 0, variance_of_sum = 0;
+            for (const MatrixEntry& entry : rows_.row(i)) {
+                sum += entry.value;
+                variance_of_sum += entry.value / (rays_per_area[i] + rays_per_area[entry.column]);
+            }
+            if (variance_of_sum > 0)
+                due[i] +=
+                    variance / (variance + variance_of_sum) * (std::min(sum, area_[i]) - due[i]);
+        }
+    });
+    return due;
+}
+
+/// Rows are closed by c = due / (S r), then by r = due / (S c), and so on (Sinkhorn and Knopp
+/// 1967). As S is symmetric, r and c end as multiples of each other, and g is their geometric mean.
+void ExchangeMatrix::find_scale(std::span<const double> due, int times, const Workers& workers) {
+    const std::size_t n = area_.size();
+    std::vector<double> before, after(n);
+    for (int k = 0; k < times; ++k) {
+        for_rows(workers, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const double sum = row_sum(rows_.row(i), scale_);
+                after[i] = 1; // where the patch itself has not looked, what others saw is all
+                if (due[i] >= 0)
+                    after[i] = sum > 0 ? due[i] / sum : 0;
+            }
+        });
+        before = std::exchange(scale_, after);
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        scale_[i] = std::sqrt(scale_[i] * before[i]);
+}
+
+void ExchangeMatrix::close(int times, const Workers& workers) {
+    const std::vector<double> due = this->due(workers);
+    find_scale(due, times, workers);
+    self_.assign(area_.size(), 0.0);
+    per_area_.assign(area_.size(), 0.0);
+    for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const double sum = row_sum(rows_.row(i), scale_);
+            if (scale_[i] > 0 && due[i] >= 0)
+                self_[i] = (due[i] / scale_[i] - sum) / scale_[i];
+            if (area_[i] > 0)
+                per_area_[i] = scale_[i] / area_[i];
+        }
+    });
+}
+
+void ExchangeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y,
+                              const Workers& workers) const {
+    std::vector<Lanes> z(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+        z[i] = scaled(i, x[i]);
+    for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            y[i] = row_times(i, z);
+    });
+}
+
+} // namespace hemilux

@@ -1,0 +1,90 @@
+#pragma once
+// What all patches exchange with each other, from the rays of all.
+//
+// S_ij = A_i F_ij is symmetric, so rays from i to j and from j to i tell the same number; weighted
+// by what each is worth, S_ij = (c_ij + c_ji) / (N_i / A_i + N_j / A_j), c being counts and N the
+// rays of a patch. Rows must sum to A_i less what the patch's own rays lost. Scaling S_ij by g_i
+// g_j makes them so and leaves S symmetric (Sinkhorn and Knopp 1967). The little that is still
+// missing after some scalings, or too much, is what a patch exchanges with itself: so rows are
+// closed and S is symmetric to the last bits, no energy is made or lost between patches, however
+// reflective, and furnaces are exact.
+//
+// Stored is S before it is scaled, so that the S of several sets is their mean.
+
+#include "radiosity/form_factors/ray_counts.h"
+#include "radiosity/form_factors/sampled_form_factors.h"
+#include "radiosity/form_factors/sparse_rows.h"
+#include "radiosity/sampling/matrix_kernels.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class ExchangeMatrix {
+  public:
+    ExchangeMatrix() = default;
+    /// Of the rays of one set.
+    ExchangeMatrix(const Mesh& mesh, const RayCounts& set);
+    /// Of the rays of several sets, where each patch shot as many in one as in the others.
+    ExchangeMatrix(std::vector<ExchangeMatrix> sets, const Workers& workers);
+
+    /// y_i = sum_j F_ij x_j
+    void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
+
+    /// The same in parts: the element j of a vector as rows take it,
+    [[nodiscard]] Lanes scaled(std::size_t j, const Vec3& x) const {
+        return {{scale_[j] * x.x, scale_[j] * x.y, scale_[j] * x.z, 0}};
+    }
+    /// and its product with the row i.
+    [[nodiscard]] Vec3 row_times(std::size_t i, std::span<const Lanes> scaled) const {
+        const std::span<const MatrixEntry> row = rows_.row(i);
+        Lanes sum;
+        kernels_->row_times(row.data(), row.size(), scaled.data(), &sum);
+        const auto channel = [&](int c) {
+            return per_area_[i] * (sum.lane[c] + self_[i] * scaled[i].lane[c]);
+        };
+        return {channel(0), channel(1), channel(2)};
+    }
+    /// F_ii, which closes the row i: what chance has left, of either sign.
+    [[nodiscard]] double self_factor(std::size_t i) const {
+        return per_area_[i] * self_[i] * scale_[i];
+    }
+    /// Calls body(begin, end) for chunks of the rows, by as many threads as that is worth.
+    template <class Body>
+    void for_rows(const Workers& workers, const Body& body) const {
+        readers(workers).for_chunks(area_.size(), rows_per_chunk, body);
+    }
+    static constexpr std::size_t rows_per_chunk = SparseRows::rows_per_chunk;
+
+    /// What patch i exchanges with others; a value is S before it is scaled.
+    [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const { return rows_.row(i); }
+    /// By patch.
+    [[nodiscard]] std::span<const LostShare> lost() const { return lost_; }
+    /// Those that the patch shot itself.
+    [[nodiscard]] std::span<const double> rays() const { return rays_; }
+    [[nodiscard]] std::uint64_t bytes() const { return rows_.entries() * sizeof(MatrixEntry); }
+
+  private:
+    void find_lost(const RayCounts& set);
+    void find_lost(std::span<const ExchangeMatrix> sets);
+    void store(const RayCounts& set);
+    void close(int times, const Workers& workers);
+    [[nodiscard]] std::vector<double> due(const Workers& workers) const;
+    void find_scale(std::span<const double> due, int times, const Workers& workers);
+    [[nodiscard]] Workers readers(const Workers& workers) const;
+
+    const MatrixKernels* kernels_ = &matrix_kernels();
+    /// S_ij, the same number in both rows. A column may come twice in a row of a set: as one patch
+    /// saw the other, and was seen by it.
+    SparseRows rows_;
+    std::vector<double> scale_;    ///< g_i
+    std::vector<double> per_area_; ///< g_i / A_i
+    std::vector<double> self_;     ///< S_ii, which closes the row, not scaled
+    std::vector<double> area_;
+    std::vector<double> rays_;
+    std::vector<LostShare> lost_;
+};
+
+} // namespace hemilux

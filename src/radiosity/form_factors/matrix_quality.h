@@ -1,0 +1,26 @@
+#pragma once
+// How well a matrix of form factors obeys what all form factors obey.
+
+#include "radiosity/form_factors/sampled_form_factors.h"
+
+#include <cstdint>
+
+namespace hemilux {
+
+struct MatrixQuality {
+    std::uint64_t entries = 0;  ///< above 0
+    double least = 0, most = 0; ///< of these
+    double closure_mean = 0;    ///< of |row sum - 1 + lost|
+    double closure_most = 0;
+    double lost_mean = 0; ///< share of rays that met no patch
+    /// Sum of |A_i F_ij - A_j F_ji| over the sum of both terms.
+    double reciprocity_mean = 0;
+    /// Largest |A_i F_ij - A_j F_ji| / max(A_i, A_j): an error of the smaller factor.
+    double reciprocity_most = 0;
+};
+
+/// `samples` tell how much of each row is lost.
+[[nodiscard]] MatrixQuality judge_matrix(const SparseMatrix& matrix, const Mesh& mesh,
+                                         const SampledFormFactors& samples);
+
+} // namespace hemilux

@@ -1,0 +1,136 @@
+#include "radiosity/form_factors/pair_factor.h"
+
+#include "geometry/polygon_sampler.h"
+#include "radiosity/form_factors/point_to_patch.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/sobol.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace hemilux {
+namespace {
+
+/// A pair that is worth fewer rays gets just these, in two sets of points: too few to judge by.
+constexpr double least_worth_to_adapt = 32;
+
+/// Others get from a quarter to four times what they are worth, in four sets, whose agreement is
+/// seldom chance: until the variance is that of `worth` points with this relative variance each.
+constexpr double least_share = 0.25, most_share = 4;
+constexpr std::uint32_t adaptive_sets = 4;
+constexpr double relative_variance = 0.03;
+
+/// Whatever a pair is worth.
+constexpr double most_rays = 8192;
+
+/// From farther than this many radii of the target, a point sees it as almost a point, and the
+/// factor to a random point of it is as good as the closed form and computed much sooner.
+constexpr double near_radii = 4;
+
+/// A receiver and the patch that it looks to; each look is one ray at most.
+class PairLook {
+  public:
+    PairLook(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
+             bool visibility)
+        : tracer_(tracer), from_(mesh.patches()[from]), to_(mesh.patches()[to]),
+          origins_(from_.shape), targets_(to_.shape), visibility_(visibility) {
+        for (const Vec3& corner : to_.shape.corner)
+            near_ = std::max(near_, near_radii * glm::distance(corner, to_.centre));
+    }
+
+    /// The factor from a random point, or 0 if something stands between. Adds to `rays` if a ray
+    /// had to be traced.
+    [[nodiscard]] double factor(const std::array<double, 4>& u, std::uint64_t& rays) const {
+        Ray ray{};
+        const double f = look_at(from_, origins_, to_, targets_, u, near_, ray);
+        if (!(f > 0) || !visibility_)
+            return f;
+        ++rays;
+        return tracer_.occluded(ray, to_.facet) ? 0 : f;
+    }
+
+  private:
+    const Tracer& tracer_;
+    const Patch &from_, &to_;
+    PolygonSampler origins_, targets_;
+    double near_ = 0;
+    bool visibility_;
+};
+
+/// Points of each set, a power of two, for which they are best distributed.
+std::uint32_t points_per_set(double rays, std::uint32_t sets) {
+    const double points = std::clamp(rays, 2.0, most_rays) / sets;
+    return std::bit_ceil(static_cast<std::uint32_t>(std::max(points, 1.0)));
+}
+
+} // namespace
+
+void PairFactor::average(std::span<const double> sums, double points_each) {
+    const auto sets = static_cast<double>(sums.size());
+    factor = std::accumulate(sums.begin(), sums.end(), 0.0) / (sets * points_each);
+    double squares = 0;
+    for (const double sum : sums)
+        squares += (sum / points_each - factor) * (sum / points_each - factor);
+    variance = squares / (sets * (sets - 1));
+}
+
+bool may_see(const Patch& a, const Patch& b) {
+    // Neighbours in one plane are in front of each other by rounding errors only: those of their
+    // places, which may be coarse far from a file's origin. Walls may be nearer than that.
+    constexpr double least_slope = 1e-7;
+    const double least_height = 1e-12 + least_slope * glm::distance(a.centre, b.centre);
+    const auto reaches_above = [&](const Patch& patch, const Patch& plane) {
+        return std::ranges::any_of(patch.shape.corner, [&](const Vec3& corner) {
+            return glm::dot(plane.normal, corner - plane.centre) > least_height;
+        });
+    };
+    return reaches_above(a, b) && reaches_above(b, a);
+}
+
+double rough_factor(const Patch& from, const Patch& to) {
+    const Vec3 d = to.centre - from.centre;
+    const double r2 = glm::dot(d, d), r = std::sqrt(r2);
+    const double least_cosine = (std::sqrt(from.area) + std::sqrt(to.area)) / (2 * r);
+    const auto cosine = [&](double at_centres) {
+        return std::min(std::max(least_cosine, at_centres), 1.0); // 1 for a NaN of equal centres
+    };
+    return cosine(glm::dot(from.normal, d) / r) * cosine(-glm::dot(to.normal, d) / r) * to.area /
+           (std::numbers::pi * r2 + to.area);
+}
+
+PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
+                       double worth, std::uint64_t seed, bool visibility) {
+    const bool adaptive = worth >= least_worth_to_adapt;
+    const std::uint32_t sets = adaptive ? adaptive_sets : 2;
+    const std::uint32_t most = points_per_set(adaptive ? most_share * worth : worth, sets);
+    const PairLook look(mesh, tracer, from, to, visibility);
+    PairFactor result;
+    std::array<double, adaptive_sets> sum{};
+    std::uint32_t begin = 0, end = adaptive ? points_per_set(least_share * worth, sets) : most;
+    for (;; begin = end, end *= 2) {
+        for (std::uint32_t set = 0; set < sets; ++set) {
+            SobolBlocks<4> points(hash_words({seed, from, set}));
+            result.points += end - begin;
+            for (std::uint32_t k = begin; k < end; ++k) {
+                const double f = look.factor(points.at(k), result.rays);
+                sum[set] += f;
+                result.hits += f > 0;
+            }
+        }
+        result.average({sum.data(), sets}, end);
+        const double allowed = relative_variance * result.factor * result.factor / worth;
+        if (end >= most || result.variance <= allowed) {
+            // To stop when the sets agree is to stop when they happen to: not better than allowed.
+            if (adaptive)
+                result.variance = std::max(result.variance, allowed);
+            return result;
+        }
+    }
+}
+
+} // namespace hemilux

@@ -1,0 +1,59 @@
+#include "radiosity/form_factors/point_to_patch.h"
+
+#include "geometry/polygon_sampler.h"
+#include "geometry/projected_polygon.h"
+#include "radiosity/scene/mesh.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hemilux {
+namespace {
+
+/// Short of the target by what rounding may do: a coplanar facet is not in front of it.
+constexpr double short_of_target = 1 - 1e-10;
+
+} // namespace
+
+double look_at(const Patch& source, const PolygonSampler& origins, const Patch& target,
+               const PolygonSampler& targets, const std::array<double, 4>& u, double near,
+               Ray& ray) {
+    if (target.facet == source.facet)
+        return 0;
+    ray.from = source.facet;
+    ray.origin = origins.sample({u[0], u[1]});
+    const Vec3 off = ray.origin - target.centre;
+    const double height = glm::dot(target.normal, off);
+    if (!(height > 0)) // behind the target
+        return 0;
+    if (glm::dot(off, off) > near * near) {
+        const Vec3 d = targets.sample({u[2], u[3]}) - ray.origin;
+        const double rise = glm::dot(source.normal, d), r2 = glm::dot(d, d), r = std::sqrt(r2);
+        ray.direction = d * (1 / r);
+        ray.t_max = r * short_of_target;
+        return rise > 0 ? rise * height * target.area / (std::numbers::pi * r2 * r2) : 0;
+    }
+    const ProjectedPolygon seen(ray.origin, Frame::from_normal(source.normal), target.shape);
+    const double factor = seen.factor();
+    if (!(factor > 0))
+        return 0;
+    ray.direction = seen.sample({u[2], u[3]});
+    ray.t_max = -height / glm::dot(target.normal, ray.direction) * short_of_target;
+    return ray.t_max > 0 ? factor : 0;
+}
+
+double point_to_patch(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
+                      const std::array<double, 4>& u, std::uint64_t& rays, bool visibility) {
+    const Patch &source = mesh.patches()[from], &target = mesh.patches()[to];
+    constexpr double everywhere = std::numeric_limits<double>::infinity();
+    Ray ray{};
+    const double factor = look_at(source, PolygonSampler(source.shape), target,
+                                  PolygonSampler(target.shape), u, everywhere, ray);
+    if (!(factor > 0) || !visibility)
+        return factor;
+    ++rays;
+    return tracer.occluded(ray, target.facet) ? 0 : factor;
+}
+
+} // namespace hemilux

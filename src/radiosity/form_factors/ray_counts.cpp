@@ -1,0 +1,235 @@
+#include "radiosity/form_factors/ray_counts.h"
+
+#include "geometry/polygon_sampler.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/sobol.h"
+#include "radiosity/saving/state.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+/// A row with more of them is traced in parts.
+constexpr std::uint32_t rays_in_burst = 1u << 14;
+
+/// Some of a block's rays. Of the four dimensions the first two are the best distributed.
+void draw(const Patch& from, const PolygonSampler& origins, const Frame& frame,
+          const SobolBlocks<4>& points, std::size_t first, std::size_t count,
+          std::vector<Ray>& rays) {
+    std::array<double, samples_per_block> x, y, z;
+    sampling_kernels().cosine(samples_per_block, points.coordinate(0), points.coordinate(1),
+                              x.data(), y.data(), z.data());
+    for (std::size_t k = first; k < first + count; ++k) {
+        const Vec2 u(points.coordinate(2)[k], points.coordinate(3)[k]);
+        rays.push_back({origins.sample(u), frame.to_world({x[k], y[k], z[k]})});
+        rays.back().from = from.facet;
+    }
+}
+
+} // namespace
+
+RayCounts::RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed)
+    : mesh_(mesh), tracer_(tracer), seed_(seed), rows_(mesh.patches().size()),
+      blocks_((rows_.size() + rows_per_block - 1) / rows_per_block) {}
+
+/// A block of rows, written anew with what was struck since.
+class RayCounts::Tally {
+  public:
+    explicit Tally(std::size_t patches) : place_(patches) {}
+
+    /// One row more, which has these already.
+    void begin_row(std::span<const Count> counted) {
+        end_row();
+        for (const Count& count : counted) {
+            counts_.push_back(count);
+            place_[count.patch] = size();
+        }
+        ends_.push_back(size());
+    }
+    /// To the last row.
+    void add(std::uint32_t patch) {
+        std::uint32_t& place = place_[patch];
+        if (place == 0) {
+            counts_.push_back({patch, 0});
+            place = size();
+        }
+        ++counts_[place - 1].hits;
+    }
+    void end_row() {
+        if (ends_.empty())
+            return;
+        for (std::size_t k = ends_.size() > 1 ? ends_[ends_.size() - 2] : 0; k < size(); ++k)
+            place_[counts_[k].patch] = 0;
+        ends_.back() = size();
+    }
+    void clear() {
+        counts_.clear();
+        ends_.clear();
+    }
+    [[nodiscard]] std::span<const Count> counts() const { return counts_; }
+    /// By row.
+    [[nodiscard]] std::span<const std::uint32_t> ends() const { return ends_; }
+
+  private:
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(counts_.size()); }
+
+    std::vector<Count> counts_;
+    std::vector<std::uint32_t> ends_;
+    std::vector<std::uint32_t> place_; ///< by patch, in the last row: one more than its index, or 0
+};
+
+/// Rays of some rows of a block that are not traced yet, and what those before have struck.
+struct RayCounts::Volley {
+    explicit Volley(std::size_t patches) : tally(patches) {}
+
+    struct Burst {
+        std::uint32_t patch, rays;
+    };
+    std::vector<Burst> bursts;
+    std::vector<Ray> rays;
+    std::vector<std::uint32_t> receivers;
+    std::uint32_t first_row = 0; ///< of the block
+    Tally tally;
+    std::uint64_t traced = 0;
+};
+
+std::uint64_t RayCounts::trace_up_to(std::span<RayCounts> sets, std::span<const std::uint32_t> rays,
+                                     const Workers& workers, Monitor& monitor, double share) {
+    std::atomic<std::uint64_t> traced{0};
+    std::atomic<std::size_t> done{0};
+    const std::size_t blocks = sets[0].blocks_.size(), all = sets.size() * blocks;
+    workers.for_chunks_with(
+        all, 1, [&] { return Volley(rays.size()); },
+        [&](Volley& volley, std::size_t k, std::size_t) {
+            sets[k / blocks].trace_block(k % blocks, rays, volley, monitor);
+            traced += volley.traced;
+            monitor.rays += std::exchange(volley.traced, 0);
+            if (share > 0)
+                monitor.step_share = share * static_cast<double>(++done) / static_cast<double>(all);
+        });
+    return traced;
+}
+
+void RayCounts::trace_block(std::size_t block, std::span<const std::uint32_t> rays, Volley& volley,
+                            const Monitor& monitor) {
+    const auto begin = static_cast<std::uint32_t>(block * rows_per_block);
+    const auto end =
+        static_cast<std::uint32_t>(std::min(rows_.size(), (block + 1) * rows_per_block));
+    volley.first_row = begin;
+    for (std::uint32_t i = begin; i < end && !monitor.interrupted; ++i)
+        if (rays[i] > rows_[i].rays)
+            draw_row(i, rays[i], volley);
+    trace(volley);
+    if (volley.traced > 0)
+        store(begin, end, volley.tally);
+}
+
+void RayCounts::draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley) {
+    const Patch& from = mesh_.patches()[patch];
+    const PolygonSampler origins(from.shape);
+    const Frame frame = Frame::from_normal(from.normal);
+    SobolBlocks<4> points(hash_words({seed_, patch}));
+    while (rows_[patch].rays < end) {
+        const std::uint32_t first = rows_[patch].rays;
+        const std::uint32_t last = first + std::min(end - first, rays_in_burst);
+        for (std::uint32_t k = first; k < last;) {
+            const std::size_t in_block = k % samples_per_block;
+            const auto count = std::min<std::size_t>(samples_per_block - in_block, last - k);
+            points.move_to(k);
+            draw(from, origins, frame, points, in_block, count, volley.rays);
+            k += static_cast<std::uint32_t>(count);
+        }
+        volley.bursts.push_back({patch, last - first});
+        rows_[patch].rays = last;
+        if (volley.rays.size() >= rays_at_a_time)
+            trace(volley);
+    }
+}
+
+void RayCounts::trace(Volley& volley) {
+    volley.receivers.clear();
+    find_receivers(volley.rays, mesh_, tracer_, volley.receivers);
+    auto next = volley.receivers.cbegin();
+    Tally& tally = volley.tally;
+    for (const auto& [patch, rays] : volley.bursts) {
+        while (volley.first_row + tally.ends().size() <= patch)
+            tally.begin_row(
+                row(volley.first_row + static_cast<std::uint32_t>(tally.ends().size())));
+        for (const auto end = next + rays; next != end; ++next) {
+            if (*next == hemilux::escaped)
+                ++rows_[patch].escaped;
+            else if (*next == hemilux::absorbed)
+                ++rows_[patch].absorbed;
+            else
+                tally.add(*next);
+        }
+    }
+    volley.traced += volley.rays.size();
+    volley.rays.clear();
+    volley.bursts.clear();
+}
+
+void RayCounts::store(std::uint32_t begin, std::uint32_t end, Tally& tally) {
+    for (std::uint32_t i = begin + static_cast<std::uint32_t>(tally.ends().size()); i < end; ++i)
+        tally.begin_row(row(i));
+    tally.end_row();
+    for (std::uint32_t i = begin; i < end; ++i)
+        rows_[i].end = tally.ends()[i - begin];
+    blocks_[begin / rows_per_block].assign(tally.counts().begin(), tally.counts().end());
+    tally.clear();
+}
+
+void RayCounts::save(StateWriter& state) const {
+    for (std::uint32_t i = 0; i < rows_.size(); ++i) {
+        for (const std::uint32_t rays : {rows_[i].rays, rows_[i].escaped, rows_[i].absorbed})
+            state.add(rays);
+        state.add(std::uint64_t{row(i).size()});
+        for (const Count& count : row(i)) {
+            state.add(count.patch);
+            state.add(count.hits);
+        }
+    }
+}
+
+void RayCounts::load(StateReader& state) {
+    std::vector<std::uint32_t> last_row(rows_.size(), none);
+    for (std::uint32_t i = 0; i < rows_.size(); ++i) {
+        for (std::uint32_t* rays : {&rows_[i].rays, &rows_[i].escaped, &rows_[i].absorbed})
+            state.get(*rays);
+        std::uint64_t sum = std::uint64_t{rows_[i].escaped} + rows_[i].absorbed;
+        std::vector<Count>& block = blocks_[i / rows_per_block];
+        for (std::size_t left = state.count(sizeof(Count)); left > 0; --left) {
+            Count count{};
+            state.get(count.patch);
+            state.get(count.hits);
+            const bool once =
+                count.patch < rows_.size() && std::exchange(last_row[count.patch], i) != i;
+            if (!once || count.hits == 0)
+                throw StateError("a patch is no patch, or counted twice");
+            sum += count.hits;
+            block.push_back(count);
+        }
+        // Every ray was struck by something, once.
+        if (sum != rows_[i].rays)
+            throw StateError("rays of a patch do not add up");
+        rows_[i].end = static_cast<std::uint32_t>(block.size());
+        if (i + 1 == rows_.size() || (i + 1) % rows_per_block == 0)
+            block.shrink_to_fit();
+    }
+}
+
+std::uint64_t RayCounts::bytes() const {
+    std::uint64_t bytes = rows_.size() * sizeof(Row) + blocks_.size() * sizeof(blocks_[0]);
+    for (const std::vector<Count>& block : blocks_)
+        bytes += block.size() * sizeof(Count);
+    return bytes;
+}
+
+} // namespace hemilux

@@ -1,0 +1,80 @@
+#pragma once
+// Which patches the cosine-distributed rays of each patch struck, and how often: what gathering
+// keeps of them. One set of well-distributed points per patch (sobol.h), which can be prolonged.
+
+#include "bvh/tracer.h"
+#include "radiosity/sampling/workers.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+class StateReader;
+class StateWriter;
+struct Monitor;
+
+class RayCounts {
+  public:
+    /// A patch that was struck, and how often.
+    struct Count {
+        std::uint32_t patch, hits;
+    };
+
+    /// Different seeds: independent sets. What is referred to outlives this.
+    RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed);
+
+    /// Goes on until each patch has so many rays. Returns the number traced now. Where the monitor
+    /// was interrupted meanwhile some patches have fewer, and another call takes up the rest.
+    std::uint64_t trace_up_to(std::span<const std::uint32_t> rays, const Workers& workers,
+                              Monitor& monitor) {
+        return trace_up_to({this, 1}, rays, workers, monitor, 0);
+    }
+    /// The same in several sets of one mesh, so that no thread waits at the end of each. `share`:
+    /// what part of a step this is.
+    static std::uint64_t trace_up_to(std::span<RayCounts> sets, std::span<const std::uint32_t> rays,
+                                     const Workers& workers, Monitor& monitor, double share);
+
+    [[nodiscard]] std::uint32_t patches() const { return static_cast<std::uint32_t>(rows_.size()); }
+    /// Of this patch.
+    [[nodiscard]] std::uint32_t rays(std::uint32_t patch) const { return rows_[patch].rays; }
+    /// Each patch once, in the order in which they were first struck.
+    [[nodiscard]] std::span<const Count> row(std::uint32_t patch) const {
+        const std::uint32_t begin = patch % rows_per_block > 0 ? rows_[patch - 1].end : 0;
+        return std::span(blocks_[patch / rows_per_block]).subspan(begin, rows_[patch].end - begin);
+    }
+    /// Rays that met no patch: that left the scene, that fell on the back of a face.
+    [[nodiscard]] std::uint32_t escaped(std::uint32_t patch) const { return rows_[patch].escaped; }
+    [[nodiscard]] std::uint32_t absorbed(std::uint32_t patch) const {
+        return rows_[patch].absorbed;
+    }
+    [[nodiscard]] std::uint64_t bytes() const;
+
+    void save(StateWriter& state) const;
+    /// Throws StateError for what save() cannot have written of this mesh.
+    void load(StateReader& state);
+
+  private:
+    static constexpr std::uint32_t rows_per_block = 16;
+    struct Row {
+        std::uint32_t rays = 0, escaped = 0, absorbed = 0;
+        std::uint32_t end = 0; ///< of its counts in its block
+    };
+    class Tally;
+    struct Volley;
+    void trace_block(std::size_t block, std::span<const std::uint32_t> rays, Volley& volley,
+                     const Monitor& monitor);
+    void draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley);
+    void trace(Volley& volley);
+    void store(std::uint32_t begin, std::uint32_t end, Tally& tally);
+
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    std::uint64_t seed_;
+    std::vector<Row> rows_;
+    std::vector<std::vector<Count>> blocks_; ///< the counts of some rows each
+};
+
+} // namespace hemilux

@@ -1,0 +1,85 @@
+#pragma once
+// Form factors of all patches by well-distributed rays, with what each pair of patches saw of the
+// other put together.
+//
+// From every patch N rays follow the cosine law, origin and direction together a scrambled Sobol
+// point. By reciprocity, A_i F_ij = A_j F_ji, the rays from i to j and from j to i estimate the
+// same number; weighted by what each is worth, F_ij = A_j (c_ij + c_ji) / (N (A_i + A_j)), c being
+// the counts. Few rays find a small lamp: the columns of emitters come from the closed form of
+// point and polygon (Lambert) times the visibility along a ray drawn inside it. Rows are then
+// closed: they sum to 1 minus the share of the row's own rays that met no patch.
+
+#include "bvh/tracer.h"
+#include "radiosity/form_factors/ray_counts.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/needs.h"
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+struct Monitor;
+
+/// Sparse matrix by rows.
+struct SparseMatrix {
+    std::vector<std::size_t> row_begin; ///< one more than rows
+    std::vector<std::uint32_t> column;
+    std::vector<double> value;
+
+    [[nodiscard]] std::size_t rows() const { return row_begin.size() - 1; }
+    /// y = M x
+    void multiply(std::span<const double> x, std::span<double> y, const Workers& workers) const;
+};
+
+/// Shares of a patch's rays that met no patch.
+struct LostShare {
+    double escaped = 0;  ///< left the scene
+    double absorbed = 0; ///< fell on the back of a one-sided face
+};
+
+class SampledFormFactors {
+  public:
+    /// `emitters`: the patches whose columns are computed in closed form; may be empty. All
+    /// referred things must outlive this. Patches that never hold power shoot no rays; their rows
+    /// come from the rays of others and are not closed.
+    SampledFormFactors(const Mesh& mesh, const Tracer& tracer, std::vector<std::uint32_t> emitters,
+                       std::uint64_t seed, const Needs& needs = everything_needed);
+
+    /// Goes on until `rays` rays per patch are traced (and about as many to the emitters). Returns
+    /// the number of rays traced now; the factors are void if the monitor was interrupted
+    /// meanwhile.
+    std::uint64_t trace_up_to(std::uint32_t rays, const Workers& workers, Monitor& monitor);
+
+    /// F, merged and closed.
+    [[nodiscard]] SparseMatrix matrix() const;
+    [[nodiscard]] LostShare lost(std::uint32_t patch) const;
+    [[nodiscard]] std::span<const std::uint32_t> emitters() const { return emitters_; }
+    /// The share of the light of one of them that arrives, by the closed form; only right if
+    /// all_receive().
+    [[nodiscard]] double arriving_from(std::size_t emitter) const;
+    /// Whether no patch is black, as one that reflects and emits nothing may look to no emitter.
+    [[nodiscard]] bool all_receive() const;
+
+  private:
+    std::uint64_t trace_emitters(std::uint32_t patch, std::uint32_t begin, std::uint32_t end);
+    [[nodiscard]] std::vector<std::vector<RayCounts::Count>> merged_counts() const;
+    [[nodiscard]] std::uint32_t emitter_samples(std::uint32_t rays) const;
+    [[nodiscard]] double factor_per_hit(std::uint32_t i, std::uint32_t j) const;
+
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    std::vector<std::uint32_t> emitters_;
+    std::vector<bool> is_emitter_;
+    std::uint64_t seed_;
+    const Needs& needs_;
+    std::uint32_t rays_ = 0; ///< per patch, so far
+    RayCounts counts_;
+    std::vector<double> emitter_sum_; ///< per patch and emitter: sum of the samples
+};
+
+} // namespace hemilux

@@ -1,0 +1,46 @@
+#pragma once
+// A sparse matrix by its rows.
+
+#include "geometry/workers.h"
+#include "radiosity/sampling/matrix_kernels.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class SparseRows {
+  public:
+    SparseRows() = default;
+    /// Room for so many entries in each row; they are still to be written.
+    explicit SparseRows(std::vector<std::uint32_t> sizes);
+    /// The mean of a few of the same shape, each column once in a row: symmetric to the last bit if
+    /// they are. Takes little more memory than they have, as it takes the place of their rows.
+    SparseRows(std::vector<SparseRows> parts, const Workers& workers);
+
+    [[nodiscard]] std::size_t rows() const { return begin_.size(); }
+    [[nodiscard]] std::size_t entries() const { return entries_; }
+    /// In any order; a column may come twice.
+    [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const {
+        return {begin_[i], size_[i]};
+    }
+    [[nodiscard]] MatrixEntry* to_write(std::size_t i) { return begin_[i]; }
+
+    /// Of the loops over rows.
+    static constexpr std::size_t rows_per_chunk = 64;
+
+  private:
+    [[nodiscard]] std::size_t chunks() const {
+        return (size_.size() + rows_per_chunk - 1) / rows_per_chunk;
+    }
+    void allocate(std::size_t chunk);
+
+    std::vector<MatrixEntry*> begin_;
+    std::vector<std::uint32_t> size_;
+    std::vector<std::unique_ptr<MatrixEntry[]>> stored_; ///< a chunk of rows each
+    std::size_t entries_ = 0;
+};
+
+} // namespace hemilux

@@ -1,0 +1,213 @@
+#include "radiosity/gathering/direct_light.h"
+
+#include "radiosity/form_factors/pair_factor.h"
+#include "radiosity/form_factors/point_to_patch.h"
+#include "radiosity/rays/receivers.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/sobol.h"
+#include "radiosity/saving/state.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solve_error.h"
+#include "radiosity/solving/solver.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+constexpr std::size_t patches_per_chunk = 8;
+
+/// An emitter is near to points within so many of its radii, from its centre.
+constexpr double near_radii = 4;
+
+/// One patch of each emitter as it was before facets were divided: how finely the light is to be
+/// known is nothing to those who only receive it.
+std::vector<std::uint32_t> one_of_each_side(const Mesh& mesh,
+                                            std::span<const std::uint32_t> emitters) {
+    std::vector<std::uint32_t> patches;
+    std::array<std::uint32_t, 2> last{none, none};
+    for (const std::uint32_t e : emitters) {
+        const Patch& patch = mesh.patches()[e];
+        if (std::exchange(last[patch.back ? 1 : 0], patch.facet) != patch.facet)
+            patches.push_back(e);
+    }
+    return patches;
+}
+
+std::vector<Patch> whole_sides(const Mesh& mesh, std::span<const std::uint32_t> patches) {
+    std::vector<Patch> sides;
+    for (const std::uint32_t p : patches)
+        sides.push_back(mesh.whole_side(mesh.patches()[p].facet, mesh.patches()[p].back));
+    return sides;
+}
+
+} // namespace
+
+/// Samples whose rays are not traced yet, the first `size` of each array.
+struct DirectLight::Volley {
+    struct Sample {
+        std::uint32_t patch, estimate, emitter;
+        Vec3 light; ///< if the ray arrives
+    };
+    std::size_t size = 0;
+    std::vector<Sample> samples = std::vector<Sample>(rays_at_a_time);
+    std::vector<Ray> rays = std::vector<Ray>(rays_at_a_time);
+    std::vector<std::uint32_t> targets = std::vector<std::uint32_t>(rays_at_a_time); ///< facets
+    std::vector<std::uint8_t> blocked = std::vector<std::uint8_t>(rays_at_a_time);
+    std::uint64_t traced = 0;
+    EmitterChoice::Cut cut; ///< of the present patch
+
+    [[nodiscard]] bool full() const { return size == rays_at_a_time; }
+};
+
+DirectLight::Shape::Shape(const Patch& of) : patch(&of), points(of.shape) {}
+
+DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
+                         std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds)
+    : mesh_(mesh), tracer_(tracer), needs_(needs),
+      patch_of_emitter_(one_of_each_side(mesh, emitters)),
+      emitters_(whole_sides(mesh, patch_of_emitter_)), choice_(mesh, emitters_),
+      seeds_(std::move(seeds)), sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)),
+      samples_(mesh.patches().size()), hits_(mesh.patches().size()), bright_(mesh.patches().size()),
+      unblocked_(mesh.patches().size()) {
+    for (const Patch& emitter : emitters_)
+        lamps_.push_back(
+            {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});
+}
+
+void DirectLight::set_parts(std::span<const std::uint32_t> part) {
+    part_.assign(part.begin(), part.end());
+    choice_.set_parts(part_, patch_of_emitter_);
+}
+
+Vec3 DirectLight::irradiance(std::uint32_t patch) const {
+    Vec3 sum(0.0);
+    for (std::size_t s = 0; s < seeds_.size(); ++s)
+        sum += irradiance(patch, s);
+    return sum / static_cast<double>(seeds_.size());
+}
+
+std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
+                                        const Workers& workers, Monitor& monitor) {
+    std::atomic<std::uint64_t> traced{0};
+    if (!emitters_.empty())
+        workers.for_chunks_with(
+            hits_.size(), patches_per_chunk, [] { return Volley(); },
+            [&](Volley& volley, std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
+                    if (samples[i] > samples_[i])
+                        sample(static_cast<std::uint32_t>(i), samples[i], volley);
+                send(volley);
+                traced += volley.traced;
+                monitor.rays += std::exchange(volley.traced, 0);
+            });
+    return traced;
+}
+
+void DirectLight::sample(std::uint32_t patch, std::uint32_t end, Volley& volley) {
+    const std::uint32_t begin = std::exchange(samples_[patch], end);
+    EmitterChoice::Cut& cut = volley.cut;
+    choice_.weigh(patch, bright_[patch], cut);
+    if (cut.dark())
+        return;
+    if (!cut.pays()) {
+        samples_[patch] = 0;
+        return;
+    }
+    const Shape receiver(mesh_.patches()[patch]);
+    EmitterChoice::Choices choices;
+    for (std::uint32_t s = 0; s < seeds_.size(); ++s) {
+        SobolBlocks<5> points(hash_words({seeds_[s], patch}));
+        for (std::uint32_t k = begin; k < end; ++k) {
+            const std::size_t in_block = k % samples_per_block;
+            if (k == begin || in_block == 0) {
+                points.move_to(k);
+                choice_.choose(cut, points.coordinate(4), choices);
+            }
+            look(patch, s, receiver, points.point(k), choices[in_block], volley);
+            if (volley.full())
+                send(volley);
+        }
+    }
+}
+
+void DirectLight::look(std::uint32_t patch, std::uint32_t estimate, const Shape& receiver,
+                       const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
+                       Volley& volley) const {
+    const Emitter& emitter = lamps_[choice.emitter];
+    const std::size_t next = volley.size;
+    const double factor = look_at(*receiver.patch, receiver.points, *emitter.patch, emitter.points,
+                                  {u[0], u[1], u[2], u[3]}, emitter.near, volley.rays[next]);
+    if (!(factor > 0))
+        return;
+    volley.samples[next] = {patch, estimate, choice.emitter,
+                            factor / choice.chance * emitter.emission};
+    volley.targets[next] = emitter.patch->facet;
+    ++volley.size;
+}
+
+void DirectLight::send(Volley& volley) {
+    const std::size_t size = std::exchange(volley.size, 0);
+    const std::span blocked = std::span(volley.blocked).first(size);
+    if (needs_.visibility) {
+        tracer_.occluded_stream(std::span(volley.rays).first(size),
+                                std::span(volley.targets).first(size), blocked);
+        volley.traced += size;
+    } else {
+        std::ranges::fill(blocked, std::uint8_t{0});
+    }
+    for (std::size_t k = 0; k < size; ++k) {
+        const auto& [patch, estimate, emitter, light] = volley.samples[k];
+        unblocked_[patch] += mean_of_channels(light);
+        if (!blocked[k]) {
+            sum_[patch * seeds_.size() + estimate] += light;
+            ++hits_[patch];
+            bright_[patch] |= EmitterChoice::bit_of(emitter);
+        }
+    }
+}
+
+void DirectLight::save(StateWriter& state) const {
+    state.add(std::span<const Vec3>(sum_));
+    state.add(std::span<const std::uint32_t>(samples_));
+    state.add(std::span<const std::uint32_t>(hits_));
+    state.add(std::span<const std::uint64_t>(bright_));
+    state.add(std::span<const double>(unblocked_));
+    state.add(std::uint64_t{!part_.empty()});
+    state.add(std::span<const std::uint32_t>(part_));
+}
+
+void DirectLight::load(StateReader& state) {
+    state.get(std::span(sum_), bounds::non_negative);
+    // A patch for which shadow rays no longer pay keeps its sums, but has no samples.
+    constexpr double most_forgotten = 1u << 20;
+    const auto check_mean = [](double sum, double samples) {
+        if (sum > largest_radiosity * (samples > 0 ? samples : most_forgotten))
+            throw StateError("shadow rays brought more light than there may be");
+    };
+    state.get(std::span(samples_));
+    state.get(std::span(hits_));
+    for (std::size_t i = 0; i < hits_.size(); ++i)
+        if (samples_[i] > 0 && hits_[i] > std::uint64_t{samples_[i]} * seeds_.size())
+            throw StateError("more shadow rays arrived than were traced");
+    for (std::size_t k = 0; k < sum_.size(); ++k)
+        check_mean(std::max({sum_[k].x, sum_[k].y, sum_[k].z}), samples_[k / seeds_.size()]);
+    state.get(std::span(bright_));
+    state.get(std::span(unblocked_), bounds::non_negative);
+    for (std::size_t i = 0; i < unblocked_.size(); ++i)
+        check_mean(unblocked_[i], double(samples_[i]) * double(seeds_.size()));
+    part_.resize(state.flag() ? hits_.size() : 0);
+    state.get(std::span(part_));
+    for (const std::uint32_t part : part_)
+        if (part >= part_.size())
+            throw StateError("a part of the scene is out of range");
+    if (!part_.empty())
+        choice_.set_parts(part_, patch_of_emitter_);
+}
+
+} // namespace hemilux

@@ -1,0 +1,107 @@
+#pragma once
+// The light that comes straight from small emitters, by shadow rays.
+//
+// Rays at random find a small lamp by luck. Here a sample is a point of the receiver, an emitter,
+// and a point of that: well-distributed in five dimensions (sobol.h). The emitter is drawn by the
+// light that it would send without obstacles (emitter_choice.h); its contribution is the kernel of
+// form factors times the visibility along one ray (point_to_patch.h): the closed form of point and
+// polygon, or of two points where the emitter looks small.
+
+#include "bvh/tracer.h"
+#include "geometry/polygon_sampler.h"
+#include "geometry/vector.h"
+#include "radiosity/gathering/emitter_choice.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/needs.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+struct Patch;
+class StateReader;
+class StateWriter;
+struct Monitor;
+
+/// Several estimates at once, independent of each other.
+class DirectLight {
+  public:
+    /// An estimate for each seed. `emitters`: patches, in their order; a facet's are either all
+    /// among them or none. What is referred to outlives this.
+    DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
+                std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds);
+
+    /// Goes on until each patch for which that pays has so many samples in each estimate. Returns
+    /// the number of rays traced now. Where the monitor was interrupted meanwhile some patches have
+    /// fewer, and another call takes up the rest.
+    std::uint64_t sample_up_to(std::span<const std::uint32_t> samples, const Workers& workers,
+                               Monitor& monitor);
+
+    /// From now on emitters of other parts of the scene (linked_parts.h) get few samples, unless
+    /// one has brought light; by patch.
+    void set_parts(std::span<const std::uint32_t> part);
+
+    [[nodiscard]] std::size_t estimates() const { return seeds_.size(); }
+    /// Mean over the samples of one estimate [W/m2 arriving].
+    [[nodiscard]] Vec3 irradiance(std::uint32_t patch, std::size_t estimate) const {
+        const std::uint32_t n = samples_[patch];
+        return n > 0 ? sum_[patch * seeds_.size() + estimate] / static_cast<double>(n) : Vec3(0.0);
+    }
+    /// Mean over all.
+    [[nodiscard]] Vec3 irradiance(std::uint32_t patch) const;
+    /// Of this patch in each estimate; 0 also where rays at random are worth more
+    /// (EmitterChoice::Cut::pays).
+    [[nodiscard]] std::uint32_t samples(std::uint32_t patch) const { return samples_[patch]; }
+    /// Samples of this patch that brought light.
+    [[nodiscard]] std::uint32_t hits(std::uint32_t patch) const { return hits_[patch]; }
+    /// The irradiance if nothing blocked any sample [W/m2, mean of channels].
+    [[nodiscard]] double unblocked(std::uint32_t patch) const {
+        const double n = double(samples_[patch]) * double(seeds_.size());
+        return n > 0 ? unblocked_[patch] / n : 0;
+    }
+    [[nodiscard]] std::uint64_t bytes() const {
+        return sum_.size() * sizeof(Vec3) +
+               samples_.size() *
+                   (2 * sizeof(std::uint32_t) + sizeof(std::uint64_t) + sizeof(double));
+    }
+
+    void save(StateWriter& state) const;
+    /// Throws StateError for what save() cannot have written of this mesh.
+    void load(StateReader& state);
+
+  private:
+    struct Shape {
+        explicit Shape(const Patch& of);
+        const Patch* patch;
+        PolygonSampler points;
+    };
+    struct Emitter : Shape {
+        Vec3 emission;
+        double near; ///< from the centre, see look_at
+    };
+    struct Volley;
+    void sample(std::uint32_t patch, std::uint32_t end, Volley& volley);
+    void look(std::uint32_t patch, std::uint32_t estimate, const Shape& receiver,
+              const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
+              Volley& volley) const;
+    void send(Volley& volley);
+
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    const Needs& needs_;
+    std::vector<std::uint32_t> patch_of_emitter_; ///< one of each
+    std::vector<Patch> emitters_;                 ///< whole sides of facets
+    EmitterChoice choice_;
+    std::vector<std::uint32_t> part_; ///< empty: not known
+    std::vector<std::uint64_t> seeds_;
+    std::vector<Vec3> sum_; ///< by patch and estimate
+    std::vector<std::uint32_t> samples_, hits_;
+    std::vector<std::uint64_t> bright_; ///< emitters that brought light (EmitterChoice::bit_of)
+    std::vector<double> unblocked_;     ///< sum over the samples of a patch
+    std::vector<Emitter> lamps_;
+};
+
+} // namespace hemilux

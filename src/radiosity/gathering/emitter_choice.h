@@ -1,0 +1,107 @@
+#pragma once
+// Which emitter a shadow ray of a patch goes to: drawn by the light that each would send there if
+// nothing stood between.
+//
+// With up to 1024 emitters each is weighed by itself. Where there are more, they form a tree of
+// clusters, and each patch weighs 128 of these: near ones are divided, far ones are not (as in
+// Walter et al. 2005, "Lightcuts"); within a cluster emitters are drawn by their power. So the work
+// for a patch does not grow with the emitters. Any emitter that may send light there has a chance,
+// so what is found is right on average.
+//
+// The best chance is as the root of the mean square of what a ray would bring: an emitter beside a
+// large patch brings little on the whole but much to the points that touch it, and if it were
+// drawn by the mean alone, those few rays would make most of the error.
+
+#include "geometry/vector.h"
+#include "radiosity/sampling/sampling_kernels.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+struct Patch;
+
+class EmitterChoice {
+  public:
+    /// `emitters`: what emits; they outlive this.
+    EmitterChoice(const Mesh& mesh, std::span<const Patch> emitters);
+
+    /// What a patch weighs: emitters or clusters, and running sums of their weights.
+    struct Cut {
+        std::vector<std::uint32_t> clusters; ///< empty: it is all emitters, in their order
+        /// Centre, radius, power, area and light of those that are not single emitters, which stand
+        /// first.
+        std::array<std::vector<double>, 7> of_many;
+        /// One more than there are weights, from 0; then infinity, up to a power of two.
+        std::vector<double> sums;
+        double sum = 0;
+        std::vector<double> found; ///< by ray at random, of each: its mean square
+        double square_found = 0;   ///< sum of these
+        /// No light can come from anywhere.
+        [[nodiscard]] bool dark() const { return !(sum > 0); }
+        /// Whether a shadow ray is worth about as much as one at random, or more. Where many
+        /// emitters touch a surface each fills the view of a few points, but is seldom drawn for
+        /// just those: what such a ray brings varies more than what one finds by chance.
+        [[nodiscard]] bool pays() const { return sum * sum <= 4 * square_found; }
+    };
+    /// For choose(). `bright`: the bits of emitters from which light has reached the receiver.
+    void weigh(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const;
+    /// Of the emitter at this place; others have the same if there are many.
+    [[nodiscard]] static std::uint64_t bit_of(std::uint32_t place) {
+        return std::uint64_t{1} << place % 64;
+    }
+
+    /// From now on emitters that are neither bright nor of the receiver's part of the scene, `part`
+    /// by patch, get few of the rays: no light was seen to pass there. `patches`: of each emitter,
+    /// one patch.
+    void set_parts(std::span<const std::uint32_t> part, std::span<const std::uint32_t> patches);
+
+    struct Choice {
+        std::uint32_t emitter; ///< its place among the emitters
+        double chance;         ///< with which it is drawn
+    };
+    using Choices = std::array<Choice, samples_per_block>;
+    /// One for each of sixteen numbers in [0, 1), from a cut that is not dark.
+    void choose(const Cut& cut, const double* u, Choices& choices) const;
+
+  private:
+    struct Cluster {
+        std::uint32_t begin, end; ///< of order_
+        Vec3 centre{0.0};
+        double radius = 0; ///< of a sphere around all of them
+        double power = 0;
+        double area = 0;                   ///< mean
+        double light = 0;                  ///< mean by power
+        std::uint32_t left = 0, right = 0; ///< its halves; 0: it is one emitter
+    };
+    std::uint32_t add(std::uint32_t begin, std::uint32_t end);
+    void divide(std::uint32_t cluster);
+    void list_emitters();
+    [[nodiscard]] EmitterArrays arrays_from(std::size_t k) const;
+    [[nodiscard]] EmitterReceiver receiver_at(std::uint32_t patch) const;
+    void choose_clusters(std::uint32_t receiver, Cut& cut) const;
+    void doubt_others(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const;
+    void weigh_clusters(std::uint32_t receiver, Cut& cut) const;
+    [[nodiscard]] Choice choose_within(const Cluster& cluster, double share) const;
+    [[nodiscard]] double light_of(std::uint32_t place) const;
+    [[nodiscard]] double power_of(std::uint32_t place) const;
+    [[nodiscard]] double nearness(std::uint32_t receiver, const Cluster& cluster) const;
+    [[nodiscard]] const Vec3& centre(std::uint32_t place) const;
+
+    const Mesh& mesh_;
+    std::span<const Patch> emitters_;
+    std::vector<std::uint32_t> order_; ///< places among the emitters, cluster by cluster
+    std::vector<double> power_sums_;   ///< by order_, one more: of all before
+    std::vector<Cluster> clusters_;    ///< the first is all of them
+    std::vector<double> radius_;       ///< of each patch, from its centre
+    std::vector<double> light_;        ///< of each emitter, see light_of
+    std::vector<std::uint32_t> part_of_emitter_, part_; ///< of emitters by place, of patches
+    /// By order_: centre, normal, four corners, area, side, light.
+    std::array<std::vector<double>, 21> arrays_;
+};
+
+} // namespace hemilux

@@ -1,0 +1,69 @@
+#pragma once
+// The light that gathering has solved for: of each of its independent sets of rays, and of all
+// together. Where rays had to be forgotten for want of memory, what they told is kept as a
+// generation, and the light is the mean of the generations.
+
+#include "radiosity/solving/solution.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace hemilux {
+
+class StateReader;
+class StateWriter;
+
+class GatheredLight {
+  public:
+    GatheredLight(std::size_t sets, std::size_t patches)
+        : sets_(sets), solved_(sets + 1, Light(patches)) {}
+
+    [[nodiscard]] std::size_t sets() const { return sets_; }
+
+    /// Of one set.
+    struct Light {
+        explicit Light(std::size_t patches) : incident(patches, Vec3(0.0)) {}
+        std::vector<Vec3> incident; ///< arrives at each patch [W/m2]
+        EnergyBalance energy;       ///< local units
+    };
+    /// What the rays of the present generation tell, set by set; at last of all together.
+    [[nodiscard]] std::vector<Light>& solved() { return solved_; }
+
+    /// Mean over the generations.
+    [[nodiscard]] Vec3 incident(std::size_t set, std::size_t patch) const {
+        const Vec3& now = solved_[set].incident[patch];
+        return before_.empty() ? now : (before_[set].incident[patch] + now) / generations();
+    }
+    /// What each of the sets is off from their mean.
+    template <std::size_t Sets>
+    [[nodiscard]] std::array<Vec3, Sets> deviations(std::size_t patch) const {
+        std::array<Vec3, Sets> off;
+        Vec3 mean(0.0);
+        for (std::size_t s = 0; s < Sets; ++s)
+            mean += (off[s] = incident(s, patch)) / double(Sets);
+        for (Vec3& each : off)
+            each -= mean;
+        return off;
+    }
+    /// Mean over the generations of what is absorbed and escapes, of all sets together.
+    [[nodiscard]] EnergyBalance energy() const;
+
+    [[nodiscard]] double generations() const { return static_cast<double>(generation_ + 1); }
+    /// From 0.
+    [[nodiscard]] std::uint64_t generation() const { return generation_; }
+    /// What was solved last counts from now on as one generation more.
+    void begin_generation();
+
+    void save(StateWriter& state) const;
+    /// Throws StateError for what save() cannot have written.
+    void load(StateReader& state);
+
+  private:
+    std::size_t sets_;
+    std::vector<Light> solved_;
+    std::vector<Light> before_; ///< sums over the generations that ended, if any
+    std::uint64_t generation_ = 0;
+};
+
+} // namespace hemilux

@@ -1,0 +1,107 @@
+#pragma once
+// How many rays gathering is to trace next, of which kind, and from which patches.
+
+#include "geometry/vector.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/needs.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+class StateReader;
+class StateWriter;
+
+/// Rays of each patch.
+struct GatheringRays {
+    std::vector<std::uint32_t> random;   ///< cosine-distributed
+    std::vector<std::uint32_t> to_lamps; ///< shadow rays
+};
+
+/// How many rays a step adds.
+struct Pace {
+    /// As many as there are, or as it takes to reach `aim`; else as many as the first step had.
+    bool growing = true;
+    /// Relative error to be reached; 0: none is asked for.
+    double aim = 0;
+};
+
+/// Of the solution so far.
+struct KnownError {
+    double relative = 0;            ///< as it is told
+    double variance = 0;            ///< in any unit
+    double variance_from_lamps = 0; ///< the part of it that comes from shadow rays
+    bool drained = true;            ///< the rays have seen a way out for the light
+};
+
+class GatheringPlan {
+  public:
+    /// The first step's means, of one set; no `to_lamps`: there are no lamps to be reached. The
+    /// mesh outlives this.
+    GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps,
+                  const Pace& pace);
+
+    /// Plans a few rays of each patch, which tell what light can reach: leave_out.
+    void begin();
+    /// From the first step on, patches that no light has reached by these rays get no more.
+    void leave_out(const std::vector<bool>& lit);
+
+    /// Plans more rays than before, at most `room` times as many random ones; `known` is not used
+    /// for the first step.
+    void grow(const KnownError& known, double room, const Workers& workers);
+    /// Less room than this is not worth a step.
+    static constexpr double least_growth = 1.19;
+
+    /// In all until the next step ends.
+    [[nodiscard]] const GatheringRays& rays() const { return now_.rays; }
+    [[nodiscard]] bool at_most() const;
+    /// Whether the first step was planned.
+    [[nodiscard]] bool has_begun() const { return now_.random > 0; }
+
+    /// From now on more to patches to which light comes that is uneven; none to those that no light
+    /// reaches (`lit`), as far as all rays know. `variance`: of the light over the directions of
+    /// each patch, by channel.
+    ///
+    /// How many rays a patch gets must not depend on what its own rays have found: where they
+    /// missed something rare, their variance is too small, fewer rays would follow, and the mean of
+    /// all would stay wrong. So a patch is judged by its neighbours, and but once, by the first
+    /// rays that found light, which are soon a small part of all.
+    void weigh(std::span<const Vec3> variance, const std::vector<bool>& lit);
+
+    /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`:
+    /// of each patch, times its area, in any unit; negative: it takes none.
+    void weigh_lamps(std::span<const double> variance, const std::vector<bool>& lit);
+
+    void save(StateWriter& state) const;
+    /// Of a plan made with the same arguments. Throws StateError for what save() cannot have
+    /// written.
+    void load(StateReader& state);
+
+  private:
+    struct Stage {
+        double random = 0, to_lamps = 0; ///< means over the patches that are to get more
+        GatheringRays rays;
+    };
+    [[nodiscard]] double of_neighbours(std::uint32_t patch, std::span<const double> known) const;
+    void learn(std::span<const Vec3> variance);
+    static void mix(std::span<const double> known, std::span<const double> prior,
+                    std::vector<double>& weights);
+    void choose(const KnownError& known);
+    void split(double rays, const KnownError& known);
+    [[nodiscard]] double predicted(const KnownError& known) const;
+
+    const Mesh& mesh_;
+    Pace pace_;
+    Stage first_, before_, now_;
+    std::vector<Vec3> reflectance_;
+    std::vector<double> weights_, lamp_weights_; ///< what a ray is worth
+    std::vector<double> learned_weights_;        ///< of random rays, were all patches lit
+    bool has_learned_ = false;
+    std::vector<double> prior_weights_;      ///< of random rays, before anything is known
+    std::vector<double> prior_lamp_weights_; ///< likewise of shadow rays
+};
+
+} // namespace hemilux

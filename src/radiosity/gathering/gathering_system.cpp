@@ -1,0 +1,145 @@
+#include "radiosity/gathering/gathering_system.h"
+
+#include "radiosity/linear/conjugate_gradients.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+/// Of the standard error, what may be left where solving ends: of the sets, which tell no more than
+/// that error, and of the whole.
+constexpr double left_of_sets = .1, left_of_all = 1e-3;
+
+/// Residuals, relative to the light: never less; and of the sets, times what a reflection takes
+/// away, never more.
+constexpr double least_residual = 1e-10, first_residual = 1e-3;
+
+/// Of one of them.
+Vec3 sample_variance(std::span<const Vec3> values) {
+    const auto n = static_cast<double>(values.size());
+    Vec3 mean(0.0), squares(0.0);
+    for (const Vec3& value : values)
+        mean += value / n;
+    for (const Vec3& value : values)
+        squares += (value - mean) * (value - mean);
+    return squares / (n - 1);
+}
+
+} // namespace
+
+GatheringSystem::GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps,
+                                 bool closed)
+    : mesh_(mesh), closed_(closed) {
+    const auto patches = mesh.patches();
+    for (std::uint32_t i = 0; i < patches.size(); ++i) {
+        const Material& material = mesh.material(i);
+        area_.push_back(patches[i].area);
+        reflectance_.push_back(material.reflectance);
+        emission_.push_back(material.emission);
+        for (int c = 0; c < 3; ++c)
+            lost_at_least_ = std::min(lost_at_least_, 1 - material.reflectance[c]);
+    }
+    seen_emission_ = emission_;
+    for (const std::uint32_t lamp : lamps)
+        seen_emission_[lamp] = Vec3(0.0);
+}
+
+/// Each set by a thread of its own; then the whole by all threads, from where their mean is.
+ExchangeMatrix GatheringSystem::solve(const Rays& rays, double error,
+                                      std::vector<GatheredLight::Light>& light,
+                                      const Workers& workers, const StopFlag& interrupted) const {
+    const std::size_t sets = rays.counts.size();
+    std::vector<ExchangeMatrix> parts(sets);
+    std::vector<Direct> direct(sets);
+    std::vector<Vec3> power(sets);
+    const Workers alone(1);
+    workers.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
+        parts[set] = ExchangeMatrix(mesh_, rays.counts[set]);
+        direct[set].light = straight_light(parts[set], rays.direct, set, alone);
+        power[set] = power_arriving(transport(parts[set]), direct[set].light);
+    });
+    const Vec3 variance = sample_variance(power);
+    std::vector<GatheredLight::Light> found = light;
+    // What a residual makes of the light is no larger than its sum over all reflections.
+    const double known = std::fmin(left_of_sets * error, first_residual); // unknown: the latter
+    const double residual = std::max(known * lost_at_least_, least_residual);
+    workers.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
+        direct[set].variance = variance;
+        solve(parts[set], std::move(direct[set]), found[set], alone, residual, interrupted);
+    });
+    ExchangeMatrix all(std::move(parts), workers);
+    const double worth = left_of_all * average(found) * lost_at_least_;
+    solve(all, {straight_light(all, rays.direct, std::nullopt, workers), variance / double(sets)},
+          found[sets], workers, std::max(worth, least_residual), interrupted);
+    if (!interrupted)
+        light = std::move(found);
+    return all;
+}
+
+Transport GatheringSystem::transport(const ExchangeMatrix& factors) const {
+    return {area_, emission_, reflectance_, factors.lost(), factors.rays(), closed_};
+}
+
+/// What arrives at each patch in the end, from what `light` holds on.
+void GatheringSystem::solve(const ExchangeMatrix& factors, Direct direct,
+                            GatheredLight::Light& light, const Workers& workers, double residual,
+                            const StopFlag& interrupted) const {
+    scale_direct_light(transport(factors), direct.variance, direct.light);
+    solve_by_gradients(factors, area_, reflectance_, direct.light, light.incident, workers,
+                       {.tolerance = residual, .interrupted = &interrupted});
+    light.energy = balance_energy(transport(factors), light.incident);
+}
+
+/// Makes the last the mean of the sets; returns its relative standard error, of what is reflected.
+double GatheringSystem::average(std::vector<GatheredLight::Light>& light) const {
+    const std::size_t sets = light.size() - 1;
+    double squares = 0, size = 0;
+    for (std::size_t i = 0; i < area_.size(); ++i) {
+        Vec3 mean(0.0), of_squares(0.0);
+        for (std::size_t set = 0; set < sets; ++set) {
+            const Vec3& incident = light[set].incident[i];
+            mean += incident / double(sets);
+            of_squares += incident * incident / double(sets);
+        }
+        light[sets].incident[i] = mean;
+        const Vec3 weight = area_[i] * reflectance_[i] * reflectance_[i];
+        squares += glm::dot(weight, of_squares - mean * mean) / double(sets - 1);
+        size += glm::dot(weight, mean * mean);
+    }
+    return squares > 0 ? std::sqrt(squares / size) : 0;
+}
+
+/// The light straight from the emitters: by shadow rays, of one set or of all, and from those that
+/// shadow rays do not reach by rays at random. A patch without shadow rays has all from the latter:
+/// it is black, or they are better there.
+std::vector<Vec3> GatheringSystem::straight_light(const ExchangeMatrix& factors,
+                                                  const DirectLight& shadow_rays,
+                                                  std::optional<std::size_t> set,
+                                                  const Workers& workers) const {
+    const std::size_t n = area_.size();
+    std::vector<Vec3> light(n);
+    std::vector<Lanes> all(n), some(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        all[i] = factors.scaled(i, emission_[i]);
+        some[i] = factors.scaled(i, seen_emission_[i]);
+    }
+    const bool any =
+        std::ranges::any_of(seen_emission_, [](const Vec3& e) { return e != Vec3(0.0); });
+    factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+            if (shadow_rays.samples(i) == 0) // a lamp does not light itself
+                light[i] = factors.row_times(i, all) -
+                           factors.self_factor(i) * (emission_[i] - seen_emission_[i]);
+            else if (any)
+                light[i] = factors.row_times(i, some);
+            light[i] += set ? shadow_rays.irradiance(i, *set) : shadow_rays.irradiance(i);
+        }
+    });
+    return light;
+}
+
+} // namespace hemilux

@@ -1,0 +1,69 @@
+#pragma once
+// The linear system of gathering: what arrives at each patch in the end, from the rays that are
+// kept. Solved once for each of some independent sets of rays, whose spread is the error, and once
+// for all together.
+
+#include "radiosity/form_factors/exchange_matrix.h"
+#include "radiosity/gathering/direct_light.h"
+#include "radiosity/gathering/gathered_light.h"
+#include "radiosity/linear/energy_closing.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/solving/stop_flag.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+class GatheringSystem {
+  public:
+    /// `lamps`: patches whose light comes by shadow rays, not by rays at random. `closed`: no ray
+    /// can leave the scene or meet the back of a face, as its geometry proves. The mesh outlives
+    /// this.
+    GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps, bool closed);
+
+    /// By patch.
+    [[nodiscard]] std::span<const double> area() const { return area_; }
+    [[nodiscard]] std::span<const Vec3> reflectance() const { return reflectance_; }
+    [[nodiscard]] std::span<const Vec3> emission() const { return emission_; }
+    /// Of those that rays at random are to find.
+    [[nodiscard]] std::span<const Vec3> seen_emission() const { return seen_emission_; }
+    /// Whether the geometry proves that no ray is lost.
+    [[nodiscard]] bool closed() const { return closed_; }
+
+    /// Rays at random of each set, and shadow rays with an estimate for each.
+    struct Rays {
+        std::span<const RayCounts> counts;
+        const DirectLight& direct;
+    };
+    /// `light`, of each set and at last of all: from what it holds, on to what the rays tell, as
+    /// exactly as that is worth. Returns the factors of all. `error`: the relative one of what is
+    /// known so far; nan: unknown. Where it is interrupted nothing is changed.
+    ExchangeMatrix solve(const Rays& rays, double error, std::vector<GatheredLight::Light>& light,
+                         const Workers& workers, const StopFlag& interrupted) const;
+
+  private:
+    /// Light that comes straight from the emitters, and the variance of its power by channel.
+    struct Direct {
+        std::vector<Vec3> light;
+        Vec3 variance{0.0};
+    };
+    void solve(const ExchangeMatrix& factors, Direct direct, GatheredLight::Light& light,
+               const Workers& workers, double residual, const StopFlag& interrupted) const;
+    [[nodiscard]] Transport transport(const ExchangeMatrix& factors) const;
+    double average(std::vector<GatheredLight::Light>& light) const;
+    std::vector<Vec3> straight_light(const ExchangeMatrix& factors, const DirectLight& shadow_rays,
+                                     std::optional<std::size_t> set, const Workers& workers) const;
+
+    const Mesh& mesh_;
+    std::vector<double> area_;
+    std::vector<Vec3> reflectance_, emission_, seen_emission_;
+    double lost_at_least_ = 1; ///< of what falls on a patch, in any channel
+    bool closed_;
+};
+
+} // namespace hemilux

@@ -1,0 +1,61 @@
+#include "radiosity/gathering/linked_parts.h"
+
+#include "radiosity/form_factors/exchange_matrix.h"
+#include "radiosity/form_factors/ray_counts.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace hemilux {
+namespace {
+
+/// Disjoint sets, each named by its least member (Galler and Fischer 1964; path halving).
+class DisjointSets {
+  public:
+    explicit DisjointSets(std::size_t n) : parent_(n) {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i)
+            i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::uint32_t i, std::uint32_t j) {
+        const std::uint32_t a = find(i), b = find(j);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+    [[nodiscard]] LinkedParts parts() {
+        LinkedParts parts;
+        for (std::uint32_t i = 0; i < parent_.size(); ++i) {
+            const std::uint32_t first = find(i);
+            parts.of.push_back(first == i ? parts.count++ : parts.of[first]);
+        }
+        return parts;
+    }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+};
+
+} // namespace
+
+LinkedParts find_linked_parts(const ExchangeMatrix& factors) {
+    const auto n = static_cast<std::uint32_t>(factors.lost().size());
+    DisjointSets sets(n);
+    for (std::uint32_t i = 0; i < n; ++i)
+        for (const MatrixEntry& entry : factors.row(i))
+            if (entry.column < i) // the matrix is symmetric
+                sets.join(i, entry.column);
+    return sets.parts();
+}
+
+LinkedParts find_linked_parts(std::span<const RayCounts> sets_of_rays) {
+    DisjointSets sets(sets_of_rays[0].patches());
+    for (const RayCounts& set : sets_of_rays)
+        for (std::uint32_t i = 0; i < set.patches(); ++i)
+            for (const RayCounts::Count& seen : set.row(i))
+                sets.join(i, seen.patch);
+    return sets.parts();
+}
+
+} // namespace hemilux

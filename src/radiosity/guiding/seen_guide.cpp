@@ -1,0 +1,347 @@
+#include "radiosity/guiding/seen_guide.h"
+
+#include "radiosity/guiding/seen_worth.h"
+#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/hemisphere/log_byte.h"
+#include "radiosity/rays/receivers.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/sobol.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/saving/state.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace hemilux {
+namespace {
+
+/// Rays of each patch before the first step: knowledge of steps costs none, but comes late.
+constexpr std::size_t rays_of_one_look = 32, rays_of_first_look = 16;
+
+/// Steps all of whose rays teach; then the rays of one in four do.
+constexpr std::uint64_t steps_of_learning = 8, later_lessons = 4;
+
+/// Radiosity that all patches are taken to have besides what is known of it, as a share of the
+/// mean: few rays have told the first step, and what none has struck is not black. More makes those
+/// in the dark seem to have sent more rays than they did.
+constexpr double unsure_share = .05;
+
+/// Kept within what floats hold, whatever the areas.
+constexpr double most_value = 1e12, most_rays_per_area = 1e18, most_density = 1e12;
+
+/// After the first four, as often as what is known has grown by a third or a half: 6, 8, 12, 16 ...
+bool is_time_to_judge(std::uint64_t step) {
+    const std::uint64_t odd = step >> std::countr_zero(step);
+    return step <= 4 || odd == 1 || odd == 3;
+}
+
+class SeenGuide final : public Strategy {
+  public:
+    SeenGuide(const SolverInput& input, const Hemisphere& hemisphere, const Workers& workers,
+              bool learn)
+        : mesh_(input.mesh), needs_(input.needs), hemisphere_(hemisphere), workers_(workers),
+          first_leaf_(Hemisphere::cells_up_to(hemisphere.depth() - 1)), keeps_learning_(learn),
+          known_(hemisphere, input.mesh.patches().size()) {
+        const std::size_t patches = mesh_.patches().size();
+        worth_.assign(patches * known_.leaves(), log_byte::from(1));
+        density_.fill(1);
+        rays_for_power_.assign(patches, 1);
+        describe_sides();
+        look(input);
+    }
+
+    void prepare(std::span<const Vec3> radiosity, double ray_power) override {
+        prepared_ = true;
+        if (steps_ == 0 || (keeps_learning_ && is_time_to_judge(steps_ + 1)))
+            judge(radiosity);
+        if (!keeps_learning_)
+            known_.forget();
+        const auto step = static_cast<double>(steps_ + 1);
+        const double unsure = unsure_share * mean_radiosity(radiosity) / (step * step);
+        for (std::size_t i = 0; i < sides_.size(); ++i)
+            sides_[i].rays_per_area = static_cast<float>(std::min(
+                (mean_of_channels(radiosity[i]) + unsure) / ray_power, most_rays_per_area));
+    }
+
+    void begin_step(std::uint64_t) override {
+        const std::uint64_t step = steps_ + 1;
+        learns_ = keeps_learning_ && prepared_ &&
+                  (step <= steps_of_learning || step % later_lessons == 0);
+        if (learns_)
+            known_.drop_news();
+    }
+
+    void end_step() override {
+        steps_ += prepared_;
+        lessons_ += learns_;
+        if (learns_)
+            known_.settle(1);
+    }
+
+    [[nodiscard]] double rays_for_power(std::uint32_t patch) const override {
+        return rays_for_power_[patch];
+    }
+
+    Dealing deal(std::uint32_t patch, DealtCells& memory) const override {
+        const double scale = 1 / rays_for_power_[patch];
+        memory.clear();
+        for (std::size_t t = 0; t < known_.leaves(); ++t)
+            memory.add(static_cast<std::uint16_t>(first_leaf_ + t),
+                       known_.share(t) * scale * density(patch, t));
+        return memory.view();
+    }
+
+    [[nodiscard]] bool learns() const override { return learns_; }
+
+    void find_arrivals(std::span<const Ray> rays, std::span<const std::uint32_t> receivers,
+                       std::vector<std::uint16_t>& arrivals) const override {
+        for (std::size_t k = 0; k < rays.size(); ++k) {
+            const bool arrived = receivers[k] < absorbed;
+            arrivals.push_back(
+                arrived ? hemisphere_.leaf_at(frames_[receivers[k]].to_local(-rays[k].direction))
+                        : whole_hemisphere);
+        }
+    }
+
+    void learn(std::uint32_t patch, std::uint16_t cell, std::span<const std::uint32_t> receivers,
+               std::span<const std::uint16_t> arrivals) override {
+        const Side side = sides_[patch];
+        const std::size_t leaf = cell - first_leaf_;
+        const double sent = side.rays_per_area * density(patch, leaf); // D_it
+        float sum = 0;
+        for (std::size_t k = 0; k < receivers.size(); ++k) {
+            if (receivers[k] >= absorbed)
+                continue;
+            const Side& other = sides_[receivers[k]];
+            const std::size_t there = arrivals[k] - first_leaf_;
+            const double received = other.rays_per_area * density(receivers[k], there); // D_js
+            const auto part = static_cast<float>(1 / (sent + received));
+            sum += part * other.value;
+            known_.add(receivers[k], there, part * side.value, 1);
+        }
+        known_.add(patch, leaf, sum, static_cast<float>(receivers.size()));
+    }
+
+    void save(StateWriter& state) const override;
+    void load(StateReader& state) override;
+
+    [[nodiscard]] std::uint64_t density_rays() const override { return rays_; }
+    [[nodiscard]] std::uint64_t density_bytes() const override {
+        return worth_.size() + (keeps_learning_ ? known_.bytes() : 0);
+    }
+
+  private:
+    /// A patch as seen by another.
+    struct Side {
+        float value;         ///< rho^2 / A relative to the mean patch, mean of channels
+        float rays_per_area; ///< sent in a step by a triangle of density 1, local units
+    };
+    /// What a look from a patch saw.
+    struct Seen {
+        std::vector<Ray> rays;
+        std::vector<std::uint32_t> receivers;
+        std::vector<std::uint16_t> cells, arrivals;
+    };
+
+    /// Rays for the power of a leaf, on average 1.
+    [[nodiscard]] double density(std::uint32_t patch, std::size_t leaf) const {
+        return density_[worth_[patch * known_.leaves() + leaf]];
+    }
+    [[nodiscard]] std::size_t rays_of_look() const {
+        return keeps_learning_ ? rays_of_first_look : rays_of_one_look;
+    }
+    [[nodiscard]] double mean_radiosity(std::span<const Vec3> radiosity) const;
+
+    void describe_sides();
+    void look(const SolverInput& input);
+    void look_from(std::uint32_t patch, const SolverInput& input, Seen& seen) const;
+    void judge(std::span<const Vec3> radiosity);
+    [[nodiscard]] double usual_worth() const;
+    void find_density(double mean_root);
+    template <class Body>
+    void for_patches(const Body& body) const;
+
+    const Mesh& mesh_;
+    const Needs& needs_;
+    const Hemisphere& hemisphere_;
+    Workers workers_;
+    std::size_t first_leaf_;
+    bool keeps_learning_, learns_ = false;
+    bool prepared_ = false; ///< not before the pilot
+    SeenWorth known_;
+    double lessons_ = 0;      ///< steps whose rays are in known_, the look being a part of one
+    std::uint64_t steps_ = 0; ///< from 1; 0 before the pilot
+    std::uint64_t rays_ = 0;
+    double mean_root_ = 0;                         ///< of sqrt(V) over all power
+    std::vector<std::uint8_t> worth_;              ///< sqrt(V) by patch and leaf
+    std::array<double, log_byte::values> density_; ///< by the byte of worth_
+    std::vector<double> rays_for_power_;           ///< by patch
+    std::vector<Side> sides_;                      ///< by patch
+    std::vector<Frame> frames_;                    ///< by patch
+};
+
+template <class Body>
+void SeenGuide::for_patches(const Body& body) const {
+    workers_.for_chunks(sides_.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+            if (needs_.power(i) && mesh_.patches()[i].area > 0)
+                body(i);
+    });
+}
+
+void SeenGuide::describe_sides() {
+    double area = 0;
+    for (const Patch& patch : mesh_.patches())
+        area += patch.area;
+    const double mean_area = area / static_cast<double>(mesh_.patches().size());
+    for (std::uint32_t i = 0; i < mesh_.patches().size(); ++i) {
+        const double own_area = mesh_.patches()[i].area;
+        const Vec3& rho = mesh_.material(i).reflectance;
+        const bool sends = needs_.power(i) && own_area > 0;
+        const double value = own_area > 0 ? mean_of_channels(rho * rho) * mean_area / own_area : 0;
+        const double rays = sends ? static_cast<double>(rays_of_look()) / own_area : 0;
+        sides_.push_back({static_cast<float>(std::min(value, most_value)),
+                          static_cast<float>(std::min(rays, most_rays_per_area))});
+        frames_.push_back(mesh_.hemisphere_frame(i));
+    }
+}
+
+/// All patches, in their order whatever thread looks.
+void SeenGuide::look(const SolverInput& input) {
+    constexpr std::size_t at_once = 1024;
+    std::vector<Seen> seen(std::min(at_once, sides_.size()));
+    for (std::size_t begin = 0; begin < sides_.size(); begin += at_once)
+        workers_.for_each_in_order(
+            std::min(at_once, sides_.size() - begin),
+            [&](std::size_t k) {
+                look_from(static_cast<std::uint32_t>(begin + k), input, seen[k]);
+            },
+            [&](std::size_t k) {
+                const Seen& s = seen[k];
+                for (std::size_t ray = 0; ray < s.rays.size(); ++ray)
+                    learn(static_cast<std::uint32_t>(begin + k), s.cells[ray],
+                          std::span(s.receivers).subspan(ray, 1),
+                          std::span(s.arrivals).subspan(ray, 1));
+                rays_ += s.rays.size();
+            });
+    input.monitor.rays += rays_;
+    lessons_ =
+        static_cast<double>(rays_) / (input.options.rays * static_cast<double>(sides_.size()));
+    known_.settle(lessons_);
+}
+
+void SeenGuide::look_from(std::uint32_t patch, const SolverInput& input, Seen& seen) const {
+    seen = {};
+    const Patch& from = mesh_.patches()[patch];
+    if (!needs_.power(patch) || !(from.area > 0) || input.monitor.interrupted)
+        return;
+    constexpr std::uint64_t stream = 0x5ee2; // of no step
+    SobolBlocks<4> points(hash_words({input.options.seed, stream, patch}));
+    const PolygonSampler origins(from.shape);
+    for (std::uint32_t k = 0; k < rays_of_look(); ++k) {
+        const auto u = points.at(k);
+        const Vec3 direction = cosine_direction({u[2], u[3]});
+        seen.cells.push_back(hemisphere_.leaf_at(direction));
+        seen.rays.push_back({origins.sample({u[0], u[1]}), frames_[patch].to_world(direction)});
+        seen.rays.back().from = from.facet;
+    }
+    find_receivers(seen.rays, mesh_, input.tracer, seen.receivers);
+    find_arrivals(seen.rays, seen.receivers, seen.arrivals);
+}
+
+double SeenGuide::mean_radiosity(std::span<const Vec3> radiosity) const {
+    double power = 0, area = 0;
+    for (std::size_t i = 0; i < radiosity.size(); ++i) {
+        power += mesh_.patches()[i].area * mean_of_channels(radiosity[i]);
+        area += mesh_.patches()[i].area;
+    }
+    return area > 0 ? power / area : 0;
+}
+
+/// Mean over the patches that shoot.
+double SeenGuide::usual_worth() const {
+    std::vector<double> worth(sides_.size());
+    for_patches([&](std::uint32_t i) {
+        worth[i] = known_.sum_of(i) / (lessons_ * mesh_.patches()[i].area);
+    });
+    double sum = 0, patches = 0;
+    for (std::uint32_t i = 0; i < worth.size(); ++i) {
+        sum += worth[i];
+        patches += needs_.power(i);
+    }
+    return patches > 0 ? sum / patches : 0;
+}
+
+void SeenGuide::judge(std::span<const Vec3> radiosity) {
+    const double usual = usual_worth(), energy = worth_of_energy(mesh_, radiosity);
+    std::vector<double> roots(sides_.size()); // mean of sqrt(V) over a patch's power
+    for_patches([&](std::uint32_t i) {
+        thread_local std::vector<double> worth;
+        worth.resize(known_.leaves());
+        known_.estimate(i, 1 / (lessons_ * mesh_.patches()[i].area), usual, worth);
+        for (std::size_t t = 0; t < worth.size(); ++t) {
+            std::uint8_t& byte = worth_[i * worth.size() + t];
+            byte = log_byte::from(std::sqrt(worth[t] + energy));
+            roots[i] += known_.share(t) * log_byte::value(byte);
+        }
+    });
+    double power = 0, sum = 0;
+    for (std::size_t i = 0; i < roots.size(); ++i) {
+        const double shot = mesh_.patches()[i].area * mean_of_channels(radiosity[i]);
+        power += shot;
+        sum += shot * roots[i];
+    }
+    find_density(power > 0 ? sum / power : 0);
+}
+
+void SeenGuide::find_density(double mean_root) {
+    mean_root_ = mean_root;
+    for (std::size_t byte = 0; byte < log_byte::values; ++byte) {
+        const double guided = mean_root > 0 ? log_byte::value(byte) / mean_root : 1;
+        density_[byte] = lowest_density + (1 - lowest_density) * std::min(guided, most_density);
+    }
+    for_patches([&](std::uint32_t i) {
+        double rays = 0;
+        for (std::size_t t = 0; t < known_.leaves(); ++t)
+            rays += known_.share(t) * density(i, t);
+        rays_for_power_[i] = rays;
+    });
+}
+
+/// rays_per_area follows from the radiosity before each step.
+void SeenGuide::save(StateWriter& state) const {
+    state.add(steps_);
+    state.add(lessons_);
+    state.add(mean_root_);
+    state.add(std::string_view(reinterpret_cast<const char*>(worth_.data()), worth_.size()));
+    if (keeps_learning_)
+        known_.save(state);
+}
+
+void SeenGuide::load(StateReader& state) {
+    steps_ = state.whole_up_to(std::numeric_limits<std::uint32_t>::max());
+    const double of_look = lessons_; // each step adds one at most
+    lessons_ = state.number({of_look, of_look + static_cast<double>(steps_)});
+    const double mean_root = state.number(bounds::non_negative);
+    const std::string worth = state.text();
+    if (worth.size() != worth_.size())
+        throw StateError("the number of triangles is not that of the patches");
+    std::ranges::copy(worth, worth_.begin());
+    if (keeps_learning_)
+        known_.load(state);
+    find_density(mean_root);
+}
+
+} // namespace
+
+std::unique_ptr<Strategy> make_seen_guide(const SolverInput& input, const Hemisphere& hemisphere,
+                                          const Workers& workers, bool learn) {
+    return std::make_unique<SeenGuide>(input, hemisphere, workers, learn);
+}
+
+} // namespace hemilux

@@ -1,0 +1,42 @@
+#pragma once
+// The hemisphere guided by what is seen instead of how many surfaces are pierced.
+//
+// A ray of power w that strikes patch j adds (rho_j w)^2 / A_j to the area-weighted variance of the
+// solution. So the worth of a triangle t of patch i is
+//
+//     V_it = 1/p_t sum_j F_ij,t rho_j^2 / A_j,
+//
+// p_t being its share of the power and F_ij,t the part of the form factor that lies in t; and the
+// best number of rays is Phi_i p_t sqrt(V_it), with the same factor for all triangles of all
+// patches: small and bright things want rays, whoever sees them.
+//
+// *Both ways.* A small j is rarely struck from i, but each ray of j that strikes i tells i in which
+// triangle j stands. By reciprocity, A_i F_ij = A_j F_ji, so all rays between the two, whoever shot
+// them, estimate one number; each counts 1 / (D_it + D_js), D being the rays sent so far per area
+// and share of power (balance heuristic, Veach 1997). Hence no crowd between three empty corners is
+// missed: it is the crowd that tells.
+//
+// *Spread.* What few hits say of a triangle is noise. Each triangle counts for what its own hits
+// say, and as some hits more for what its parent says: children whose parent's hits do not show a
+// spread share its worth.
+//
+// Each triangle keeps sqrt(V) in one byte, as a logarithm. No triangle gets less than a part of its
+// share by power, so none starves and no ray carries more than 1 / lowest_density of the mean.
+
+#include "radiosity/shooting/strategy.h"
+
+#include <memory>
+
+namespace hemilux {
+
+class Workers;
+
+/// The part of its rays by power alone that a triangle always gets.
+inline constexpr double lowest_density = .2;
+
+/// A few rays from each patch before the first step; with `learn` also all rays of the steps.
+[[nodiscard]] std::unique_ptr<Strategy> make_seen_guide(const SolverInput& input,
+                                                        const Hemisphere& hemisphere,
+                                                        const Workers& workers, bool learn);
+
+} // namespace hemilux

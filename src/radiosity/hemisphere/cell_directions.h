@@ -1,0 +1,74 @@
+#pragma once
+// Random directions into cells of the hemisphere, cosine distributed within each, and points to
+// start from; many at once. Each sample has random numbers of its own, found by the key of its
+// stream and its number in that: so no sample depends on which others are drawn with it.
+
+#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/sampling/sampling_kernels.h"
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+inline constexpr std::uint16_t whole_hemisphere = 0xffff;
+
+/// A_tr / A_hemi of the paper: the share of a diffuse patch's power that a cell of the table gets,
+/// A being the projected solid angle; with the rules as printed the solid angle.
+[[nodiscard]] inline double power_share(const Hemisphere& hemisphere, std::uint16_t cell,
+                                        bool literal) {
+    if (cell == whole_hemisphere)
+        return 1;
+    const Hemisphere::Cell& its = hemisphere.cells()[cell];
+    return literal ? its.solid_angle / (2 * std::numbers::pi)
+                   : its.projected_solid_angle / std::numbers::pi;
+}
+
+/// Some samples, a place in each array for each.
+struct DirectionBatch {
+    static constexpr std::size_t room = 1024;
+    std::size_t size = 0;
+
+    std::array<std::uint32_t, room> key_low, key_high, number;
+    std::array<std::uint16_t, room> cell; ///< of Hemisphere::cells(), or whole_hemisphere
+    // What is drawn.
+    alignas(64) std::array<double, room> u, v;    ///< uniform in (0,1): where to start
+    alignas(64) std::array<double, room> x, y, z; ///< unit, z along the normal
+
+    [[nodiscard]] bool full() const { return size == room; }
+    void add(std::uint64_t key_, std::uint32_t number_, std::uint16_t cell_) {
+        key_low[size] = static_cast<std::uint32_t>(key_);
+        key_high[size] = static_cast<std::uint32_t>(key_ >> 32);
+        number[size] = number_;
+        cell[size++] = cell_;
+    }
+};
+
+class CellDirections {
+  public:
+    /// `literal`: shares of power as printed.
+    CellDirections(const Hemisphere& hemisphere, bool literal);
+    CellDirections(const CellDirections&) = delete;
+    CellDirections& operator=(const CellDirections&) = delete;
+
+    /// Of the same hemisphere and rules.
+    [[nodiscard]] double power_share(std::uint16_t cell) const {
+        return cell == whole_hemisphere ? 1 : power_shares_[cell];
+    }
+
+    /// Fills in u to z.
+    void draw(DirectionBatch& batch) const;
+
+  private:
+    void add(const SphericalTriangle& triangle);
+    void try_again(DirectionBatch& batch, std::span<std::uint32_t> missed) const;
+
+    std::array<std::vector<double>, CellShapes::parts> parts_; ///< see there
+    CellShapes shapes_{};
+    std::vector<double> power_shares_;
+};
+
+} // namespace hemilux

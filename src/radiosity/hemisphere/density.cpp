@@ -1,0 +1,244 @@
+#include "radiosity/hemisphere/density.h"
+
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+/// Walks the tree of one patch depth-first. count_at(vertex) is asked once for each vertex of the
+/// triangles that exist, always in the same order: the writer traces a ray there, the reader takes
+/// the next byte. leaf(cell, mean) is called for each triangle that is not divided.
+template <class CountAt, class Leaf>
+class TreeWalk {
+  public:
+    TreeWalk(const Hemisphere& hemisphere, double threshold, CountAt& count_at, Leaf& leaf)
+        : hemisphere_(hemisphere), threshold_(threshold), count_at_(count_at), leaf_(leaf) {
+        std::fill_n(count_.begin(), hemisphere.vertices().size(), unknown);
+    }
+
+    void run() {
+        for (std::size_t root = 0; root < Hemisphere::cells_up_to(0); ++root) {
+            for (const std::uint16_t v : hemisphere_.cells()[root].vertex)
+                ask(v);
+            visit(root);
+        }
+    }
+
+  private:
+    static constexpr std::int16_t unknown = -1;
+    static constexpr std::size_t most_vertices = 2113; ///< at Hemisphere::max_depth
+
+    void ask(std::uint16_t vertex) {
+        if (count_[vertex] == unknown)
+            count_[vertex] = count_at_(vertex);
+    }
+
+    void visit(std::size_t index) {
+        const Hemisphere::Cell& cell = hemisphere_.cells()[index];
+        const int sum = count_[cell.vertex[0]] + count_[cell.vertex[1]] + count_[cell.vertex[2]];
+        const double mean = sum / 3.0;
+        if (cell.level == hemisphere_.depth() || !(mean > threshold_)) {
+            leaf_(static_cast<std::uint16_t>(index), mean);
+            return;
+        }
+        for (const std::uint16_t v : cell.midpoint)
+            ask(v);
+        for (std::size_t child = 0; child < 4; ++child)
+            visit(cell.first_child + child);
+    }
+
+    const Hemisphere& hemisphere_;
+    double threshold_;
+    CountAt& count_at_;
+    Leaf& leaf_;
+    std::array<std::int16_t, most_vertices> count_;
+};
+
+template <class CountAt, class Leaf>
+void walk_tree(const Hemisphere& hemisphere, double threshold, CountAt&& count_at, Leaf&& leaf) {
+    TreeWalk(hemisphere, threshold, count_at, leaf).run();
+}
+
+/// Counts at all vertices that the walk will ask for, level by level: the rays of a level are
+/// traced together. Others are 0.
+template <class CountAll>
+std::vector<std::uint8_t> count_surfaces(const Hemisphere& hemisphere, double threshold,
+                                         const CountAll& count_all) {
+    const std::vector<Hemisphere::Cell>& cells = hemisphere.cells();
+    std::vector<std::uint8_t> counts(hemisphere.vertices().size());
+    std::vector<bool> asked(counts.size());
+    std::vector<std::uint16_t> vertices;
+    std::vector<std::uint32_t> found;
+    const auto ask = [&](std::uint16_t v) {
+        if (!asked[v])
+            vertices.push_back(v);
+        asked[v] = true;
+    };
+    std::vector<std::size_t> level{0, 1, 2, 3}, next;
+    for (const std::size_t root : level)
+        std::ranges::for_each(cells[root].vertex, ask);
+    for (;; level.swap(next)) {
+        found.resize(vertices.size());
+        count_all(vertices, found);
+        for (std::size_t k = 0; k < vertices.size(); ++k)
+            counts[vertices[k]] = static_cast<std::uint8_t>(std::min(found[k], 255u));
+        vertices.clear();
+        next.clear();
+        for (const std::size_t index : level) {
+            const Hemisphere::Cell& cell = cells[index];
+            const int sum =
+                counts[cell.vertex[0]] + counts[cell.vertex[1]] + counts[cell.vertex[2]];
+            if (cell.level == hemisphere.depth() || !(sum / 3.0 > threshold))
+                continue;
+            std::ranges::for_each(cell.midpoint, ask);
+            for (std::size_t child = 0; child < 4; ++child)
+                next.push_back(cell.first_child + child);
+        }
+        if (next.empty())
+            return counts;
+    }
+}
+
+/// Below any mean: all triangles are divided.
+constexpr double divide_all = -1;
+
+} // namespace
+
+Vec3 density_direction(const Vec3& vertex) {
+    constexpr double lift = 0.01; // sine of the elevation
+    const bool pole = vertex.x == 0 && vertex.y == 0;
+    return glm::normalize(Vec3(pole ? lift : vertex.x, vertex.y, std::max(vertex.z, lift)));
+}
+
+DensityMap::DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere& hemisphere,
+                       double threshold, const Workers& workers, Monitor& monitor,
+                       const Needs& needs, DensityStore kept)
+    : hemisphere_(hemisphere), threshold_(threshold), needs_(needs), kept_(kept) {
+    const std::size_t patches = mesh.patches().size();
+    std::vector<Vec3> directions;
+    for (const Vec3& v : hemisphere.vertices())
+        directions.push_back(density_direction(v));
+    const double counted_above = kept == DensityStore::everything ? divide_all : threshold;
+    Blocks blocks((patches + block_size - 1) / block_size);
+    workers.for_chunks(patches, block_size, [&](std::size_t begin, std::size_t end) {
+        Block& block = blocks[begin / block_size];
+        block.lengths.assign(end - begin, 0);
+        for (std::size_t i = begin; i < end && !monitor.interrupted; ++i) {
+            if (!needs.power(static_cast<std::uint32_t>(i)))
+                continue;
+            const Patch& patch = mesh.patches()[i];
+            const Frame frame = mesh.hemisphere_frame(static_cast<std::uint32_t>(i));
+            const std::size_t start = block.counts.size();
+            const std::vector<std::uint8_t> counted =
+                count_surfaces(hemisphere, counted_above, [&](const auto& vertices, auto& counts) {
+                    std::vector<Vec3> towards;
+                    for (const std::uint16_t v : vertices)
+                        towards.push_back(frame.to_world(directions[v]));
+                    tracer.count_bundle({patch.centre, patch.facet, towards}, counts);
+                });
+            const auto count_at = [&](std::uint16_t v) {
+                block.counts.push_back(counted[v]);
+                return std::int16_t{counted[v]};
+            };
+            walk_tree(hemisphere, counted_above, count_at, [](std::uint16_t, double) {});
+            block.lengths[i - begin] = static_cast<std::uint16_t>(block.counts.size() - start);
+        }
+        monitor.rays += block.counts.size();
+    });
+    store(blocks, patches);
+}
+
+void DensityMap::store(const Blocks& blocks, std::size_t patches) {
+    std::size_t longest = 0;
+    for (const Block& block : blocks) {
+        rays_ += block.counts.size();
+        for (const std::uint16_t length : block.lengths) {
+            longest = std::max<std::size_t>(longest, length);
+            rays_spared_ += length > 0 ? hemisphere_.vertices().size() - length : 0;
+        }
+    }
+    // Patches one after the other with an index, or all as long as the longest: whichever is
+    // smaller.
+    if (longest * patches <= rays_ + blocks.size() * sizeof(block_start_[0])) {
+        stride_ = longest;
+        counts_.resize(longest * patches);
+    } else {
+        counts_.reserve(rays_);
+    }
+    std::size_t patch = 0;
+    for (const Block& block : blocks) {
+        if (stride_ == 0) {
+            block_start_.push_back(counts_.size());
+            counts_.insert(counts_.end(), block.counts.begin(), block.counts.end());
+            continue;
+        }
+        const std::uint8_t* from = block.counts.data();
+        for (const std::uint16_t length : block.lengths) {
+            std::copy_n(from, length, counts_.data() + stride_ * patch++);
+            from += length;
+        }
+    }
+}
+
+template <class CountRead, class Leaf>
+const std::uint8_t* DensityMap::walk(const std::uint8_t* bytes, CountRead&& count_read,
+                                     Leaf&& leaf) const {
+    const auto next = [&](std::uint16_t vertex) {
+        count_read(vertex, *bytes);
+        return std::int16_t{*bytes++};
+    };
+    if (kept_ == DensityStore::divided_only) {
+        walk_tree(hemisphere_, threshold_, next, leaf);
+        return bytes;
+    }
+    std::vector<std::uint8_t> all(hemisphere_.vertices().size());
+    const auto keep = [&](std::uint16_t vertex) {
+        all[vertex] = *bytes++;
+        return std::int16_t{all[vertex]};
+    };
+    walk_tree(hemisphere_, divide_all, keep, [](std::uint16_t, double) {});
+    const auto kept = [&](std::uint16_t vertex) {
+        count_read(vertex, all[vertex]);
+        return std::int16_t{all[vertex]};
+    };
+    walk_tree(hemisphere_, threshold_, kept, leaf);
+    return bytes;
+}
+
+const std::uint8_t* DensityMap::counts_of(std::uint32_t patch) const {
+    if (stride_ > 0)
+        return counts_.data() + patch * stride_;
+    const std::uint8_t* at = counts_.data() + block_start_[patch / block_size];
+    const std::uint32_t first = patch - patch % static_cast<std::uint32_t>(block_size);
+    for (std::uint32_t before = first; before < patch; ++before)
+        if (needs_.power(before))
+            at = walk(
+                at, [](std::uint16_t, std::uint8_t) {}, [](std::uint16_t, double) {});
+    return at;
+}
+
+void DensityMap::leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) const {
+    result.clear();
+    walk(
+        counts_of(patch), [](std::uint16_t, std::uint8_t) {},
+        [&](std::uint16_t cell, double mean) {
+            result.push_back({cell, static_cast<float>(mean)});
+        });
+}
+
+void DensityMap::counts(std::uint32_t patch, std::vector<DensityCount>& result) const {
+    result.clear();
+    walk(
+        counts_of(patch),
+        [&](std::uint16_t vertex, std::uint8_t count) {
+            result.push_back({vertex, count});
+        },
+        [](std::uint16_t, double) {});
+}
+
+} // namespace hemilux

@@ -1,0 +1,123 @@
+#include "radiosity/linear/conjugate_gradients.h"
+
+#include "geometry/vector_ratio.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+/// The square of a residual relative to the light it belongs to; at most 1, where there is no light
+/// yet. What is not reflected is left to the step after the last.
+Vec3 relative_square(const Vec3& residual, const Vec3& light, const Vec3& weight) {
+    const auto one = [](double r, double h, double w) {
+        if (!(w > 0) || r == 0)
+            return 0.0;
+        return std::abs(r) < std::abs(h) ? (r / h) * (r / h) : 1.0;
+    };
+    return {one(residual.x, light.x, weight.x), one(residual.y, light.y, weight.y),
+            one(residual.z, light.z, weight.z)};
+}
+
+/// Whether there is light that is reflected, by channel 1 or 0.
+Vec3 is_lit(const Vec3& residual, const Vec3& light, const Vec3& weight) {
+    const auto one = [](double r, double h, double w) {
+        return w > 0 && (r != 0 || h != 0) ? 1.0 : 0.0;
+    };
+    return {one(residual.x, light.x, weight.x), one(residual.y, light.y, weight.y),
+            one(residual.z, light.z, weight.z)};
+}
+
+/// Sums over patches.
+struct Sums {
+    Vec3 squares{0.0};            ///< of the residual, weighted
+    Vec3 relative{0.0}, lit{0.0}; ///< of the squares of the relative residual; area
+
+    Sums& operator+=(const Sums& other) {
+        squares += other.squares;
+        relative += other.relative;
+        lit += other.lit;
+        return *this;
+    }
+};
+
+} // namespace
+
+GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> area,
+                                  std::span<const Vec3> reflectance, std::span<const Vec3> d,
+                                  std::vector<Vec3>& h, const Workers& workers,
+                                  const GradientOptions& options) {
+    const std::size_t n = h.size();
+    std::vector<Vec3> weight(n), r(n), p(n), q(n);
+    std::vector<Lanes> reflected(n);
+    const std::size_t chunks = (n + factors.rows_per_chunk - 1) / factors.rows_per_chunk;
+    /// Sum of term(i) over all patches, in an order that does not depend on the threads.
+    const auto sum = [&](const auto& term) {
+        using Term = decltype(term(std::size_t{0}));
+        std::vector<Term> part(chunks);
+        factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
+            Term some{};
+            for (std::size_t i = begin; i < end; ++i)
+                some += term(i);
+            part[begin / factors.rows_per_chunk] = some;
+        });
+        Term all{};
+        for (const Term& some : part)
+            all += some;
+        return all;
+    };
+    const auto residual_at = [&](std::size_t i) {
+        return Sums{weight[i] * r[i] * r[i], area[i] * relative_square(r[i], h[i], weight[i]),
+                    area[i] * is_lit(r[i], h[i], weight[i])};
+    };
+    const auto reflect = [&](std::size_t i, const Vec3& x) {
+        reflected[i] = factors.scaled(i, reflectance[i] * x);
+    };
+    factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            weight[i] = area[i] * reflectance[i];
+            reflect(i, h[i]);
+        }
+    });
+    Sums sums = sum([&](std::size_t i) {
+        r[i] = d[i] - (h[i] - factors.row_times(i, reflected));
+        return residual_at(i);
+    });
+    Vec3 more(0.0);
+    GradientResult result;
+    const auto worst = [&] {
+        const Vec3 share = glm::sqrt(ratio_or_zero(sums.relative, sums.lit));
+        return std::max({share.x, share.y, share.z});
+    };
+    const auto interrupted = [&] { return options.interrupted && *options.interrupted; };
+    for (result.residual = worst();
+         result.residual > options.tolerance && result.iterations < options.most && !interrupted();
+         result.residual = worst(), ++result.iterations) {
+        factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                p[i] = r[i] + more * p[i];
+                reflect(i, p[i]);
+            }
+        });
+        const Vec3 curvature = sum([&](std::size_t i) {
+            q[i] = p[i] - factors.row_times(i, reflected);
+            return weight[i] * p[i] * q[i];
+        });
+        // A channel that is done, or dark, stands still.
+        const Vec3 step = ratio_or_zero(sums.squares, curvature);
+        const Vec3 before = sums.squares;
+        sums = sum([&](std::size_t i) {
+            h[i] += step * p[i];
+            r[i] -= step * q[i];
+            return residual_at(i);
+        });
+        more = ratio_or_zero(sums.squares, before);
+    }
+    // Where nothing is reflected the weight is 0: there one more step without a product tells h.
+    for (std::size_t i = 0; i < n; ++i)
+        h[i] += r[i];
+    return result;
+}
+
+} // namespace hemilux

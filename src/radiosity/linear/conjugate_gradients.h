@@ -1,0 +1,37 @@
+#pragma once
+// The method of conjugate gradients (Hestenes and Stiefel 1952) for the radiosity equation.
+//
+// The light that arrives, h = d + F rho h, has the matrix I - F rho, which is self-adjoint and
+// positive in the inner product with the weights A rho if A_i F_ij is symmetric and no row sums to
+// more than 1. All three channels go in step, so that F is read once for all.
+
+#include "radiosity/form_factors/exchange_matrix.h"
+#include "radiosity/solving/stop_flag.h"
+
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+struct GradientOptions {
+    /// Of the residual relative to the light at the same patch, channel by channel: root mean
+    /// square over the area that is lit. So a faint room beside a bright one is solved to its own
+    /// scale.
+    double tolerance = 1e-9;
+    int most = 1000;                       ///< iterations
+    const StopFlag* interrupted = nullptr; ///< ends them; h is void then
+};
+
+/// h and how it was found.
+struct GradientResult {
+    int iterations = 0;
+    double residual = 0; ///< the largest of the channels
+};
+
+/// Solves h = d + F rho h from the guess in `h`; `weight` is A per patch.
+GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> area,
+                                  std::span<const Vec3> reflectance, std::span<const Vec3> d,
+                                  std::vector<Vec3>& h, const Workers& workers,
+                                  const GradientOptions& options = {});
+
+} // namespace hemilux

@@ -1,0 +1,28 @@
+#pragma once
+// How much of the light of an emitter leaves the scene or falls on backs.
+//
+// It is known twice where the factors to an emitter are computed in closed form: as the share of
+// its own rays that were lost, and as what the receivers miss of all that it sent. Few rays of a
+// lamp go through a small window; that none did would be taken for a wall.
+
+#include "radiosity/form_factors/sampled_form_factors.h"
+
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+struct EmitterLoss {
+    LostShare lost;
+    double rays = 0; ///< as many would tell it as exactly
+};
+
+/// By replicate and, in their order, the emitters that these have in closed form. Each is the mean
+/// of both, weighted by the inverse of their variances: of the rays of all replicates together, and
+/// by what the replicates differ. So no weight depends on what a replicate itself has met. The rays
+/// alone count where none of any emitter was lost, and where patches are black, which need not
+/// look. `rays`: those of a patch in each replicate.
+[[nodiscard]] std::vector<std::vector<EmitterLoss>>
+emitter_losses(std::span<const SampledFormFactors> replicates, double rays);
+
+} // namespace hemilux

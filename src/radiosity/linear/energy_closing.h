@@ -1,0 +1,69 @@
+#pragma once
+// The energy ledger of a solution by stored or explicit transport: emitted = absorbed + escaped.
+//
+// Counts of rays tell how much of the light of a patch is lost: leaves the scene, or falls on backs
+// of faces. A share that was counted as none or as all is not known for certain; its variance is
+// that of a Beta distribution that has seen the counts (Laplace's rule of succession), never 0.
+
+#include "radiosity/form_factors/ray_counts.h"
+#include "radiosity/form_factors/sampled_form_factors.h"
+#include "radiosity/solving/solution.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace hemilux {
+
+struct SolverInput;
+
+/// All by patch.
+struct Transport {
+    std::span<const double> area;
+    std::span<const Vec3> emission, reflectance;
+    std::span<const LostShare> lost;
+    std::span<const double> rays; ///< that the lost share was found with; 0 where there were none
+    bool closed = false;          ///< no ray can be lost, as the geometry proves
+};
+
+/// `direct` [W/m2 arriving] comes straight from emitters. Its sum over all patches is known twice:
+/// from `direct` itself, whose power has the `variance` [power^2, by channel], and as what the
+/// emitters sent less what was lost of it. The light is scaled to the mean of both, each weighted
+/// by the inverse of its variance, and never to more than was sent. So light that arrived is not
+/// discarded because the few rays of an emitter all missed.
+void scale_direct_light(const Transport& transport, const Vec3& variance, std::span<Vec3> direct);
+
+/// Power of `direct` over all patches [area times W/m2].
+[[nodiscard]] Vec3 power_arriving(const Transport& transport, std::span<const Vec3> direct);
+
+/// What becomes of `incident` [W/m2 arriving], B = E + rho incident: what was emitted and not
+/// absorbed was lost. Powers in units of area times incident.
+[[nodiscard]] EnergyBalance balance_energy(const Transport& transport,
+                                           std::span<const Vec3> incident);
+
+/// The same for factors that may make or lose energy, as those of `matrix`: where it is well known
+/// how much is lost, compared with what is absorbed, `incident` is first scaled so that emitted =
+/// absorbed + escaped.
+[[nodiscard]] EnergyBalance close_energy(const Transport& transport, std::span<Vec3> incident);
+
+/// Within a step whose rays have seen no way out: each try traces more, up to a limit.
+class SearchForWayOut {
+  public:
+    explicit SearchForWayOut(const SolverInput& input);
+    /// Whether light comes to an end at all. Where reflectances are 1 few rays may have found no
+    /// way out of the scene, and there is no solution with their factors, or one that is no number.
+    [[nodiscard]] bool is_drained(const EnergyBalance& energy) const {
+        const double imbalance = energy.imbalance();
+        return perfect_ ? imbalance < .5 : !(imbalance >= .5);
+    }
+    /// After a try in vain; `traced`: by the solver so far. Throws SolveError where there may be no
+    /// more rays, where the last try had no more, and at the limit.
+    void go_on(std::uint64_t traced, bool may_have_more);
+
+  private:
+    bool perfect_ = false; ///< some reflectance is 1
+    double most_;
+    std::optional<std::uint64_t> traced_;
+};
+
+} // namespace hemilux

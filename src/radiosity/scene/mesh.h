@@ -1,0 +1,135 @@
+#pragma once
+// The scene as the solvers see it: facets divided into patches, moved into a local frame.
+//
+// Rays are traced against whole facets, which share the vertices of the file, and the struck patch
+// is found from the coordinates inside the facet. So dividing a face costs the BVH nothing, and two
+// neighbours divided differently have no crack between them.
+
+#include "bvh/intersect.h"
+#include "geometry/box.h"
+#include "geometry/frame.h"
+#include "geometry/polygon.h"
+#include "radiosity/scene/scene.h"
+
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+struct MeshOptions {
+    /// Divide facets until no edge is longer [m]; 0 keeps each facet as one patch. Halving it gives
+    /// about four times as many patches.
+    double max_edge = 0;
+    /// Give every facet a patch on its back too.
+    bool two_sided = false;
+    /// More patches than this are refused before they are made.
+    std::size_t max_patches = 50'000'000;
+};
+
+/// A piece of a facet with constant radiosity, in the local frame.
+struct Patch {
+    Polygon shape; ///< counter-clockwise from the side that this patch is
+    Vec3 centre;   ///< centre of mass
+    Vec3 normal;   ///< unit, to the side that emits and reflects
+    double area;
+    std::uint32_t facet;
+    std::uint32_t material;
+    bool back; ///< the reverse of a two-sided facet
+};
+
+/// How far corners are from the centre, at most.
+[[nodiscard]] double radius_of(const Patch& patch);
+
+/// The frame of computation: world = centre + local / scale. The scale is a power of two, so that
+/// nothing is lost by it, and the scene lies within [-1,1]^3.
+struct LocalFrame {
+    Vec3 centre{0.0};
+    double scale = 1.0;
+    [[nodiscard]] Vec3 to_local(const Vec3& world) const { return (world - centre) * scale; }
+    [[nodiscard]] Vec3 to_world(const Vec3& local) const { return centre + local / scale; }
+    [[nodiscard]] double area_to_world(double area) const { return area / (scale * scale); }
+
+    /// Around what the facets use of the scene.
+    [[nodiscard]] static LocalFrame of(const Scene& scene);
+    [[nodiscard]] std::vector<Vec3> to_local(std::span<const Vec3> world) const;
+};
+
+class Mesh {
+  public:
+    /// Throws std::invalid_argument when the scene has no facet or too many patches would be made.
+    explicit Mesh(Scene scene, const MeshOptions& options = {});
+
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const LocalFrame& frame() const { return frame_; }
+    [[nodiscard]] std::span<const Patch> patches() const { return patches_; }
+    [[nodiscard]] const Material& material(const Patch& patch) const {
+        return scene_.materials[patch.material];
+    }
+    [[nodiscard]] const Material& material(std::uint32_t patch) const {
+        return material(patches_[patch]);
+    }
+    /// Vertices of the scene in the local frame, indexed by Facet::vertex; then those of facets
+    /// that lay in one plane over each other and were laid apart (stacked_facets.h).
+    [[nodiscard]] std::span<const Vec3> vertices() const { return vertices_; }
+    /// The frame in which the subdivided hemisphere of a patch stands: turned about the normal by
+    /// an angle hashed from the patch's index, so that its vertices do not run along the edges of a
+    /// regular mesh (docs/decisions.md, D12).
+    [[nodiscard]] Frame hemisphere_frame(std::uint32_t patch) const;
+    /// The facets for a tracer to copy or to refer to.
+    [[nodiscard]] FacetSoup soup() const;
+    /// The same for a tracer, in which no ray can meet what is buried under many others.
+    [[nodiscard]] FacetSoup soup_to_trace() const;
+    /// False where so many facets lie over each other that not all could be laid apart.
+    [[nodiscard]] bool is_laid_apart() const { return laid_apart_; }
+    /// One side of a facet as if it were not divided.
+    [[nodiscard]] Patch whole_side(std::uint32_t facet, bool back) const;
+    /// Whether a facet has more than one patch a side.
+    [[nodiscard]] bool is_divided(std::uint32_t facet) const { return only_patch_[facet] == none; }
+    /// The patch of a facet that is not divided; none for the back of a one-sided one.
+    [[nodiscard]] std::uint32_t patch_of(std::uint32_t facet, bool front) const {
+        if (!front && !two_sided_)
+            return none;
+        return only_patch_[facet] + (front ? 0 : 1);
+    }
+    /// The patch that was struck; none where the back of a one-sided facet was.
+    [[nodiscard]] std::uint32_t patch_at(const Hit& hit) const;
+
+  private:
+    /// How a facet is divided. A quad: rows x columns by the bilinear map. A triangle that is about
+    /// as wide as long: rows^2 triangles of its own shape. A narrow one: rows strips parallel to
+    /// its shortest edge, cut into columns by lines through the opposite vertex, the apex.
+    struct Division {
+        std::uint32_t first_patch;
+        std::uint32_t rows = 1, columns = 1;
+        bool similar = false;  ///< triangle: pieces of its own shape
+        std::uint8_t apex = 0; ///< triangle: which corner
+        /// Quad: corner0 - 1 + 2 - 3 in the basis of its edges at corner 0.
+        double g_x = 0, g_y = 0;
+    };
+
+    [[nodiscard]] Polygon shape_of(std::uint32_t facet) const;
+    [[nodiscard]] Patch patch_from(const Polygon& shape, std::uint32_t facet, bool back) const;
+    void lay_apart();
+    void divide(std::uint32_t facet, const MeshOptions& options);
+    void divide_quad(Division& division, const Polygon& shape, double max_edge, std::size_t room,
+                     std::vector<Polygon>& made) const;
+    void divide_triangle(Division& division, const Polygon& shape, double max_edge,
+                         std::size_t room, std::vector<Polygon>& made) const;
+    static void check_room(double count, std::size_t room);
+    [[nodiscard]] std::uint32_t piece_of_quad(const Division& division, const Hit& hit) const;
+    [[nodiscard]] std::uint32_t piece_of_triangle(const Division& division, const Hit& hit) const;
+
+    Scene scene_;
+    LocalFrame frame_;
+    std::vector<Vec3> vertices_;
+    std::vector<FacetCorners> corners_;
+    std::vector<FacetCorners> corners_to_trace_; ///< empty: as corners_
+    bool laid_apart_ = true;
+    std::vector<Patch> patches_;
+    std::vector<Division> divisions_;
+    std::vector<std::uint32_t>
+        only_patch_; ///< of a facet, none if divided: all that most hits need
+    bool two_sided_ = false;
+};
+
+} // namespace hemilux

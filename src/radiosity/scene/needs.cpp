@@ -1,0 +1,71 @@
+#include "radiosity/scene/needs.h"
+
+#include "radiosity/scene/convex_enclosure.h"
+#include "radiosity/scene/lit_facets.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+
+namespace hemilux {
+namespace {
+
+bool is_grey(const Vec3& v) { return v.r == v.g && v.g == v.b; }
+bool is_black(const Vec3& v) { return !glm::any(glm::greaterThan(v, Vec3(0.0))); }
+
+/// By material, whether some facet is made of it.
+std::vector<bool> materials_in_use(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size());
+    for (const Facet& facet : scene.facets)
+        used[facet.material] = true;
+    return used;
+}
+
+/// A quad is two.
+std::size_t count_triangles(const Scene& scene) {
+    std::size_t count = 0;
+    for (const Facet& facet : scene.facets)
+        count += facet.is_triangle() ? 1 : 2;
+    return count;
+}
+
+void find_idle_patches(const Mesh& mesh, Needs& needs) {
+    const std::vector<bool> lit = find_lit_patches(mesh);
+    needs.idle.resize(lit.size());
+    needs.bounces = false;
+    for (std::uint32_t i = 0; i < lit.size(); ++i) {
+        const Material& material = mesh.material(i);
+        needs.bounces |= lit[i] && !is_black(material.reflectance);
+        if (!is_black(material.emission))
+            continue;
+        needs.idle[i] = !lit[i] || is_black(material.reflectance);
+        needs.unlit += !lit[i];
+        needs.black += lit[i] && needs.idle[i];
+    }
+    if (needs.unlit + needs.black == 0)
+        needs.idle.clear();
+}
+
+} // namespace
+
+bool needs_tree(const Mesh& mesh) {
+    return count_triangles(mesh.scene()) > most_triangles_without_tree;
+}
+
+Needs find_needs(const Mesh& mesh) {
+    const Scene& scene = mesh.scene();
+    const std::vector<bool> used = materials_in_use(scene);
+    Needs needs;
+    needs.colours = false;
+    for (std::size_t m = 0; m < used.size(); ++m)
+        if (used[m]) {
+            const Material& material = scene.materials[m];
+            needs.colours |= !is_grey(material.reflectance) || !is_grey(material.emission);
+        }
+    needs.closed = is_convex_enclosure(mesh);
+    needs.densities = needs.visibility = !needs.closed;
+    needs.tree = needs_tree(mesh);
+    find_idle_patches(mesh, needs);
+    return needs;
+}
+
+} // namespace hemilux

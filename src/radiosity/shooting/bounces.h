@@ -1,0 +1,113 @@
+#pragma once
+// All bounces of one step: power is shot from all patches that hold some, what arrives is reflected
+// and shot in turn, until nothing is left (paper section 5b).
+//
+// Late bounces are of few rays: they cost what is shot, not a look at all patches.
+
+#include "geometry/compensated_sum.h"
+#include "radiosity/hemisphere/cell_directions.h"
+#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/rays/patch_starts.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/shooting/burst_rays.h"
+#include "radiosity/shooting/stepwise.h"
+#include "radiosity/shooting/strategy.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+/// What all steps share.
+struct ShootingTools {
+    SolverInput input;
+    Hemisphere hemisphere;
+    CellDirections directions;
+    PatchStarts starts;
+    std::unique_ptr<Strategy> strategy;
+};
+
+class Bounces {
+  public:
+    /// The tools outlive this. May be used for one step after the other.
+    explicit Bounces(const ShootingTools& tools) : tools_(tools), input_(tools.input) {}
+
+    /// Shoots what `result` holds as radiosity, and all that follows. False when interrupted.
+    bool shoot(const StepTask& task, StepResult& result);
+
+  private:
+    /// What one thread shoots at a time at least: of the rays on the line (plan) those in (from,
+    /// to], which are of senders from `first` to before `last`.
+    struct Piece {
+        std::uint32_t first, last;
+        double from, to;
+    };
+    /// Where the next piece begins: behind so many rays, or, as printed, of the sender's.
+    struct Place {
+        std::uint32_t sender;
+        double ray;
+    };
+    /// Pieces that one thread takes together.
+    struct Share {
+        std::size_t first, last;
+    };
+    /// What a share shot and where each ray arrived.
+    struct Volley {
+        std::vector<Burst> bursts;
+        std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
+        std::vector<std::uint16_t> arrivals;  ///< from which of its cells, if the strategy learns
+    };
+
+    /// What a patch received in a bounce; in one cache line, as rays strike here and there.
+    struct alignas(64) Arrived {
+        CompensatedSum<Vec3> power;
+        std::uint32_t rays = 0;
+    };
+
+    void begin(const StepResult& result);
+    /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
+    std::uint64_t bounce(std::uint64_t stream, StepResult& result);
+    void plan(std::uint64_t stream);
+    /// Lists some pieces from the place on, which is moved behind them; false if none are left.
+    bool cut(Place& next);
+    void cut_line(Place& next);
+    void cut_as_printed(Place& next);
+    void share_out(double rays);
+    void shoot_shares(const Workers& workers, std::uint64_t stream, StepResult& result);
+    void fire(const Share& share, std::uint64_t stream, Volley& volley) const;
+    // What is to be drawn is added to `bursts`.
+    void order(const Piece& piece, std::vector<Burst>& bursts) const;
+    void order(std::size_t sender, const Piece& piece, const Dealing& dealing,
+               std::vector<Burst>& bursts) const;
+    void order_as_printed(std::uint32_t patch, const Piece& piece, const Dealing& dealing,
+                          std::vector<Burst>& bursts) const;
+    void trace(std::uint64_t stream, Volley& volley) const;
+
+    void collect(const Volley& volley, StepResult& result);
+    std::array<std::uint32_t, 2> receive(const Vec3& power,
+                                         std::span<const std::uint32_t> receivers);
+    void teach(const Volley& volley) const;
+    void reflect(StepResult& result);
+    void add_sender(std::uint32_t patch, const Vec3& power);
+
+    const ShootingTools& tools_;
+    const SolverInput& input_;
+    const StepTask* task_ = nullptr;
+
+    // Of the present bounce.
+    std::vector<std::uint32_t> senders_; ///< patches that hold power, ascending
+    double left_ = 0;                    ///< their power, mean of channels
+    std::vector<Vec3> unshot_;           ///< by patch, of senders
+    /// Expected rays of the senders before sender k, counted from the bounce's random offset.
+    std::vector<double> rays_before_;
+    std::vector<Arrived> received_;     ///< by patch
+    std::vector<std::uint64_t> struck_; ///< a bit for each patch that received any
+    std::vector<Piece> pieces_;
+    std::vector<Share> shares_;
+    std::vector<Volley> volleys_; ///< kept for their memory
+};
+
+} // namespace hemilux

@@ -1,0 +1,109 @@
+#include "radiosity/shooting/burst_rays.h"
+
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+
+namespace hemilux {
+
+BurstRays::BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t stream,
+                     std::vector<Ray>& memory)
+    : source_(source), bursts_(bursts), stream_(stream), rays_(memory),
+      has_private_cells_(source.strategy.has_private_cells()) {
+    rays_.resize(DirectionBatch::room);
+}
+
+std::span<const Ray> BurstRays::next() {
+    list();
+    source_.directions.draw(batch_);
+    std::size_t first = 0;
+    for (const Run& run : runs_) {
+        fill(run, first);
+        first += run.rays;
+    }
+    return std::span(rays_).first(first);
+}
+
+/// As many as there is room for.
+void BurstRays::list() {
+    runs_.clear();
+    own_.clear();
+    batch_.size = 0;
+    while (!batch_.full() && !bursts_.empty()) {
+        Burst& burst = bursts_.front();
+        const auto rays = static_cast<std::uint32_t>(
+            std::min<std::size_t>(burst.rays - drawn_, DirectionBatch::room - batch_.size));
+        list_burst(burst, rays);
+        drawn_ += rays;
+        if (drawn_ < burst.rays)
+            break;
+        bursts_ = bursts_.subspan(1);
+        drawn_ = 0;
+    }
+}
+
+void BurstRays::list_burst(Burst& burst, std::uint32_t rays) {
+    if (listed_ != burst.patch) {
+        listed_ = burst.patch;
+        key_ = hash_words({stream_, burst.patch});
+    }
+    if (has_private_cells_)
+        if (auto own = source_.strategy.private_cell(burst.patch, burst.cell))
+            return list_private(burst, rays, std::move(*own));
+    add_to_batch(burst, rays, burst.cell, source_.directions.power_share(burst.cell));
+    if (!runs_.empty() && runs_.back().patch == burst.patch && runs_.back().own == none)
+        runs_.back().rays += rays;
+    else
+        runs_.push_back({burst.patch, rays, none});
+}
+
+/// Its directions are drawn elsewhere (fill_private).
+void BurstRays::list_private(Burst& burst, std::uint32_t rays, PrivateCell own) {
+    add_to_batch(burst, rays, whole_hemisphere, own.power);
+    runs_.push_back({burst.patch, rays, static_cast<std::uint32_t>(own_.size())});
+    own_.push_back(std::move(own));
+}
+
+void BurstRays::add_to_batch(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power) {
+    if (drawn_ == 0)
+        burst.ray_power *= power;
+    for (std::uint32_t k = 0; k < rays; ++k)
+        batch_.add(key_, burst.first + drawn_ + k, cell);
+}
+
+/// As printed, rays into triangles leave from the centre; those of plain Monte Carlo do not.
+void BurstRays::fill(const Run& run, std::size_t first) {
+    const PatchStart& start = source_.starts.of(run.patch, start_);
+    const std::span<Ray> rays = std::span(rays_).subspan(first, run.rays);
+    if (run.own != none)
+        return fill_private(own_[run.own], start, first, rays);
+    const PolygonSampler points = start.points; // copies, as rays might be written to theirs
+    const Frame frame = start.frame;
+    for (std::size_t k = first; Ray & ray : rays) {
+        ray.from = start.facet;
+        ray.origin = points.sample({batch_.u[k], batch_.v[k]});
+        ray.direction = frame.to_world({batch_.x[k], batch_.y[k], batch_.z[k]});
+        ++k;
+    }
+    if (source_.literal)
+        for (std::size_t k = first; Ray & ray : rays)
+            if (batch_.cell[k++] != whole_hemisphere)
+                ray.origin = source_.mesh.patches()[run.patch].centre;
+}
+
+void BurstRays::fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
+                             std::span<Ray> rays) {
+    const PolygonSampler part(cell.origins);
+    for (std::size_t k = first; Ray & ray : rays) {
+        Rng rng(hash_words({batch_.key_low[k], batch_.key_high[k], batch_.number[k]}));
+        ray.from = start.facet;
+        ray.origin =
+            source_.literal ? cell.origins.centre() : part.sample({batch_.u[k], batch_.v[k]});
+        ray.direction =
+            start.frame.to_world(cell.shape.sample_rejection([&] { return rng.uniform(); }));
+        ++k;
+    }
+}
+
+} // namespace hemilux

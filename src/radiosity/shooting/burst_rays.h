@@ -1,0 +1,75 @@
+#pragma once
+// Rays that are listed are drawn: where on their patch they start, and where they go.
+
+#include "bvh/tracer.h"
+#include "radiosity/rays/patch_starts.h"
+#include "radiosity/shooting/strategy.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+/// Rays from a patch into one of its cells.
+struct Burst {
+    std::uint32_t patch;
+    std::uint16_t cell;
+    std::uint32_t first; ///< its first ray's number among all those of the patch
+    std::uint32_t rays;
+    /// Phi_ray / Phi_patch; until the rays are drawn Phi_ray / Phi_tr.
+    double ray_power;
+};
+
+/// From where and into what.
+struct RaySource {
+    const Mesh& mesh;
+    const PatchStarts& starts;
+    const CellDirections& directions;
+    const Strategy& strategy;
+    bool literal;
+};
+
+/// The rays of a list of bursts in their order, some at a time. A ray depends on the stream, its
+/// patch, its number there and its cell, not on what else is listed.
+class BurstRays {
+  public:
+    /// `memory` holds the rays between two calls and may be used again afterwards.
+    BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t stream,
+              std::vector<Ray>& memory);
+
+    /// The next ones, as many as a batch has room for until the last; none when there are no more.
+    [[nodiscard]] std::span<const Ray> next();
+
+  private:
+    /// Rays of a patch among those that are drawn now: of a private cell, or of all others.
+    struct Run {
+        std::uint32_t patch, rays;
+        std::uint32_t own; ///< the private cell's place in own_, else none
+    };
+    void list();
+    void list_burst(Burst& burst, std::uint32_t rays);
+    void list_private(Burst& burst, std::uint32_t rays, PrivateCell own);
+    void add_to_batch(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power);
+    void fill(const Run& run, std::size_t first);
+    void fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
+                      std::span<Ray> rays);
+
+    const RaySource& source_;
+    std::span<Burst> bursts_;
+    std::uint64_t stream_;
+    std::vector<Ray>& rays_;
+    bool has_private_cells_;
+    std::uint32_t drawn_ = 0;     ///< of the first of bursts_
+    std::uint32_t listed_ = none; ///< the patch of that
+    std::uint64_t key_ = 0;       ///< of that patch's random numbers
+    std::vector<Run> runs_;
+    std::vector<PrivateCell> own_;
+    DirectionBatch batch_;
+    std::optional<PatchStart> start_; ///< memory of one
+};
+
+} // namespace hemilux

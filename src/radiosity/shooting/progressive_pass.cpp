@@ -1,0 +1,247 @@
+#include "radiosity/shooting/progressive_pass.h"
+
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/shooting/arriving_power.h"
+#include "radiosity/solving/solve_error.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+/// A pass ends when the light that is still to come is less than this share of the light reflected
+/// so far, and hardly any emitted power is left to account for. Over all, far more would do; but
+/// small patches hold little power to the end, and it is what lights their small neighbours.
+constexpr double finished_share = 2e-5, finished_share_of_emitted = 5e-3;
+
+/// Rays from each shooter to find how much of its light leaves the scene.
+constexpr double least_lost_rays = 16, most_lost_rays = 16384;
+
+/// Of a mean, so that sums of all reflections stay finite: of the light that a pass waits for, and,
+/// as light in a bright room may go round for longer, of its errors.
+constexpr double most_reflectance = .999, most_of_errors = .99999;
+
+/// What overshooting adds at most to what is unshot.
+constexpr double most_overshot = .8;
+
+/// Where the light can be.
+struct ReflectingArea {
+    double area = 0;
+    Vec3 mean_reflectance{0.0};
+
+    explicit ReflectingArea(const Mesh& mesh) {
+        double total = 0;
+        for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+            const double here = mesh.patches()[i].area;
+            const Vec3& reflectance = mesh.material(i).reflectance;
+            total += here;
+            area += reflectance != Vec3(0.0) ? here : 0;
+            mean_reflectance += here * reflectance;
+        }
+        if (!(area > 0))
+            area = total;
+        mean_reflectance = glm::min(mean_reflectance / area, Vec3(most_of_errors));
+    }
+};
+
+/// Radiosity that the mean patch will reflect in the end.
+double mean_reflected(const Mesh& mesh) {
+    const ReflectingArea reflecting(mesh);
+    const Vec3 rho = glm::clamp(reflecting.mean_reflectance, Vec3(least_reflectance_of_receivers),
+                                Vec3(most_reflectance));
+    return mean_of_channels(power_to_patches(mesh) * rho / (1.0 - rho)) / reflecting.area;
+}
+
+} // namespace
+
+ProgressivePass::ProgressivePass(const SolverInput& input)
+    : input_(input), emitted_(emitted_power(input.mesh)), brightest_(input.mesh.patches().size()),
+      balance_(input.needs.closed), factors_(input, mean_reflected(input.mesh)),
+      hits_(input.mesh.patches().size()) {
+    const ReflectingArea reflecting(input.mesh);
+    reflecting_area_ = reflecting.area;
+    mean_reflectance_ = reflecting.mean_reflectance;
+}
+
+void ProgressivePass::begin(double rays_per_light) {
+    rays_per_light_ = rays_per_light;
+    radiosity_.clear();
+    for (std::uint32_t i = 0; i < hits_.size(); ++i)
+        radiosity_.push_back(input_.mesh.material(i).emission);
+    unshot_ = radiosity_;
+    for (std::uint32_t i = 0; i < hits_.size(); ++i)
+        rank(i);
+    variance_.assign(hits_.size(), Vec3(0.0));
+    left_to_chance_.assign(hits_.size(), Vec3(0.0));
+    power_variance_ = Vec3(0.0);
+    absorbed_ = escaped_ = by_chance_ = {};
+}
+
+bool ProgressivePass::is_done() const {
+    double left = 0;
+    for (std::uint32_t i = 0; i < unshot_.size(); ++i)
+        left += unshot_power(i);
+    const Reflected now = reflected(most_reflectance);
+    const double missing = left * mean_of_channels(now.gain);
+    return !(missing > finished_share * mean_of_channels(now.power)) &&
+           !(left > finished_share_of_emitted * mean_of_channels(emitted_));
+}
+
+/// To the nearest power of 2^(1/256) of what is emitted: of patches that are alike but for rounding
+/// errors the first shoots first.
+void ProgressivePass::rank(std::uint32_t patch) {
+    const double share = unshot_power(patch) / mean_of_channels(emitted_);
+    brightest_.set(patch, share > 0 ? std::exp2(std::round(256 * std::log2(share)) / 256) : 0);
+}
+
+/// Mean of channels. Overshooting leaves negative light, which counts alike.
+double ProgressivePass::unshot_power(std::uint32_t patch) const {
+    return input_.mesh.patches()[patch].area * mean_of_channels(glm::abs(unshot_[patch]));
+}
+
+void ProgressivePass::shoot(std::uint32_t step) {
+    const auto shooter = static_cast<std::uint32_t>(brightest_.index_of_largest());
+    Vec3 shot = unshot_[shooter]; // dB_s
+    unshot_[shooter] = Vec3(0.0);
+    if (input_.options.progressive.overshoot) {
+        // At most so much that it converges: as over-relaxation by less than 2 does.
+        const Vec3 later = glm::clamp(input_.mesh.material(shooter).reflectance * ambient(),
+                                      Vec3(0.0), glm::max(most_overshot * shot, 0.0));
+        shot += later;
+        unshot_[shooter] = -later;
+    }
+    check_finite(input_.mesh, shooter, shot, "the radiosity to be shot", step);
+    rank(shooter);
+    factors_.look(shooter, shot, rays_per_light_,
+                  hash_words({input_.options.seed, shots_, shooter}));
+    if (input_.monitor.interrupted)
+        return;
+    const ShotShares shares = balance_.settle(factors_.sum(), look_for_losses(shooter, shot));
+    receive(shot, shares);
+    note_power_variance(shot, shares);
+    const Vec3 power = shot * input_.mesh.patches()[shooter].area;
+    escaped_ += shares.lost.escaped * power;
+    absorbed_ += shares.lost.absorbed * power;
+    by_chance_ += shares.by_chance * power;
+    ++shots_;
+}
+
+/// In the order of the patches, whatever thread has looked.
+void ProgressivePass::receive(const Vec3& shot, const ShotShares& shares) {
+    for (std::uint32_t i = 0; i < hits_.size(); ++i) {
+        const Sight& seen = factors_.sights()[i];
+        const Vec3& rho = input_.mesh.material(i).reflectance;
+        const Vec3 incident = shot * (shares.scale * seen.factor);
+        radiosity_[i] += rho * incident;
+        unshot_[i] += rho * incident;
+        if (seen.factor > 0)
+            rank(i);
+        variance_[i] += rho * shot * rho * shot * (shares.scale * shares.scale * seen.variance) +
+                        rho * incident * rho * incident * shares.variance;
+        left_to_chance_[i] +=
+            rho * shot * rho * shot * (shares.scale * shares.scale * seen.left_to_chance);
+        absorbed_ += (1.0 - rho) * incident * input_.mesh.patches()[i].area;
+        hits_[i] += seen.hits;
+        points_ += seen.points;
+        rays_ += seen.rays;
+    }
+}
+
+/// Of what the receivers of the shot reflect together. Where the factors were made to sum up to
+/// what arrives, their errors only move light between receivers, whose reflectances may differ.
+void ProgressivePass::note_power_variance(const Vec3& shot, const ShotShares& shares) {
+    Vec3 arriving(0.0), reflected(0.0);
+    for (std::uint32_t i = 0; i < hits_.size(); ++i) {
+        const Vec3 here =
+            shot * (shares.scale * factors_.sights()[i].factor * input_.mesh.patches()[i].area);
+        arriving += here;
+        reflected += input_.mesh.material(i).reflectance * here;
+    }
+    Vec3 usual(0.0);
+    for (int c = 0; c < 3; ++c)
+        if (shares.scaled && arriving[c] > 0)
+            usual[c] = reflected[c] / arriving[c];
+    power_variance_ += reflected * reflected * shares.variance;
+    for (std::uint32_t i = 0; i < hits_.size(); ++i) {
+        const Vec3 more = (input_.mesh.material(i).reflectance - usual) * shot *
+                          (shares.scale * input_.mesh.patches()[i].area);
+        power_variance_ += more * more * factors_.sights()[i].variance;
+    }
+}
+
+/// Factors do not tell where the rest of the light went; some rays from the shooter do.
+ShotRays ProgressivePass::look_for_losses(std::uint32_t shooter, const Vec3& shot) {
+    const double power = mean_of_channels(glm::abs(shot)) * input_.mesh.patches()[shooter].area;
+    const double wanted = std::clamp(rays_per_light_ * power / mean_of_channels(emitted_),
+                                     least_lost_rays, most_lost_rays);
+    const auto count = std::bit_ceil(static_cast<std::uint32_t>(wanted));
+    points_ += count;
+    rays_ += count;
+    input_.monitor.rays += count;
+    return shoot_to_lose(input_.mesh, input_.tracer, input_.needs, shooter, count,
+                         hash_words({input_.options.seed, shots_, shooter, 1}));
+}
+
+ProgressivePass::Reflected ProgressivePass::reflected(double most) const {
+    Reflected result;
+    Vec3 weighted(0.0), usual = glm::min(mean_reflectance_, Vec3(most));
+    for (std::uint32_t i = 0; i < radiosity_.size(); ++i) {
+        const Material& material = input_.mesh.material(i);
+        const Vec3 power = input_.mesh.patches()[i].area * (radiosity_[i] - material.emission);
+        result.power += power;
+        weighted += material.reflectance * power;
+    }
+    for (int c = 0; c < 3; ++c)
+        if (result.power[c] > 0)
+            usual[c] = std::clamp(weighted[c] / result.power[c], usual[c], most);
+    result.gain = usual / (1.0 - usual);
+    return result;
+}
+
+/// Irradiance that the unshot light will bring to the mean patch: the ambient term of Cohen et al.
+/// (1988).
+Vec3 ProgressivePass::ambient() const {
+    return power_unshot() / (1.0 - mean_reflectance_) / reflecting_area_;
+}
+
+Vec3 ProgressivePass::power_unshot() const {
+    CompensatedSum<Vec3> power;
+    for (std::uint32_t i = 0; i < unshot_.size(); ++i)
+        power += unshot_[i] * input_.mesh.patches()[i].area;
+    return power.value();
+}
+
+Estimate ProgressivePass::estimate() const {
+    const Vec3 missing = ambient();
+    const Vec3 gain = 1.0 / ((1.0 - mean_reflectance_) * reflecting_area_);
+    const Vec3 shared = gain * gain * power_variance_;
+    // What is unshot may stay where the light is now, as in the shade around a lamp.
+    const Reflected now = reflected(most_of_errors);
+    Vec3 share(0.0);
+    for (int c = 0; c < 3; ++c)
+        if (now.power[c] > 0)
+            share[c] = power_unshot()[c] * now.gain[c] / now.power[c];
+    Estimate result{
+        radiosity_,
+        variance_,
+        left_to_chance_,
+        {},
+        0,
+        {emitted_, absorbed_.value(), escaped_.value(), power_unshot() + by_chance_.value()}};
+    for (std::uint32_t i = 0; i < hits_.size(); ++i) {
+        const Vec3& rho = input_.mesh.material(i).reflectance;
+        const Vec3 here = share * (radiosity_[i] - input_.mesh.material(i).emission);
+        result.missing.push_back(glm::max(glm::abs(rho * missing), glm::abs(here)));
+        result.variance[i] += rho * rho * shared;
+        result.shared += input_.mesh.patches()[i].area * glm::dot(rho * rho, shared);
+        if (input_.options.progressive.ambient)
+            result.radiosity[i] += rho * missing;
+    }
+    return result;
+}
+
+} // namespace hemilux

@@ -1,0 +1,77 @@
+#pragma once
+// A pass of progressive radiosity: from all light in the emitters until hardly any is left to be
+// shot.
+//
+// B is known with three errors. The pairs of patches err each for themselves, and the spread of
+// their points tells by how much. What a shot brings in all errs together with all that later shots
+// make of it; that error is taken to be spread evenly, as the ambient term of Cohen et al. (1988)
+// spreads light. And what is unshot will add to B, by up to the ambient term or in proportion to
+// the light that is there.
+
+#include "geometry/compensated_sum.h"
+#include "radiosity/sampling/largest_first.h"
+#include "radiosity/shooting/shot_balance.h"
+#include "radiosity/shooting/shot_factors.h"
+#include "radiosity/solving/estimate.h"
+#include "radiosity/solving/solver.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class ProgressivePass {
+  public:
+    explicit ProgressivePass(const SolverInput& input);
+
+    /// Again from the emitters on. `rays_per_light`: shadow rays in a shot that gives a receiver as
+    /// much light as the mean patch reflects in the end; other shots get them in proportion.
+    void begin(double rays_per_light);
+    /// The patch with the most unshot power; `step` is for messages. Void if interrupted.
+    void shoot(std::uint32_t step);
+    [[nodiscard]] bool is_done() const;
+    /// After the last shot.
+    [[nodiscard]] Estimate estimate() const;
+
+    [[nodiscard]] const Vec3& emitted() const { return emitted_; } ///< power, local units
+    // Of all passes.
+    [[nodiscard]] std::span<const std::uint64_t> hits() const { return hits_; }
+    [[nodiscard]] std::uint64_t points() const { return points_; }
+    [[nodiscard]] std::uint64_t rays() const { return rays_; }
+
+  private:
+    /// The light that was reflected so far, over all patches.
+    struct Reflected {
+        Vec3 power{0.0};
+        Vec3 gain{0.0}; ///< what all reflections add to light where this is, relative to it
+    };
+
+    void rank(std::uint32_t patch);
+    [[nodiscard]] double unshot_power(std::uint32_t patch) const;
+    [[nodiscard]] ShotRays look_for_losses(std::uint32_t shooter, const Vec3& shot);
+    void receive(const Vec3& shot, const ShotShares& shares);
+    void note_power_variance(const Vec3& shot, const ShotShares& shares);
+    /// With a mean reflectance of at most `most`.
+    [[nodiscard]] Reflected reflected(double most) const;
+    [[nodiscard]] Vec3 ambient() const;
+    [[nodiscard]] Vec3 power_unshot() const;
+
+    SolverInput input_;
+    double reflecting_area_ = 0;
+    Vec3 mean_reflectance_{0.0}; ///< of that, by area
+    Vec3 emitted_{0.0};
+    std::vector<Vec3> radiosity_, unshot_; ///< B and dB
+    LargestFirst brightest_;               ///< unshot power
+    std::vector<Vec3> variance_;           ///< of B by sampling, but for what is reflected again
+    std::vector<Vec3> left_to_chance_;     ///< of that, by pairs that were seldom looked at
+    Vec3 power_variance_{0.0};             ///< of the power that all shots have brought
+    CompensatedSum<Vec3> absorbed_, escaped_, by_chance_; ///< power, local units
+    ShotBalance balance_;
+    ShotFactors factors_;
+    double rays_per_light_ = 0;
+    std::vector<std::uint64_t> hits_;
+    std::uint64_t points_ = 0, rays_ = 0, shots_ = 0;
+};
+
+} // namespace hemilux

@@ -1,0 +1,62 @@
+#include "radiosity/shooting/shooting.h"
+
+#include "radiosity/rays/shot.h"
+#include "radiosity/saving/state.h"
+#include "radiosity/scene/mesh.h"
+
+#include <chrono>
+
+namespace hemilux {
+
+ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strategy)
+    : StepwiseSolver(input, !input.options.literal), tools_{input, Hemisphere(input.options.depth),
+                                                            CellDirections(tools_.hemisphere,
+                                                                           input.options.literal),
+                                                            PatchStarts(input.mesh), nullptr} {
+    const auto start = std::chrono::steady_clock::now();
+    input_.monitor.phase = "density";
+    tools_.strategy = make_strategy(input_, tools_.hemisphere, Workers(input.options.threads));
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    const Strategy& strategy = *tools_.strategy;
+    solution_.seconds_density = elapsed.count();
+    solution_.rays_density = strategy.density_rays();
+    solution_.rays_density_spared = strategy.density_rays_spared();
+    solution_.bytes_density = strategy.density_bytes();
+}
+
+void ShootingSolver::make_places(unsigned count) {
+    while (bounces_.size() < count)
+        bounces_.emplace_back(tools_);
+}
+
+/// Where steps are alike the strategy is not told of them.
+bool ShootingSolver::solve_once(const StepTask& task, StepResult& result) {
+    Bounces& bounces = bounces_[task.place];
+    Strategy& strategy = *tools_.strategy;
+    if (strategy.is_same_in_all_steps())
+        return bounces.shoot(task, result);
+    if (task.stream != pilot_stream)
+        strategy.prepare(estimate(), task.ray_power);
+    strategy.begin_step(task.stream); // the pilot's is after all others
+    if (!bounces.shoot(task, result))
+        return false;
+    strategy.end_step();
+    return true;
+}
+
+/// On average over all power a strategy gives about as many rays as power alone would.
+void ShootingSolver::load_more(StateReader& state) {
+    constexpr double most_times = 1e3;
+    tools_.strategy->load(state);
+    double power = 0, rays = 0;
+    for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i) {
+        const double of_patch =
+            input_.mesh.patches()[i].area * mean_of_channels(solution_.radiosity[i]);
+        power += of_patch;
+        rays += of_patch * tools_.strategy->rays_for_power(i);
+    }
+    if (!(rays <= most_times * power))
+        throw StateError("its patches would trace far more rays than are asked for");
+}
+
+} // namespace hemilux

@@ -1,0 +1,43 @@
+#pragma once
+// Compute Radiosity, the loops of paper section 5b, for any strategy.
+//
+// Each step is a complete, unbiased solution of all bounces (stepwise.h): power is shot from all
+// patches that hold some, what arrives is reflected and shot in turn, until nothing is left. Rays
+// are dealt in proportion to the power to be shot (docs/decisions.md, D10), so that each carries
+// about the same, unless the strategy gives some patches more and weaker ones; numbers of rays are
+// made whole by systematic sampling over all patches and cells at once, which is unbiased and ends
+// the series of bounces by itself.
+
+#include "radiosity/shooting/bounces.h"
+#include "radiosity/shooting/stepwise.h"
+
+#include <memory>
+#include <vector>
+
+namespace hemilux {
+
+class ShootingSolver final : public StepwiseSolver {
+  public:
+    ShootingSolver(const SolverInput& input, MakeStrategy make_strategy);
+
+  private:
+    bool solve_once(const StepTask& task, StepResult& result) override;
+    void make_places(unsigned count) override;
+    [[nodiscard]] bool steps_are_alike() const override {
+        return tools_.strategy->is_same_in_all_steps();
+    }
+    void save_more(StateWriter& state) const override { tools_.strategy->save(state); }
+    /// Throws StateError also where the strategy would take far more rays than are asked for.
+    void load_more(StateReader& state) override;
+
+    ShootingTools tools_;
+    std::vector<Bounces> bounces_; ///< for each step that is worked out at the same time
+};
+
+/// Method::make of a strategy.
+template <MakeStrategy make_strategy>
+[[nodiscard]] std::unique_ptr<Solver> shoot_with(const SolverInput& input) {
+    return std::make_unique<ShootingSolver>(input, make_strategy);
+}
+
+} // namespace hemilux

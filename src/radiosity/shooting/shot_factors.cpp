@@ -1,0 +1,118 @@
+#include "radiosity/shooting/shot_factors.h"
+
+#include "geometry/compensated_sum.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+/// Fewer pairs are done sooner than other threads would be started.
+constexpr std::size_t receivers_per_chunk = 256;
+
+/// Pairs that are worth less than this many rays are looked at by chance only, and count for those
+/// that are not.
+constexpr double least_worth = .05;
+
+} // namespace
+
+ShotFactors::ShotFactors(const SolverInput& input, double mean_reflected)
+    : input_(input), workers_(input.options.threads), mean_reflected_(mean_reflected),
+      rough_(input.mesh.patches().size()), sights_(input.mesh.patches().size()) {
+    for (const Patch& patch : input.mesh.patches())
+        mean_area_ += patch.area;
+    mean_area_ /= static_cast<double>(sights_.size());
+}
+
+void ShotFactors::look(std::uint32_t shooter, const Vec3& shot, double rays_per_light,
+                       std::uint64_t seed) {
+    shooter_ = shooter;
+    guess();
+    workers_.for_chunks(
+        sights_.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+            std::uint64_t rays = 0;
+            for (std::size_t i = begin; i < end && !input_.monitor.interrupted; ++i) {
+                sights_[i] = look_from(static_cast<std::uint32_t>(i), shot, rays_per_light, seed);
+                rays += sights_[i].rays;
+            }
+            input_.monitor.rays += rays;
+        });
+}
+
+/// No factor to the shooter is more than the ratio of the areas, as no more arrives than is shot;
+/// and all factors of a patch sum up to 1 at most. Where the guesses sum up to S > 1, because
+/// patches stand in front of each other, a receiver sees the shooter with a probability of about 1
+/// / S: the standard deviation of what it sees, to which its rays are to be proportional, is
+/// smaller by the root of S.
+void ShotFactors::guess() {
+    const auto patches = input_.mesh.patches();
+    workers_.for_chunks(
+        sights_.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                rough_[i] = is_receiver(static_cast<std::uint32_t>(i))
+                                ? std::min(rough_factor(patches[i], patches[shooter_]),
+                                           patches[shooter_].area / patches[i].area)
+                                : 0;
+        });
+    CompensatedSum<double> sum;
+    for (std::uint32_t i = 0; i < rough_.size(); ++i)
+        sum += rough_[i] * patches[i].area / patches[shooter_].area;
+    crowding_ = std::max(1.0, sum.value());
+}
+
+/// What a patch without power absorbs is among the losses.
+bool ShotFactors::is_receiver(std::uint32_t patch) const {
+    const auto patches = input_.mesh.patches();
+    return patch != shooter_ && input_.needs.power(patch) &&
+           may_see(patches[patch], patches[shooter_]);
+}
+
+Sight ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot, double rays_per_light,
+                             std::uint64_t seed) const {
+    const double rough = rough_[receiver];
+    if (!(rough > 0))
+        return {};
+    const Vec3 rho =
+        glm::max(input_.mesh.material(receiver).reflectance, least_reflectance_of_receivers);
+    const double rays = rays_per_light / std::sqrt(crowding_) *
+                        worth(receiver, mean_of_channels(rho * glm::abs(shot)) * rough);
+    const double chance = std::min(rays / least_worth, 1.0);
+    const double at_risk = chance < 1 ? rough / crowding_ : 0;
+    // Of a factor that is `rough` with a probability of 1 / crowding_, looked at with `chance`.
+    const double left_to_chance = rays > 0 ? (1 - chance) / chance * rough * rough / crowding_ : 0;
+    if (chance < 1 && !(Rng(hash_words({seed, receiver})).uniform() < chance))
+        return {{}, at_risk, left_to_chance};
+    Sight f{pair_factor(input_.mesh, input_.tracer, receiver, shooter_, rays, seed,
+                        input_.needs.visibility),
+            at_risk, left_to_chance};
+    f.variance = f.variance / chance + (1 - chance) * (f.factor / chance) * (f.factor / chance);
+    f.factor /= chance;
+    return f;
+}
+
+/// The error of a sum is least with rays in proportion to what each term contributes; an error
+/// counts by the root of the area.
+double ShotFactors::worth(std::uint32_t receiver, double light) const {
+    return light / mean_reflected_ * std::sqrt(input_.mesh.patches()[receiver].area / mean_area_);
+}
+
+FactorSum ShotFactors::sum() const {
+    const double area = input_.mesh.patches()[shooter_].area;
+    CompensatedSum<double> sum;
+    FactorSum result;
+    for (std::uint32_t i = 0; i < sights_.size(); ++i) {
+        const double ratio = input_.mesh.patches()[i].area / area;
+        sum += ratio * sights_[i].factor;
+        result.variance += ratio * ratio * sights_[i].variance;
+        result.at_risk += ratio * sights_[i].at_risk;
+        result.points += static_cast<double>(sights_[i].points);
+    }
+    result.sum = sum.value();
+    return result;
+}
+
+} // namespace hemilux

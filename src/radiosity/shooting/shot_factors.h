@@ -1,0 +1,58 @@
+#pragma once
+// The form factors of all patches to one that shoots, for progressive radiosity: found anew for
+// each shot, as exactly as the light that they bring is worth (pair_factor.h).
+
+#include "radiosity/form_factors/pair_factor.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/shooting/shot_balance.h"
+#include "radiosity/solving/solver.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+/// F_receiver,shooter.
+struct Sight : PairFactor {
+    double at_risk = 0; ///< about the factor, if it was left to chance whether to look
+    /// The variance which that adds, as guessed before anything was seen. `variance` holds it as
+    /// seen: right on average, but 0 where nobody has looked.
+    double left_to_chance = 0;
+};
+
+class ShotFactors {
+  public:
+    /// `mean_reflected`: radiosity that the mean patch will reflect in the end [W/m2].
+    ShotFactors(const SolverInput& input, double mean_reflected);
+
+    /// Looks from all patches to the shooter, which shoots the radiosity `shot`. `rays_per_light`:
+    /// rays of a receiver that the shot gives as much light as the mean patch reflects; the others
+    /// get them in proportion. Void if interrupted.
+    void look(std::uint32_t shooter, const Vec3& shot, double rays_per_light, std::uint64_t seed);
+
+    /// By receiver, of the last shot.
+    [[nodiscard]] std::span<const Sight> sights() const { return sights_; }
+    /// The share of that shot that arrives.
+    [[nodiscard]] FactorSum sum() const;
+
+  private:
+    void guess();
+    [[nodiscard]] bool is_receiver(std::uint32_t patch) const;
+    [[nodiscard]] Sight look_from(std::uint32_t receiver, const Vec3& shot, double rays_per_light,
+                                  std::uint64_t seed) const;
+    [[nodiscard]] double worth(std::uint32_t receiver, double light) const;
+
+    SolverInput input_;
+    Workers workers_;
+    double mean_reflected_, mean_area_ = 0;
+    std::uint32_t shooter_ = 0;
+    std::vector<double> rough_; ///< F_receiver,shooter as guessed
+    double crowding_ = 1;       ///< what the guesses for all receivers sum up to, at least 1
+    std::vector<Sight> sights_;
+};
+
+/// Black patches count as if they reflected this: they are to account for what they absorb.
+inline constexpr double least_reflectance_of_receivers = .1;
+
+} // namespace hemilux

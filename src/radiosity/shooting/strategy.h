@@ -1,0 +1,117 @@
+#pragma once
+// A strategy deals a patch's rays to the cells of its hemisphere. That is all in which
+// the stepwise shooting methods differ: the loops of Compute Radiosity (paper section 5b) are the
+// same.
+
+#include "geometry/polygon.h"
+#include "geometry/spherical_triangle.h"
+#include "radiosity/hemisphere/cell_directions.h"
+#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/solving/solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+/// The cells of a patch in their order, each of Hemisphere::cells(), or whole_hemisphere, or
+/// private; and N_tr / N_hemi of the paper as running sums: of the patch's rays cell k owns those
+/// from rays_up_to[k - 1], or 0, to rays_up_to[k], the last being all. With the rules as printed
+/// that need not be 1.
+///
+/// Every strategy is unbiased, however the rays are dealt, as long as each cell with power has a
+/// positive share of them: for a ray carries the power of its cell, divided among the cell's rays.
+/// So floats do; many patches deal anew in each bounce, and what is kept for that is to be small.
+struct Dealing {
+    std::span<const std::uint16_t> cells;
+    std::span<const float> rays_up_to;
+
+    [[nodiscard]] double rays(std::size_t k) const {
+        return k > 0 ? double(rays_up_to[k]) - double(rays_up_to[k - 1]) : double(rays_up_to[0]);
+    }
+};
+
+/// Memory of a dealing.
+struct DealtCells {
+    std::vector<std::uint16_t> cells;
+    std::vector<float> rays_up_to;
+
+    void clear() { cells.clear(), rays_up_to.clear(), sum_ = 0; }
+    /// Rounding leaves no cell without rays.
+    void add(std::uint16_t cell, double rays) {
+        const float before = rays_up_to.empty() ? 0 : rays_up_to.back();
+        const float after = static_cast<float>(sum_ += rays);
+        cells.push_back(cell);
+        rays_up_to.push_back(rays > 0 && !(after > before) ? std::nextafter(before, most)
+                                                           : std::max(before, after));
+    }
+    [[nodiscard]] Dealing view() const { return {cells, rays_up_to}; }
+
+  private:
+    static constexpr float most = std::numeric_limits<float>::max();
+    double sum_ = 0;
+};
+
+/// A cell that is not of the table which all patches share; made only when rays are shot into it.
+struct PrivateCell {
+    double power; ///< its share of the patch's
+    SphericalTriangle shape;
+    Polygon origins; ///< the part of the patch where its rays start
+};
+
+class Strategy {
+  public:
+    virtual ~Strategy() = default;
+    /// It deals alike in all steps and learns nothing: then several steps are worked out at the
+    /// same time, and it is told of none.
+    [[nodiscard]] virtual bool is_same_in_all_steps() const { return false; }
+    /// Before a step other than the pilot: estimates of the radiosity, by patch, in local units,
+    /// and the power of a ray, mean of channels.
+    virtual void prepare(std::span<const Vec3> /*radiosity*/, double /*ray_power*/) {}
+    /// What is dealt from now on belongs to this step, 0 being the first.
+    virtual void begin_step(std::uint64_t) {}
+    /// Not of a step that was interrupted: what it has learned is to be forgotten.
+    virtual void end_step() {}
+    /// How many times more rays than its power alone would give it a patch gets, each with as much
+    /// less power; positive, and the same throughout a step. On average over all power about 1.
+    [[nodiscard]] virtual double rays_for_power(std::uint32_t /*patch*/) const { return 1; }
+    /// The cells of a patch, always in the same order: a view of what is kept or of what is put
+    /// into `memory`, until either changes. Callable from several threads.
+    [[nodiscard]] virtual Dealing deal(std::uint32_t patch, DealtCells& memory) const = 0;
+    /// Whether any cell that it deals may be private.
+    [[nodiscard]] virtual bool has_private_cells() const { return false; }
+    /// What a cell that was dealt is, where it is not of the table.
+    [[nodiscard]] virtual std::optional<PrivateCell> private_cell(std::uint32_t /*patch*/,
+                                                                  std::uint16_t /*cell*/) const {
+        return std::nullopt;
+    }
+
+    /// Whether it wants to be told in this step what its rays struck.
+    [[nodiscard]] virtual bool learns() const { return false; }
+    /// From which cells of their receivers rays come, ray by ray: what `learn` is to be told of it.
+    /// Callable from several threads.
+    virtual void find_arrivals(std::span<const Ray> /*rays*/,
+                               std::span<const std::uint32_t> /*receivers*/,
+                               std::vector<std::uint16_t>& /*added to*/) const {}
+    /// Where the rays of a cell arrived, see receivers.h; in a fixed order.
+    virtual void learn(std::uint32_t /*patch*/, std::uint16_t /*cell*/,
+                       std::span<const std::uint32_t> /*receivers*/,
+                       std::span<const std::uint16_t> /*arrivals*/) {}
+
+    /// As Solver's: what was learned.
+    virtual void save(StateWriter&) const {}
+    virtual void load(StateReader&) {}
+
+    [[nodiscard]] virtual std::uint64_t density_rays() const { return 0; }
+    /// Those that would have been shot if all triangles were divided.
+    [[nodiscard]] virtual std::uint64_t density_rays_spared() const { return 0; }
+    [[nodiscard]] virtual std::uint64_t density_bytes() const { return 0; }
+};
+
+} // namespace hemilux

@@ -1,0 +1,69 @@
+#pragma once
+// Where light goes, as a quick look at a scene needs it: a few thousand paths from the emitters,
+// facet by facet and not patch by patch.
+
+#include "bvh/tracer.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace hemilux {
+
+/// One side of a facet: where a ray leaves from.
+struct FacetSide {
+    std::uint32_t facet;
+    bool back;
+};
+
+/// What leaves a random point of a side, by the cosine law. It starts a little off the plane, so
+/// that layers that lie in one place (stacked_facets.h) do not hide each other.
+[[nodiscard]] Ray diffuse_ray(const Mesh& mesh, FacetSide side, Rng& rng);
+
+/// Points of all facets that do not shine, by area. Rays towards them find the ground below a sun,
+/// which hardly any ray by the cosine law does.
+class Targets {
+  public:
+    explicit Targets(const Mesh& mesh);
+    /// From a random point of a side; empty where the target is behind it.
+    [[nodiscard]] std::optional<Ray> ray_from(FacetSide side, Rng& rng) const;
+
+  private:
+    const Mesh& mesh_;
+    std::vector<double> area_sums_;
+};
+
+/// In the local frame.
+[[nodiscard]] double area_of(const Mesh& mesh, std::uint32_t facet);
+
+/// What a facet emits on one side, all channels together, in the local frame; 0 for what is no
+/// finite number.
+[[nodiscard]] double power_of(const Mesh& mesh, std::uint32_t facet);
+
+/// How many of about `count` items each facet gets, in proportion to its weight: systematic
+/// sampling, so each has its share to within one.
+[[nodiscard]] std::vector<std::uint32_t> shares_of(const std::vector<double>& weights,
+                                                   std::uint32_t count);
+
+/// Light that arrives on a facet, front and back as the scene has them, in rays.
+using SideLight = std::array<double, 2>;
+
+/// By facet, if all facets reflect half of the light on both sides: an estimate by which sides can
+/// be judged before they are known. `shines_back`: by facet, whether an emitting one shines to its
+/// back.
+[[nodiscard]] std::vector<SideLight> light_on_sides(const Mesh& mesh, const Tracer& tracer,
+                                                    const Targets& targets,
+                                                    const std::vector<bool>& shines_back);
+
+/// Shares of the emitted light, all channels together; the rest is absorbed by fronts. 0 where
+/// nothing emits.
+struct LightShares {
+    double backs = 0;   ///< falls on backs of one-sided faces, which absorb it
+    double escaped = 0; ///< leaves the scene
+};
+
+/// By 1024 paths, so to within 2 % (one standard error: 1.6 %). Deterministic.
+[[nodiscard]] LightShares find_light_shares(const Mesh& mesh, const Tracer& tracer);
+
+} // namespace hemilux

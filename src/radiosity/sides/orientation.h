@@ -1,0 +1,46 @@
+#pragma once
+// Faces that look away from the light, as those of a room modelled from outside do.
+//
+// Facets are gathered into shells (shells.h). Which side of a shell is its front follows from where
+// lamps find something to light (lamp_sides.h) and from where light arrives (light_paths.h). A
+// surface may be meant to be lit from behind, as a lamp shade is that faces outwards. So:
+// - A closed shell is turned if nearly all of its light falls on its backs, and a lamp if it faces
+//   a wall at once or nothing. If its facets disagree, some are turned first.
+// - An open shell is turned only if the file is disordered, as one is that is reversed as a whole
+//   or in many of its faces: then its backs need more light than its fronts. In a file that is
+//   right elsewhere only a few faces are turned, those that disagree with a large shell.
+// - What else gets nearly all of its light on its backs stays, and is counted as in doubt.
+
+#include "radiosity/scene/scene.h"
+#include "radiosity/sides/light_paths.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hemilux {
+
+struct Orientation {
+    std::vector<bool> looks_away;      ///< by face of the file; empty where none does
+    std::size_t faces = 0;             ///< that look away
+    std::vector<std::uint32_t> groups; ///< of these faces, ascending
+    std::size_t inside_out = 0;        ///< closed shells without a lamp, as a whole
+    std::size_t from_behind = 0;       ///< open shells without a lamp, as a whole
+    std::size_t lamps = 0;             ///< shells with a lamp, as a whole
+    std::size_t mixed = 0;             ///< shells of which some faces look away
+    std::size_t clashing_edges = 0;    ///< that two facets run along in the same direction
+    std::size_t one_sided = 0;         ///< shells that cannot be oriented: Moebius strips
+    LightShares light;                 ///< with the faces as they are, if some look away
+    std::size_t in_doubt = 0; ///< faces that stay, although much light falls on their backs
+    std::vector<std::uint32_t> groups_in_doubt; ///< ascending
+};
+
+/// Deterministic. In a scene in which nothing emits no face looks away. The mesh has no backs.
+[[nodiscard]] Orientation find_orientation(const Mesh& mesh, const Tracer& tracer);
+/// The same by a mesh and a tracer of its own, with the light in any case.
+[[nodiscard]] Orientation find_orientation(const Scene& scene);
+
+/// Turns all faces that look away.
+void turn_faces(Scene& scene, const Orientation& orientation);
+
+} // namespace hemilux

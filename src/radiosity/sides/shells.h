@@ -1,0 +1,44 @@
+#pragma once
+// Shells: the parts of a scene that hang together by edges of exactly two facets, and whether each
+// can be given one outer and one inner side. Two neighbours agree where they run along their common
+// edge in opposite directions.
+
+#include "radiosity/scene/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+struct Shell {
+    std::size_t begin, end; ///< in Shells::facets
+    bool closed = true;     ///< every edge has exactly two facets
+    bool consistent = true; ///< all neighbours agree
+    bool orientable = true; ///< they would, if some were turned; not so for a Moebius strip
+    double against = 0;     ///< the part of its area that would be turned, at most a half
+    /// Of a closed one, once it is consistent: 1 faces outwards, -1 inwards, 0 encloses nothing, as
+    /// a folded sheet.
+    int outwards = 0;
+};
+
+struct Shells {
+    std::vector<Shell> all;
+    std::vector<std::uint32_t> facets; ///< shell after shell
+    std::vector<std::uint32_t> of;     ///< the shell of a facet
+    /// By facet: to be turned so that its shell becomes consistent, with as little area turned as
+    /// possible.
+    std::vector<bool> against;
+    std::size_t shared_edges = 0;   ///< of two facets
+    std::size_t clashing_edges = 0; ///< of these, where the two do not agree
+
+    [[nodiscard]] std::span<const std::uint32_t> facets_of(const Shell& shell) const {
+        return std::span(facets).subspan(shell.begin, shell.end - shell.begin);
+    }
+};
+
+/// O(n log n) in the facets.
+[[nodiscard]] Shells find_shells(const Scene& scene);
+
+} // namespace hemilux

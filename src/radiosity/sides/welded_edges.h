@@ -1,0 +1,42 @@
+#pragma once
+// How the facets of a scene meet at their edges.
+
+#include "radiosity/scene/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hemilux {
+
+/// One side of a facet. Vertices at equal positions count as one and have the number of the first.
+struct Edge {
+    std::uint64_t ends; ///< both vertices, the smaller one in the upper half
+    std::uint32_t facet;
+    bool forward; ///< the facet runs from the smaller vertex to the larger one
+};
+
+/// Edges without length are left out. Sorted by their ends, then by facet, so that those that lie
+/// in one place are neighbours.
+[[nodiscard]] std::vector<Edge> welded_edges(const Scene& scene);
+
+/// Calls visit(first, last) for each place: the range of the edges that lie there.
+template <class Visit>
+void for_each_place(const std::vector<Edge>& edges, const Visit& visit) {
+    for (auto first = edges.begin(); first != edges.end();) {
+        auto last = first;
+        while (last != edges.end() && last->ends == first->ends)
+            ++last;
+        visit(first, last);
+        first = last;
+    }
+}
+
+struct EdgeCounts {
+    std::size_t open = 0;        ///< edges of exactly one facet
+    std::size_t nonmanifold = 0; ///< edges of three or more
+};
+
+[[nodiscard]] EdgeCounts count_edges(const Scene& scene);
+
+} // namespace hemilux

@@ -1,0 +1,122 @@
+#include "radiosity/solving/check_input.h"
+
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solve_error.h"
+#include "radiosity/solving/solver.h"
+#include "radiosity/solving/trapped_light.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace hemilux {
+namespace {
+
+bool is_negative(const Vec3& e) { return e.x < 0 || e.y < 0 || e.z < 0; }
+
+void check_material(const Mesh& mesh, std::uint32_t patch) {
+    const Material& material = mesh.material(patch);
+    if (!is_reflectance(material.reflectance))
+        throw SolveError(name_of_patch(mesh, patch) +
+                             " has a reflectance that is not from 0 to 1 in each channel",
+                         face_of(mesh, patch));
+    if (is_negative(material.emission))
+        throw SolveError(name_of_patch(mesh, patch) + " has a negative emission",
+                         face_of(mesh, patch));
+    check_finite(mesh, patch, material.emission, "the emission", 0);
+    const double area = mesh.patches()[patch].area;
+    check_finite(mesh, patch, mesh.frame().area_to_world(area) * material.emission,
+                 "the emitted power", 0);
+}
+
+/// Channel by channel the brightest emitter must not be too faint.
+void check_faint_channels(const Mesh& mesh) {
+    std::array<std::uint32_t, 3> brightest{};
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            std::uint32_t& most = brightest.at(static_cast<std::size_t>(c));
+            if (mesh.material(i).emission[c] > mesh.material(most).emission[c])
+                most = i;
+        }
+    for (int c = 0; c < 3; ++c) {
+        const std::uint32_t i = brightest.at(static_cast<std::size_t>(c));
+        const double emission = mesh.material(i).emission[c];
+        if (emission > 0 && emission < least_radiosity)
+            throw SolveError("the emission of " + name_of_patch(mesh, i) +
+                                 ", the largest of its channel, is too small to go on with; scale "
+                                 "emissions up or make it 0",
+                             face_of(mesh, i));
+    }
+}
+
+/// Up to three names, and how many more.
+std::string list(const std::set<std::string>& names) {
+    constexpr std::size_t most = 3;
+    std::string text;
+    std::size_t count = 0;
+    for (const std::string& name : names)
+        if (count++ < most)
+            text += (count > 1 ? ", '" : "'") + name + "'";
+    return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more"
+                               : text;
+}
+
+std::string describe(const Mesh& mesh, const TrappedLight& trapped) {
+    constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
+    std::set<std::string> groups, materials;
+    for (const std::uint32_t patch : trapped.patches) {
+        const Facet& facet = mesh.scene().facets[mesh.patches()[patch].facet];
+        if (facet.group < mesh.scene().groups.size())
+            groups.insert(mesh.scene().groups[facet.group]);
+        materials.insert(mesh.material(patch).name);
+    }
+    return "there is no finite solution: " + std::to_string(trapped.patches.size()) +
+           " patches that reflect all light (" +
+           channels.at(static_cast<std::size_t>(trapped.channel)) + ") enclose an emitter; of " +
+           std::to_string(trapped.rays) + " rays from them none got out. Groups: " + list(groups) +
+           "; materials: " + list(materials) + "; for example " +
+           name_of_patch(mesh, trapped.patches.front()) +
+           ". A reflectance below 1 on one of them lets light end";
+}
+
+/// Where the geometry does not prove that a scene is closed, so many rays that find no way out mean
+/// that there is none, or that light would be reflected about as often before it leaves.
+double enough_rays(const SolverInput& input) {
+    constexpr double of_closed = 3e5, of_others = 2e6;
+    const double asked = input.options.rays * double(input.mesh.patches().size());
+    return input.needs.closed ? of_closed : std::max(of_others, asked);
+}
+
+std::string advice(const Needs& needs) {
+    return needs.closed ? ""
+                        : "; if the scene has a smaller opening, a larger --rays looks for it with "
+                          "more";
+}
+
+} // namespace
+
+bool is_reflectance(const Vec3& r) {
+    return r.x >= 0 && r.x <= 1 && r.y >= 0 && r.y <= 1 && r.z >= 0 && r.z <= 1;
+}
+
+void check_input(const SolverInput& input) {
+    const Mesh& mesh = input.mesh;
+    bool perfect = false;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        check_material(mesh, i);
+        const Vec3& rho = mesh.material(i).reflectance;
+        perfect = perfect || std::max({rho.x, rho.y, rho.z}) >= 1;
+    }
+    check_faint_channels(mesh);
+    if (!perfect)
+        return;
+    input.monitor.phase = "closed?";
+    const auto trapped =
+        find_trapped_light(mesh, input.tracer, input.options.seed, enough_rays(input),
+                           Workers(input.options.threads), input.monitor);
+    if (trapped)
+        throw SolveError(describe(mesh, *trapped) + advice(input.needs),
+                         face_of(mesh, trapped->patches.front()));
+}
+
+} // namespace hemilux

@@ -1,0 +1,73 @@
+#include "radiosity/solving/error_spread.h"
+
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hemilux {
+namespace {
+
+/// What Fisher's F with these degrees of freedom is below in 975 of 1000 cases (Paulson 1942: its
+/// cube root is nearly a ratio of normal variables).
+double quantile_of_f(double above, double below) {
+    constexpr double z = 1.96;
+    const double a = 2 / (9 * above), b = 2 / (9 * below);
+    const double root = std::sqrt((1 - b) * (1 - b) * a + (1 - a) * (1 - a) * b - z * z * a * b);
+    const double below_of_ratio = (1 - b) * (1 - b) - z * z * b;
+    return below_of_ratio <= 0 ? std::numeric_limits<double>::infinity()
+                               : std::pow(((1 - a) * (1 - b) + z * root) / below_of_ratio, 3.0);
+}
+
+/// A few samples do not tell more parts than these from any number.
+constexpr double most_parts = 16;
+
+double parts_by_patch(const Mesh& mesh, const Solution& solution) {
+    const auto variance = [&](std::size_t i) {
+        const Vec3& sigma = solution.standard_error[i];
+        return mesh.patches()[i].area * glm::dot(sigma, sigma);
+    };
+    double sum = 0, squares = 0; // squares: of the shares, as those of variances may be too small
+    for (std::size_t i = 0; i < solution.standard_error.size(); ++i)
+        sum += variance(i);
+    for (std::size_t i = 0; i < solution.standard_error.size(); ++i)
+        squares += sum > 0 ? variance(i) / sum * (variance(i) / sum) : 0;
+    return squares > 0 ? std::max(1 / squares, 1.0) : std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+double ErrorSpread::uncertainty() const { return 1 / std::sqrt(2 * parts * freedom); }
+
+double ErrorSpread::bound() const { return std::sqrt(quantile_of_f(parts, parts * freedom)); }
+
+double ErrorSpread::reported() const {
+    constexpr double tolerance = 1.5;
+    const ErrorSpread surely{1 / (1 / parts + 1 / most_parts), freedom};
+    return std::max(1.0, surely.bound() / tolerance);
+}
+
+ErrorSpread error_spread(const Mesh& mesh, const Solution& solution) {
+    const double samples = solution.error_samples > 0 ? solution.error_samples : solution.steps;
+    if (!(samples > 1)) {
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        return {unknown, unknown};
+    }
+    return {solution.error_parts ? *solution.error_parts : parts_by_patch(mesh, solution),
+            samples - 1};
+}
+
+double error_parts(std::span<const double> products, std::size_t samples) {
+    const double n = static_cast<double>(samples) - 1;
+    double trace = 0, share = 0; // share: 1 / n to 1
+    for (std::size_t s = 0; s < samples; ++s)
+        trace += products[s * (samples + 1)];
+    for (const double product : products)
+        share += (product / trace) * (product / trace);
+    const double parts = (n + 1 - 2 * share) / (n * share - 1);
+    return trace > 0 && parts >= 0 ? std::max(parts, 1.0) : std::numeric_limits<double>::infinity();
+}
+
+} // namespace hemilux

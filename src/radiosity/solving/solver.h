@@ -1,0 +1,186 @@
+#pragma once
+// What the program and the tests know of a method: its name, and that it takes steps, each of which
+// improves the solution.
+
+#include "bvh/tracer.h"
+#include "radiosity/scene/needs.h"
+#include "radiosity/solving/solution.h"
+#include "radiosity/solving/stop_flag.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace hemilux {
+
+class Mesh;
+
+/// What the method `progressive` may do besides.
+struct ProgressiveOptions {
+    /// A step is one shot; else as many as use up the rays of a step.
+    bool one_shot = false;
+    /// Adds to the solution shown an estimate of the light that is still unshot (Cohen et al.
+    /// 1988). It makes early pictures brighter and is gone at the end.
+    bool ambient = false;
+    /// Patches also shoot what they will probably receive later, and take back what was too much
+    /// (Feda and Purgathofer 1992). Fewer shots in bright rooms.
+    bool overshoot = false;
+};
+
+/// What `hemisphere` is guided by.
+enum class Guide {
+    density, ///< surfaces along a ray, as in the paper
+    visible, ///< what is seen: rho^2 / A of the nearest patch
+    learned  ///< the same, from the hits of the steps before
+};
+
+struct SolveOptions {
+    /// Mean energy rays per patch and step, N_hemi of the paper. More: fewer, longer steps.
+    double rays = 64;
+    /// Levels of subdivision of the hemisphere, 0 to 5: 4, 20, 84, ... triangles.
+    int depth = 2;
+    /// A triangle whose mean density is higher is divided.
+    double threshold = 0;
+    /// The rules as printed in the paper; biased (docs/decisions.md, D1, D2, D10).
+    bool literal = false;
+    /// `matrix`: factors without chance where patches see each other fully. For small scenes.
+    bool exact = false;
+    ProgressiveOptions progressive = {};
+    Guide guide = Guide::density; ///< `hemisphere`; not with `literal`
+    std::uint64_t seed = 1;
+    /// `gathering`: each step takes as many rays as all before, or as `aim` asks for; else each
+    /// takes `rays`, as with the other methods.
+    bool growing_steps = true;
+    /// The estimated error at which the run is to end; 0: none. `gathering` plans its steps by it.
+    double aim = 0;
+    /// Steps that the caller will take, as far as it knows: methods whose steps are independent
+    /// work out several at the same time. The result does not depend on it.
+    std::uint32_t expected_steps = 0;
+    /// Bytes that `gathering` may use for its rays; 0: as many as it needs.
+    std::uint64_t memory = 0;
+    /// 0: one per core. The result does not depend on it.
+    unsigned threads = 0;
+    /// Leaves out nothing that the scene does not need (needs.h): for comparison.
+    bool keep_all = false;
+};
+
+/// The first that is met ends the run. With none given, `default_steps`.
+struct StopRule {
+    std::optional<std::uint32_t> steps;
+    std::optional<double> seconds;
+    std::optional<double> error; ///< estimated relative error, e.g. .01
+    /// Rays in all, after which no further step is begun: where light is rare an error may be out
+    /// of reach.
+    std::optional<std::uint64_t> rays = {};
+    static constexpr std::uint32_t default_steps = 16;
+};
+
+/// For SolveOptions: more than will be taken where the time ends the run.
+[[nodiscard]] inline std::uint32_t expected_steps(const StopRule& stop) {
+    return stop.steps.value_or(stop.seconds ? std::numeric_limits<std::uint32_t>::max() : 0);
+}
+
+/// How a caller watches a run and ends it early. All members may be used from any thread.
+struct Monitor {
+    std::atomic<std::uint64_t> rays{0};         ///< traced so far, density rays included
+    StopFlag interrupted;                       ///< set by the caller: stop as soon as possible
+    std::atomic<double> step_share{0};          ///< how much of the present step is done, 0 to 1
+    std::atomic<const char*> phase{"starting"}; ///< a word for the progress bar
+};
+
+class StateWriter;
+class StateReader;
+
+class Solver {
+  public:
+    virtual ~Solver() = default;
+    /// Improves the solution. False when interrupted: the solution is then that of the steps
+    /// before.
+    virtual bool step() = 0;
+    [[nodiscard]] virtual const Solution& solution() const = 0;
+    /// The next ones that are worked out already: they cost no time.
+    [[nodiscard]] virtual std::uint32_t steps_ready() const { return 0; }
+    /// The solver's own stop, e.g. nothing is left to shoot.
+    [[nodiscard]] virtual bool finished() const { return false; }
+
+    /// Between two steps: all that the next ones depend on and that a new solver of the same scene
+    /// and options would not find again by itself. Only where Method::can_resume() holds; else
+    /// std::logic_error.
+    virtual void save(StateWriter& state) const;
+    /// Of a new solver: goes on where the saved one was. Throws StateError for what save() cannot
+    /// have written; the solver is then of no use.
+    virtual void load(StateReader& state);
+};
+
+/// What a solver works on; all of it outlives the solver.
+struct SolverInput {
+    const Mesh& mesh;
+    const Tracer& tracer;
+    const SolveOptions& options;
+    Monitor& monitor;
+    const Needs& needs = everything_needed; ///< of this mesh: what is not needed may be left out
+};
+
+class Strategy;
+class Hemisphere;
+class Workers;
+/// How a stepwise shooting method makes its strategy (strategy.h).
+using MakeStrategy = std::unique_ptr<Strategy> (*)(const SolverInput&, const Hemisphere&,
+                                                   const Workers&);
+
+/// Work of a method that a scene may not need.
+struct MethodWork {
+    bool densities = false;      ///< counts surfaces before it solves
+    bool pairs = false;          ///< looks from patches to patches
+    bool linear_systems = false; ///< solves one for each channel
+    bool passes = false;         ///< solves again and again, to take the mean or with more rays
+};
+
+/// A method as the user picks it.
+struct Method {
+    std::string_view name;    ///< of --method
+    std::string_view summary; ///< one line for --help, with the source
+    bool has_literal;         ///< --literal changes it
+    bool unbiased;            ///< each step, in its corrected form; else consistent
+    StopRule default_stop;    ///< where the user gives none
+    std::unique_ptr<Solver> (*make)(const SolverInput&);
+    MakeStrategy strategy = nullptr; ///< what it shoots with; nullptr if it is no shooting method
+    MethodWork work = {};            ///< what it does that a scene may not need
+    bool saves = false;              ///< save and load are there; all shooting methods have them
+
+    [[nodiscard]] bool can_resume() const { return saves || strategy; }
+};
+
+/// All methods, one per file of strategies/ and solvers/, in alphabetical order.
+[[nodiscard]] std::span<const Method* const> methods();
+/// nullptr if there is no such method.
+[[nodiscard]] const Method* find_method(std::string_view name);
+
+/// A row of the steps log.
+struct StepRecord {
+    std::uint32_t step;
+    std::uint64_t rays; ///< every ray so far
+    double seconds;     ///< since the solver was made
+    double estimated_error;
+};
+
+/// What a resumed run did before, which counts for the stop rule and the records.
+struct Before {
+    std::uint32_t steps = 0;
+    double seconds = 0; ///< but for those of Solution::seconds_density
+};
+
+/// Steps until the rule or the monitor ends the run; then still those that are ready. `after_step`
+/// sees each new solution. Returns false when interrupted. At the end of
+/// `stop.seconds`, or of one second where that is later, a step is cut short: if it is the first
+/// there may be no step at all.
+bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
+         const std::function<void(const StepRecord&, const Solution&)>& after_step = {},
+         const Before& before = {});
+
+} // namespace hemilux

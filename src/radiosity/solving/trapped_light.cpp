@@ -1,0 +1,168 @@
+#include "radiosity/solving/trapped_light.h"
+
+#include "geometry/frame.h"
+#include "geometry/polygon_sampler.h"
+#include "radiosity/rays/receivers.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solver.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+/// Of each patch at first; four times as many whenever they find nothing.
+constexpr double first_rays = 8;
+constexpr std::size_t patches_per_chunk = 4;
+
+class Search {
+  public:
+    Search(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, const Workers& workers,
+           Monitor& monitor, double enough_rays, int channel)
+        : mesh_(mesh), tracer_(tracer), seed_(seed), workers_(workers), monitor_(monitor),
+          enough_rays_(enough_rays), channel_(channel), held_(mesh.patches().size()) {
+        for (std::uint32_t i = 0; i < held_.size(); ++i)
+            held_[i] = mesh.material(i).reflectance[channel] >= 1;
+    }
+
+    std::optional<TrappedLight> run() {
+        double since = 0; // rays since a way out was found
+        for (double rays = first_rays; is_lit() && since < enough_rays_;) {
+            const std::vector<std::uint32_t> shooters = held_and_lamps();
+            const double most = enough_rays_ / static_cast<double>(shooters.size()) + 1;
+            const double each = std::min(rays, std::max(most, first_rays));
+            if (release(shooters, static_cast<std::size_t>(each))) {
+                since = 0;
+                rays = first_rays;
+            } else {
+                since += static_cast<double>(static_cast<std::size_t>(each) * shooters.size());
+                rays *= 4;
+            }
+            if (monitor_.interrupted)
+                return std::nullopt;
+        }
+        if (!is_lit())
+            return std::nullopt;
+        return TrappedLight{channel_, lit_part(), static_cast<std::uint64_t>(since)};
+    }
+
+  private:
+    [[nodiscard]] double emission(std::uint32_t patch) const {
+        return mesh_.material(patch).emission[channel_];
+    }
+    [[nodiscard]] bool is_lit() const {
+        for (std::uint32_t i = 0; i < held_.size(); ++i)
+            if (held_[i] && emission(i) > 0)
+                return true;
+        return false;
+    }
+    [[nodiscard]] std::vector<std::uint32_t> held_and_lamps() const {
+        std::vector<std::uint32_t> list;
+        for (std::uint32_t i = 0; i < held_.size(); ++i)
+            if (held_[i] || emission(i) > 0)
+                list.push_back(i);
+        return list;
+    }
+
+    /// Rays of all these; whether they found a way out for some patch.
+    bool release(const std::vector<std::uint32_t>& shooters, std::size_t rays) {
+        ++round_;
+        std::vector<std::vector<std::uint32_t>> freed(shooters.size());
+        workers_.for_chunks(shooters.size(), patches_per_chunk,
+                            [&](std::size_t begin, std::size_t end) {
+                                for (std::size_t k = begin; k < end && !monitor_.interrupted; ++k)
+                                    freed[k] = freed_by(shooters[k], rays);
+                            });
+        bool any = false;
+        for (const std::vector<std::uint32_t>& list : freed)
+            for (const std::uint32_t patch : list)
+                any |= std::exchange(held_[patch], char{0}) != 0;
+        return any;
+    }
+
+    /// Patches that are seen from where light gets out are those from which it does.
+    [[nodiscard]] std::vector<std::uint32_t> freed_by(std::uint32_t shooter,
+                                                      std::size_t rays) const {
+        std::vector<std::uint32_t> freed;
+        for (const std::uint32_t struck : receivers_of(shooter, rays)) {
+            const bool held = struck < held_.size() && held_[struck];
+            if (held_[shooter] && !held)
+                return {shooter};
+            if (!held_[shooter] && held)
+                freed.push_back(struck);
+        }
+        return freed;
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> receivers_of(std::uint32_t shooter,
+                                                          std::size_t rays) const {
+        Rng rng(hash_words({seed_, round_, shooter}));
+        const Patch& from = mesh_.patches()[shooter];
+        const PolygonSampler origins(from.shape);
+        const Frame frame = Frame::from_normal(from.normal);
+        std::vector<Ray> drawn;
+        for (std::size_t k = 0; k < rays; ++k) {
+            drawn.push_back({sample_uniform(origins, rng), frame.to_world(sample_cosine(rng))});
+            drawn.back().from = from.facet;
+        }
+        std::vector<std::uint32_t> receivers;
+        find_receivers(drawn, mesh_, tracer_, receivers);
+        return receivers;
+    }
+
+    /// What is seen from the brightest emitter, directly or through others.
+    [[nodiscard]] std::vector<std::uint32_t> lit_part() {
+        constexpr std::size_t rays = 256;
+        std::uint32_t brightest = 0;
+        for (std::uint32_t i = 0; i < held_.size(); ++i)
+            if (held_[i] && (!held_[brightest] || emission(i) > emission(brightest)))
+                brightest = i;
+        ++round_;
+        std::vector<std::uint32_t> found{brightest};
+        std::vector<char> seen(held_.size());
+        seen[brightest] = true;
+        for (std::size_t k = 0; k < found.size() && !monitor_.interrupted; ++k)
+            for (const std::uint32_t struck : receivers_of(found[k], rays))
+                if (struck < seen.size() && held_[struck] && !std::exchange(seen[struck], char{1}))
+                    found.push_back(struck);
+        std::ranges::sort(found);
+        return found;
+    }
+
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    std::uint64_t seed_;
+    const Workers& workers_;
+    Monitor& monitor_;
+    double enough_rays_;
+    int channel_;
+    std::vector<char> held_; ///< no way out is known
+    std::uint64_t round_ = 0;
+};
+
+/// Whether the search would be the same in both channels.
+bool alike(const Mesh& mesh, int a, int b) {
+    return std::ranges::all_of(mesh.scene().materials, [&](const Material& m) {
+        return (m.reflectance[a] >= 1) == (m.reflectance[b] >= 1) &&
+               (m.emission[a] > 0) == (m.emission[b] > 0);
+    });
+}
+
+} // namespace
+
+std::optional<TrappedLight> find_trapped_light(const Mesh& mesh, const Tracer& tracer,
+                                               std::uint64_t seed, double enough_rays,
+                                               const Workers& workers, Monitor& monitor) {
+    for (int c = 0; c < 3; ++c) {
+        if (c > 0 && alike(mesh, c, c - 1))
+            continue;
+        if (auto trapped = Search(mesh, tracer, seed, workers, monitor, enough_rays, c).run())
+            return trapped;
+    }
+    return std::nullopt;
+}
+
+} // namespace hemilux

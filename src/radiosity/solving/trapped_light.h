@@ -1,0 +1,35 @@
+#pragma once
+// Light that cannot get out: patches that reflect all of it and from which all of it falls on such
+// patches again. If one of them emits, there is no finite solution.
+//
+// Whether a scene is closed cannot be told from its faces with certainty, so rays tell: patches
+// from which one ray has left the scene, or fallen on something that absorbs, let light out, and so
+// do those whose rays meet them, or that lamps see. What is left when many rays have found no other
+// way out is trapped. Only reflectances of exactly 1 are looked at.
+
+#include "bvh/tracer.h"
+#include "radiosity/sampling/workers.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+struct Monitor;
+
+struct TrappedLight {
+    int channel;
+    std::vector<std::uint32_t> patches; ///< those that an emitter lights, in ascending order
+    std::uint64_t rays;                 ///< of which none got out
+};
+
+/// Empty where there is none, or when interrupted. `enough_rays`: so many that find no way out mean
+/// that there is none.
+[[nodiscard]] std::optional<TrappedLight> find_trapped_light(const Mesh& mesh, const Tracer& tracer,
+                                                             std::uint64_t seed, double enough_rays,
+                                                             const Workers& workers,
+                                                             Monitor& monitor);
+
+} // namespace hemilux
