@@ -27,6 +27,7 @@
 #include "radiosity/gathering_system.h"
 #include "radiosity/linked_parts.h"
 #include "radiosity/mesh.h"
+#include "radiosity/plain/plain.h"
 #include "radiosity/ray_counts.h"
 #include "radiosity/rng.h"
 #include "radiosity/row_spread.h"
@@ -320,6 +321,7 @@ const Method gathering_method{
     .strategy = nullptr,
     .work = {.pairs = true},
     .saves = true,
+    .plain = plain::gathering,
 };
 
 } // namespace hemilux

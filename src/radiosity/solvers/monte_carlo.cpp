@@ -17,6 +17,7 @@
 
 #include "geometry/frame.h"
 #include "radiosity/largest_first.h"
+#include "radiosity/plain/plain.h"
 #include "radiosity/shot.h"
 #include "radiosity/solve_error.h"
 #include "radiosity/stepwise.h"
@@ -165,6 +166,7 @@ const Method monte_carlo_method{
     .strategy = nullptr,
     .work = {.passes = true},
     .saves = true,
+    .plain = plain::monte_carlo,
 };
 
 } // namespace hemilux

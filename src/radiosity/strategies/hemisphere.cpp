@@ -17,6 +17,7 @@
 
 #include "radiosity/density.h"
 #include "radiosity/mesh.h"
+#include "radiosity/plain/plain.h"
 #include "radiosity/seen_guide.h"
 #include "radiosity/shooting.h"
 
@@ -168,6 +169,7 @@ const Method hemisphere_method{
     .make = shoot_with<make_hemisphere>,
     .strategy = make_hemisphere,
     .work = {.densities = true, .passes = true},
+    .plain = plain::hemisphere,
 };
 
 } // namespace hemilux

@@ -25,6 +25,7 @@
 #include "radiosity/density.h"
 #include "radiosity/edge_division.h"
 #include "radiosity/mesh.h"
+#include "radiosity/plain/plain.h"
 #include "radiosity/shooting.h"
 
 #include <algorithm>
@@ -215,6 +216,7 @@ const Method hemisphere_1997_method{
     .make = shoot_with<make_hemisphere_1997>,
     .strategy = make_hemisphere_1997,
     .work = {.densities = true, .passes = true},
+    .plain = plain::hemisphere_1997,
 };
 
 } // namespace hemilux
