@@ -108,7 +108,7 @@ class HemisphereStrategy final : public Strategy {
 
     /// What a patch of a convex enclosure would count: one surface in each direction.
     [[nodiscard]] std::vector<DensityLeaf> leaves_of_one_surface(double threshold) const {
-        const int level = threshold < 1 ? hemisphere_.depth() : 0;
+        const int level = is_divided(1, threshold) ? hemisphere_.depth() : 0;
         std::vector<DensityLeaf> leaves;
         for (std::size_t c = 0; c < hemisphere_.cells().size(); ++c)
             if (hemisphere_.cells()[c].level == level)
