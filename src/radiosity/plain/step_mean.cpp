@@ -98,12 +98,14 @@ bool StepMean::find_Phi_mean() {
     if (!compute_radiosity(pilot, emitted / (1 - rho) / pilot_rays, result))
         return false;
     solution_.rays_energy += result.rays;
+    input_.monitor.rays += result.rays;
     Phi_mean_ = result.shot / rays;
     return true;
 }
 
 /// Mean and spread of the steps (Welford 1962).
 void StepMean::combine(const Step& step) {
+    input_.monitor.rays += step.rays;
     const double n = ++solution_.steps;
     for (std::uint32_t i = 0; i < squares_.size(); ++i) {
         const Vec3 B = step.radiosity[i], before = n > 1 ? solution_.radiosity[i] : Vec3(0.0);
