@@ -26,14 +26,19 @@ namespace {
 using Cell = Hemisphere::Cell;
 constexpr double pi = std::numbers::pi;
 
+/// Each function is what both rules need and do in different ways.
 struct Printed {
     static constexpr bool equal_rays = false;
     static constexpr double least_unshot = 1e-4; ///< of what is emitted: else it would not end
+    /// A_tr / A_hemi
     static double area(const Cell& tr) { return tr.solid_angle / (2 * pi); }
+    /// D_tr as it counts
     static double density(double D_tr, double /*D_average*/) { return D_tr; }
     static double N_hemi(double asked, double /*by_power*/) { return asked; }
+    /// N_tr as a whole number
     static double whole(double N_tr, double /*from*/, double /*to*/) { return std::round(N_tr); }
-    static double sharing(double /*N_tr*/, double rays) { return rays; }
+    /// Phi_tr / Phi_ray
+    static double divisor(double /*N_tr*/, double rays) { return rays; }
     static Vec3 start(const Patch& patch, const PolygonSampler&, Vec2) { return patch.centre; }
 };
 
@@ -51,7 +56,7 @@ struct Corrected {
     static double whole(double /*N_tr*/, double from, double to) {
         return std::floor(to) - std::floor(from);
     }
-    static double sharing(double N_tr, double rays) { return N_tr >= 1 ? rays : N_tr; }
+    static double divisor(double N_tr, double rays) { return N_tr >= 1 ? rays : N_tr; }
     static Vec3 start(const Patch&, const PolygonSampler& points, Vec2 u) {
         return points.sample(u);
     }
@@ -161,7 +166,7 @@ class NewHemisphereRadiosity final : public StepMean {
             const double N_tr = N_hemi * (t.N_up_to - std::exchange(before, t.N_up_to));
             const double rays = Rules::whole(N_tr, std::exchange(from, to), to);
             const Vec3 Phi_ray = // Phi_tr / N_tr, Phi_tr = Phi_patch A_tr / A_hemi
-                1 / Rules::sharing(N_tr, rays) * Rules::area(*t.tr) * Phi_patch;
+                1 / Rules::divisor(N_tr, rays) * Rules::area(*t.tr) * Phi_patch;
             for (double k = 0; k < rays; ++k) {
                 RayNumbers random(key, number++);
                 const auto uniform = [&] { return random.next(); };

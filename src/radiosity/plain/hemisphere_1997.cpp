@@ -39,7 +39,7 @@ struct Printed {
         return all > 1 ? std::max(std::round(N_hemi / all), 1.0) : std::round(N_hemi);
     }
     static double whole(double N_tr, double /*from*/, double /*to*/) { return N_tr; }
-    static double sharing(double /*N_tr*/, double rays) { return rays; }
+    static double divisor(double /*N_tr*/, double rays) { return rays; }
     static Vec3 start(const Polygon& part, Vec2 /*u*/) { return part.centre(); }
 };
 
@@ -54,7 +54,7 @@ struct Corrected { // numbers of rays as in hemisphere.cpp
     static double whole(double /*N_tr*/, double from, double to) {
         return std::floor(to) - std::floor(from);
     }
-    static double sharing(double N_tr, double rays) { return N_tr >= 1 ? rays : N_tr; }
+    static double divisor(double N_tr, double rays) { return N_tr >= 1 ? rays : N_tr; }
     static Vec3 start(const Polygon& part, Vec2 u) { return PolygonSampler(part).sample(u); }
 };
 
@@ -191,7 +191,7 @@ class Hemisphere1997 final : public StepMean {
                 part = parts[k / of_part];
                 share = part.area() / its.area * Rules::area(tr);
             }
-            const Vec3 Phi_ray = 1 / Rules::sharing(N_tr, rays) * share * result.unshot[patch];
+            const Vec3 Phi_ray = 1 / Rules::divisor(N_tr, rays) * share * result.unshot[patch];
             for (double ray_of_tr = 0; ray_of_tr < rays; ++ray_of_tr, ++number) {
                 RayNumbers random(key, number);
                 Rng in_triangle(hash_words({key & 0xffffffff, key >> 32, number}));
