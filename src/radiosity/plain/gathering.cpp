@@ -85,7 +85,7 @@ class Gathering final : public Solver {
             const PolygonSampler points(patch.shape);
             const Frame frame = Frame::from_normal(patch.normal);
             Rng random(hash_words({input_.options.seed, set, i, solution_.steps}));
-            for (double k = 0; k < rays && patch.area > 0; ++k) {
+            for (auto left = static_cast<std::uint64_t>(rays); left > 0 && patch.area > 0; --left) {
                 Ray ray{sample_uniform(points, random), frame.to_world(sample_cosine(random))};
                 ray.from = patch.facet;
                 const std::optional<Hit> hit = input_.tracer.closest(ray);

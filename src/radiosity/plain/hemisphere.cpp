@@ -26,7 +26,11 @@ namespace {
 using Cell = Hemisphere::Cell;
 constexpr double pi = std::numbers::pi;
 
-/// Each function is what both rules need and do in different ways.
+/// Of a triangle: a whole number, and Phi_tr / Phi_ray.
+struct Rays {
+    double number, divisor;
+};
+
 struct Printed {
     static constexpr bool equal_rays = false;
     static constexpr double least_unshot = 1e-4; ///< of what is emitted: else it would not end
@@ -35,10 +39,9 @@ struct Printed {
     /// D_tr as it counts
     static double density(double D_tr, double /*D_average*/) { return D_tr; }
     static double N_hemi(double asked, double /*by_power*/) { return asked; }
-    /// N_tr as a whole number
-    static double whole(double N_tr, double /*from*/, double /*to*/) { return std::round(N_tr); }
-    /// Phi_tr / Phi_ray
-    static double divisor(double /*N_tr*/, double rays) { return rays; }
+    static Rays rays(double N_tr, double /*from*/, double /*to*/) {
+        return {std::round(N_tr), std::round(N_tr)};
+    }
     static Vec3 start(const Patch& patch, const PolygonSampler&, Vec2) { return patch.centre; }
 };
 
@@ -53,10 +56,10 @@ struct Corrected {
         return std::max({D_tr, 1.0, D_average / 4});
     }
     static double N_hemi(double /*asked*/, double by_power) { return by_power; }
-    static double whole(double /*N_tr*/, double from, double to) {
-        return std::floor(to) - std::floor(from);
+    static Rays rays(double N_tr, double from, double to) {
+        const double whole = std::floor(to) - std::floor(from);
+        return {whole, N_tr >= 1 ? whole : N_tr};
     }
-    static double divisor(double N_tr, double rays) { return N_tr >= 1 ? rays : N_tr; }
     static Vec3 start(const Patch&, const PolygonSampler& points, Vec2 u) {
         return points.sample(u);
     }
@@ -164,10 +167,10 @@ class NewHemisphereRadiosity final : public StepMean {
         for (const Triangle& t : triangles_[patch]) {
             const double to = t.N_up_to < all ? begin + N_hemi * t.N_up_to : end;
             const double N_tr = N_hemi * (t.N_up_to - std::exchange(before, t.N_up_to));
-            const double rays = Rules::whole(N_tr, std::exchange(from, to), to);
+            const Rays rays = Rules::rays(N_tr, std::exchange(from, to), to);
             const Vec3 Phi_ray = // Phi_tr / N_tr, Phi_tr = Phi_patch A_tr / A_hemi
-                1 / Rules::divisor(N_tr, rays) * Rules::area(*t.tr) * Phi_patch;
-            for (double k = 0; k < rays; ++k) {
+                1 / rays.divisor * Rules::area(*t.tr) * Phi_patch;
+            for (auto left = static_cast<std::uint64_t>(rays.number); left > 0; --left) {
                 RayNumbers random(key, number++);
                 const auto uniform = [&] { return random.next(); };
                 Ray ray{Rules::start(its, points, random.start()),

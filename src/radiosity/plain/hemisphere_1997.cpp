@@ -28,6 +28,11 @@ namespace {
 
 constexpr int n = 2, m = 1; // the paper names no values
 
+/// Of a triangle: a whole number, and Phi_tr / Phi_ray.
+struct Rays {
+    double number, divisor;
+};
+
 struct Printed {
     static constexpr bool equal_rays = false;
     static constexpr double least_unshot = 1e-4;
@@ -38,8 +43,7 @@ struct Printed {
     static double N_tr(double N_hemi, double all) {
         return all > 1 ? std::max(std::round(N_hemi / all), 1.0) : std::round(N_hemi);
     }
-    static double whole(double N_tr, double /*from*/, double /*to*/) { return N_tr; }
-    static double divisor(double /*N_tr*/, double rays) { return rays; }
+    static Rays rays(double N_tr, double /*from*/, double /*to*/) { return {N_tr, N_tr}; }
     static Vec3 start(const Polygon& part, Vec2 /*u*/) { return part.centre(); }
 };
 
@@ -51,10 +55,10 @@ struct Corrected { // numbers of rays as in hemisphere.cpp
     }
     static double N_hemi(double /*asked*/, double by_power) { return by_power; }
     static double N_tr(double N_hemi, double all) { return N_hemi / all; }
-    static double whole(double /*N_tr*/, double from, double to) {
-        return std::floor(to) - std::floor(from);
+    static Rays rays(double N_tr, double from, double to) {
+        const double whole = std::floor(to) - std::floor(from);
+        return {whole, N_tr >= 1 ? whole : N_tr};
     }
-    static double divisor(double N_tr, double rays) { return N_tr >= 1 ? rays : N_tr; }
     static Vec3 start(const Polygon& part, Vec2 u) { return PolygonSampler(part).sample(u); }
 };
 
@@ -181,18 +185,18 @@ class Hemisphere1997 final : public StepMean {
         std::uint32_t number = 0;
         for (std::size_t k = 0; k < all; ++k) {
             const double to = k + 1 < all ? begin + N_hemi * (double(k + 1) / double(all)) : end;
-            const double rays = Rules::whole(N_tr, std::exchange(from, to), to);
+            const Rays rays = Rules::rays(N_tr, std::exchange(from, to), to);
             Polygon part = its.shape;
             SphericalTriangle tr;
             double share = 1; // of the patch's power
-            if (guided && rays > 0) {
+            if (guided && rays.number > 0) {
                 const Triangle abc = triangle(4 * patch + k / of_part, level, k % of_part);
                 tr = {abc[0].to, abc[1].to, abc[2].to};
                 part = parts[k / of_part];
                 share = part.area() / its.area * Rules::area(tr);
             }
-            const Vec3 Phi_ray = 1 / Rules::divisor(N_tr, rays) * share * result.unshot[patch];
-            for (double ray_of_tr = 0; ray_of_tr < rays; ++ray_of_tr, ++number) {
+            const Vec3 Phi_ray = 1 / rays.divisor * share * result.unshot[patch];
+            for (auto left = static_cast<std::uint64_t>(rays.number); left > 0; --left, ++number) {
                 RayNumbers random(key, number);
                 Rng in_triangle(hash_words({key & 0xffffffff, key >> 32, number}));
                 const auto uniform = [&] { return in_triangle.uniform(); };

@@ -51,8 +51,8 @@ class ProgressiveMonteCarlo final : public StepMean {
         const Frame frame = input_.mesh.hemisphere_frame(patch);
         const PolygonSampler points(its.shape);
         const Vec3 Phi_ray = 1 / (due >= 1 ? rays : due) * result.unshot[patch];
-        for (std::uint32_t k = 0; k < rays; ++k) {
-            RayNumbers random(key, k);
+        for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(rays); ++k) {
+            RayNumbers random(key, static_cast<std::uint32_t>(k));
             const double u = random.next(), v = random.next();
             Ray ray{points.sample(random.start()), frame.to_world(cosine_direction({u, v}))};
             ray.from = its.facet;

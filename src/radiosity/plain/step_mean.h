@@ -17,7 +17,7 @@ namespace hemilux::plain {
 /// What one step found so far. Powers are in local units.
 struct Step {
     /// Nothing but emission, which is to be shot.
-    explicit Step(const Mesh& mesh);
+    explicit Step(const Mesh& of);
 
     /// A ray brings its power to the patch that it strikes, which is returned; none where it
     /// leaves the scene or falls on the back of a face.
