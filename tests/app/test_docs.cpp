@@ -114,6 +114,19 @@ std::vector<std::string> cells_of(const std::string& row) {
     return cells;
 }
 
+/// The rows of the page's tables, each cell of which names only what is there.
+int checked_rows_of(const char* page) {
+    int rows = 0;
+    for (const std::string& line : prose_of(text_of(root / page))) {
+        if (line.rfind("| ", 0) != 0)
+            continue;
+        ++rows;
+        for (const std::string& cell : cells_of(line))
+            CHECK(unknown_in(cell) == std::vector<std::string>{});
+    }
+    return rows;
+}
+
 } // namespace
 
 TEST_CASE("what documents name is told from what is not there") {
@@ -153,13 +166,9 @@ TEST_CASE("the code that decisions refer to exists") {
 }
 
 TEST_CASE("the map of the paper names code and tests that exist") {
-    int rows = 0;
-    for (const std::string& line : prose_of(text_of(root / "docs/paper_map.md"))) {
-        if (line.rfind("| ", 0) != 0)
-            continue;
-        ++rows;
-        for (const std::string& cell : cells_of(line))
-            CHECK(unknown_in(cell) == std::vector<std::string>{});
-    }
-    CHECK(rows > 30);
+    CHECK(checked_rows_of("docs/paper_map.md") > 30);
+}
+
+TEST_CASE("the reading guide names code that exists") {
+    CHECK(checked_rows_of("docs/reading-guide.md") > 30);
 }

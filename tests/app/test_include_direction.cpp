@@ -27,6 +27,7 @@ const std::vector<std::string> rooms{
     "radiosity/form_factors",
     "radiosity/linear",
     "radiosity/hemisphere",
+    "radiosity/plain",
     "radiosity/shooting",
     "radiosity/guiding",
     "radiosity/gathering",

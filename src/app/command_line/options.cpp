@@ -262,6 +262,7 @@ CLI::App* add_solve_command(CLI::App& program, SolveSettings& settings) {
     add_memory_option(*app, settings.scene);
     add_method_option(*app, settings.method);
     add_method_options(*app, settings.options);
+    add_plain_option(*app, settings.plain);
     add_own_options(*app, settings.options);
     add_stop_options(*app, settings.stop);
     add_output_options(*app, settings);

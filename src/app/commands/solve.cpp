@@ -79,7 +79,7 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
 std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverInput& input,
                                     std::span<const std::uint32_t> face_lines) {
     try {
-        return settings.method->make(input);
+        return settings.plain ? settings.method->plain(input) : settings.method->make(input);
     } catch (const SolveError& error) {
         throw as_input_error(error, settings.scene.path, face_lines);
     }
@@ -132,6 +132,7 @@ int solve(const SolveSettings& settings) {
     const RunFiles files = check_files(settings);
     const std::span methods(&settings.method, 1);
     check_own_options(settings.options, methods);
+    check_plain(settings);
     check_checkpoint_options(settings);
     Monitor monitor;
     InterruptGuard guard;
@@ -146,6 +147,7 @@ int solve(const SolveSettings& settings) {
     const Mesh& mesh = loaded.mesh;
     check_camera(settings.view, mesh);
     check_exact(settings.options, mesh.patches().size());
+    check_plain(settings, mesh.patches().size());
     const StopRule stop = stop_rule(settings, mesh.patches().size());
     statistics.seconds_read = loaded.seconds_read;
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
@@ -206,7 +208,8 @@ int solve(const SolveSettings& settings) {
     checkpointer.finish(rows, seconds_solver);
 
     fill(statistics, settings, mesh, solver->solution(), seconds_solver);
-    statistics.left_out = left_out(needs, *settings.method, solver->solution());
+    if (!settings.plain) // which leaves out nothing
+        statistics.left_out = left_out(needs, *settings.method, solver->solution());
     statistics.bytes_peak = peak_memory_bytes();
     WriteReport of_run = step_pictures.report();
     of_run.add(checkpointer.report());

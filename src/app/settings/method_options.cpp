@@ -3,6 +3,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"
 #include "radiosity/form_factors/exact_form_factors.h"
+#include "radiosity/plain/plain.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -36,6 +37,14 @@ constexpr std::array<OwnOption, 4> own_options = {{
      "progressive: also shoot what a patch will probably receive later"},
 }};
 
+std::string methods_with_a_page() {
+    std::string names;
+    for (const Method* const method : methods())
+        if (method->plain)
+            names += (names.empty() ? "" : ", ") + std::string(method->name);
+    return names;
+}
+
 } // namespace
 
 void add_own_options(CLI::App& app, SolveOptions& options) {
@@ -50,6 +59,35 @@ void check_own_options(const SolveOptions& options, std::span<const Method* cons
             std::ranges::find(methods, option.method, &Method::name) == methods.end())
             throw UsageError(std::string(option.name) + " is for --method " +
                              std::string(option.method));
+}
+
+void add_plain_option(CLI::App& app, bool& plain) {
+    app.add_flag("--plain", plain,
+                 "by the page of src/radiosity/plain that shows the method: slower, one thread; "
+                 "these have one: " +
+                     methods_with_a_page())
+        ->group("Method");
+}
+
+void check_plain(const SolveSettings& settings) {
+    if (!settings.plain)
+        return;
+    if (!settings.method->plain)
+        throw UsageError("--plain: --method " + std::string(settings.method->name) +
+                         " has no page; these have one: " + methods_with_a_page());
+    if (settings.options.guide != Guide::density)
+        throw UsageError("--plain is guided by densities alone; leave out --guide " +
+                         std::string(guide_names.at(std::size_t(settings.options.guide))));
+    if (!settings.checkpoint.path.empty() || !settings.checkpoint.resumed.empty())
+        throw UsageError("--plain keeps no state; leave out --checkpoint and --resume");
+}
+
+void check_plain(const SolveSettings& settings, std::size_t patches) {
+    if (settings.plain && settings.method->plain == plain::gathering &&
+        patches > plain::most_patches_of_gathering)
+        throw UsageError("--plain --method gathering keeps all pairs of patches: it is for up to " +
+                         grouped(plain::most_patches_of_gathering) + " patches, not " +
+                         grouped(patches));
 }
 
 void check_exact(const SolveOptions& options, std::size_t patches) {

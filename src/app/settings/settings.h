@@ -52,6 +52,7 @@ struct CheckpointSettings {
 struct SolveSettings {
     SceneSettings scene;
     const Method* method = nullptr;
+    bool plain = false; ///< the method's page (Method::plain) instead of the engine
     SolveOptions options;
     StopRule stop; ///< as given; the method's own rule stands in for an empty one
     ViewSettings view;

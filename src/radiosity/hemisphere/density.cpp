@@ -42,7 +42,7 @@ class TreeWalk {
         const Hemisphere::Cell& cell = hemisphere_.cells()[index];
         const int sum = count_[cell.vertex[0]] + count_[cell.vertex[1]] + count_[cell.vertex[2]];
         const double mean = sum / 3.0;
-        if (cell.level == hemisphere_.depth() || !(mean > threshold_)) {
+        if (cell.level == hemisphere_.depth() || !is_divided(mean, threshold_)) {
             leaf_(static_cast<std::uint16_t>(index), mean);
             return;
         }
@@ -93,7 +93,7 @@ std::vector<std::uint8_t> count_surfaces(const Hemisphere& hemisphere, double th
             const Hemisphere::Cell& cell = cells[index];
             const int sum =
                 counts[cell.vertex[0]] + counts[cell.vertex[1]] + counts[cell.vertex[2]];
-            if (cell.level == hemisphere.depth() || !(sum / 3.0 > threshold))
+            if (cell.level == hemisphere.depth() || !is_divided(sum / 3.0, threshold))
                 continue;
             std::ranges::for_each(cell.midpoint, ask);
             for (std::size_t child = 0; child < 4; ++child)

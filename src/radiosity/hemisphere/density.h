@@ -29,6 +29,10 @@ struct DensityLeaf {
     float density;
 };
 
+/// Whether a triangle with this mean count is divided, above the last level: the rule of the
+/// paper's procedure Preprocessing.
+[[nodiscard]] constexpr bool is_divided(double mean, double threshold) { return mean > threshold; }
+
 /// What a density ray counted.
 struct DensityCount {
     std::uint16_t vertex;  ///< of Hemisphere::vertices()

@@ -27,6 +27,7 @@
 #include "radiosity/gathering/row_spread.h"
 #include "radiosity/gathering/small_emitters.h"
 #include "radiosity/linear/energy_closing.h"
+#include "radiosity/plain/plain.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/saving/solution_state.h"
@@ -320,6 +321,7 @@ const Method gathering_method{
     .strategy = nullptr,
     .work = {.pairs = true},
     .saves = true,
+    .plain = plain::gathering,
 };
 
 } // namespace hemilux

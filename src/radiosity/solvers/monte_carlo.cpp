@@ -16,6 +16,7 @@
 // one patch are traced at once. Costs one ray after the other and no memory to speak of.
 
 #include "geometry/frame.h"
+#include "radiosity/plain/plain.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/largest_first.h"
 #include "radiosity/sampling/workers.h"
@@ -165,6 +166,7 @@ const Method monte_carlo_method{
     .strategy = nullptr,
     .work = {.passes = true},
     .saves = true,
+    .plain = plain::monte_carlo,
 };
 
 } // namespace hemilux

@@ -152,6 +152,8 @@ struct Method {
     MakeStrategy strategy = nullptr; ///< what it shoots with; nullptr if it is no shooting method
     MethodWork work = {};            ///< what it does that a scene may not need
     bool saves = false;              ///< save and load are there; all shooting methods have them
+    /// The same on one page, slow and obviously right (plain/plain.h); nullptr where there is none.
+    std::unique_ptr<Solver> (*plain)(const SolverInput&) = nullptr;
 
     [[nodiscard]] bool can_resume() const { return saves || strategy; }
 };

@@ -5,6 +5,7 @@
 // combined by their numbers of rays; with equal steps the rule "divide by k what was received" is
 // the running mean. Needs no preprocessing and no memory. The yardstick for all others.
 
+#include "radiosity/plain/plain.h"
 #include "radiosity/shooting/shooting.h"
 
 namespace hemilux {
@@ -36,6 +37,7 @@ const Method cosine_method{
     .make = shoot_with<make_cosine>,
     .strategy = make_cosine,
     .work = {.passes = true},
+    .plain = plain::progressive_monte_carlo,
 };
 
 } // namespace hemilux

@@ -17,6 +17,7 @@
 
 #include "radiosity/guiding/seen_guide.h"
 #include "radiosity/hemisphere/density.h"
+#include "radiosity/plain/plain.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/shooting/shooting.h"
 
@@ -107,7 +108,7 @@ class HemisphereStrategy final : public Strategy {
 
     /// What a patch of a convex enclosure would count: one surface in each direction.
     [[nodiscard]] std::vector<DensityLeaf> leaves_of_one_surface(double threshold) const {
-        const int level = threshold < 1 ? hemisphere_.depth() : 0;
+        const int level = is_divided(1, threshold) ? hemisphere_.depth() : 0;
         std::vector<DensityLeaf> leaves;
         for (std::size_t c = 0; c < hemisphere_.cells().size(); ++c)
             if (hemisphere_.cells()[c].level == level)
@@ -168,6 +169,7 @@ const Method hemisphere_method{
     .make = shoot_with<make_hemisphere>,
     .strategy = make_hemisphere,
     .work = {.densities = true, .passes = true},
+    .plain = plain::hemisphere,
 };
 
 } // namespace hemilux

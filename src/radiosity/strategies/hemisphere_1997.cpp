@@ -23,6 +23,7 @@
 // method `hemisphere` needs 41.
 
 #include "radiosity/hemisphere/density.h"
+#include "radiosity/plain/plain.h"
 #include "radiosity/scene/edge_division.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/shooting/shooting.h"
@@ -215,6 +216,7 @@ const Method hemisphere_1997_method{
     .make = shoot_with<make_hemisphere_1997>,
     .strategy = make_hemisphere_1997,
     .work = {.densities = true, .passes = true},
+    .plain = plain::hemisphere_1997,
 };
 
 } // namespace hemilux

@@ -1,0 +1,200 @@
+// Gathering on stored transport, the principle (not of the paper; the method `gathering`).
+//
+// Each patch looks around along cosine-distributed rays and counts which patches they strike. With
+// S_ij = A_i F_ij = A_j F_ji the counts c of both sides tell one number,
+//
+//     S_ij = (c_ij + c_ji) / (N / A_i + N / A_j),   N rays from each patch,
+//
+// and row i has to sum to A_i less what its own rays lost. Scaling S_ij by g_i g_j makes it so and
+// leaves S symmetric (Sinkhorn and Knopp 1967); the little that is missing then goes to S_ii. So no
+// energy is made or lost between patches. All bounces are then solved on S: no ray is traced twice.
+//
+// Four independent sets of rays give four solutions, whose spread is the standard error; the result
+// is the solution of all rays together. The engine adds what makes it fast: sparse rows, Sobol
+// points, more rays where the error is, shadow rays to small lamps, conjugate gradients. Here S is
+// dense, so a few thousand patches are the limit.
+
+#include "geometry/compensated_sum.h"
+#include "geometry/polygon_sampler.h"
+#include "radiosity/plain/plain.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/alike_neighbours.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/check_input.h"
+#include "radiosity/solving/error_spread.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace hemilux::plain {
+namespace {
+
+constexpr std::size_t sets = 4;
+constexpr int scalings = 20;
+
+/// What rays struck: row i of c belongs to those of patch i.
+struct Counts {
+    explicit Counts(std::size_t n) : c(n * n), escaped(n), absorbed(n) {}
+    std::vector<double> c, escaped, absorbed;
+};
+
+class Gathering final : public Solver {
+  public:
+    explicit Gathering(const SolverInput& input)
+        : input_(input), n_(static_cast<std::uint32_t>(input.mesh.patches().size())) {
+        check_input(input);
+        if (n_ > most_patches_of_gathering)
+            throw std::invalid_argument("too many patches to keep all pairs of them");
+        counts_.assign(sets + 1, Counts(n_));
+        for (std::uint32_t i = 0; i < n_; ++i)
+            solution_.radiosity.push_back(input.mesh.material(i).emission);
+        solution_.standard_error.assign(n_, Vec3(std::numeric_limits<double>::quiet_NaN()));
+        solution_.hits.assign(n_, 0);
+        solution_.may_find_light = input.needs.bounces;
+        solution_.error_samples = sets;
+        solution_.energy.emitted = solution_.energy.unshot =
+            input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
+    }
+    [[nodiscard]] const Solution& solution() const override { return solution_; }
+
+    /// Doubles the rays, or adds as many as in the first step.
+    bool step() override {
+        const double first = std::ceil(input_.options.rays / double(sets));
+        const double more = input_.options.growing_steps && N_ > 0 ? N_ : first;
+        for (std::size_t s = 0; s < sets; ++s)
+            look_around(s, more);
+        N_ += more;
+        std::vector<std::vector<Vec3>> B;
+        for (std::size_t s = 0; s <= sets && !input_.monitor.interrupted; ++s)
+            B.push_back(solve(counts_[s], s < sets ? N_ : N_ * double(sets)));
+        if (input_.monitor.interrupted)
+            return false;
+        combine(B);
+        ++solution_.steps;
+        return true;
+    }
+
+  private:
+    /// So many rays more from each patch, for one set and for all together.
+    void look_around(std::size_t set, double rays) {
+        for (std::uint32_t i = 0; i < n_ && !input_.monitor.interrupted; ++i) {
+            const Patch& patch = input_.mesh.patches()[i];
+            const PolygonSampler points(patch.shape);
+            const Frame frame = Frame::from_normal(patch.normal);
+            Rng random(hash_words({input_.options.seed, set, i, solution_.steps}));
+            for (auto left = static_cast<std::uint64_t>(rays); left > 0 && patch.area > 0; --left) {
+                Ray ray{sample_uniform(points, random), frame.to_world(sample_cosine(random))};
+                ray.from = patch.facet;
+                const std::optional<Hit> hit = input_.tracer.closest(ray);
+                const std::uint32_t j = hit ? input_.mesh.patch_at(*hit) : none;
+                for (Counts* const to : {&counts_[set], &counts_[sets]})
+                    ++(!hit ? to->escaped[i] : j == none ? to->absorbed[i] : to->c[i * n_ + j]);
+                solution_.hits[j == none ? i : j] += j != none;
+                ++solution_.rays_energy;
+                ++input_.monitor.rays;
+            }
+        }
+    }
+
+    /// S with closed rows.
+    [[nodiscard]] std::vector<double> exchange(const Counts& counts, double N) const {
+        std::vector<double> S(std::size_t{n_} * n_), due, rays_per_area, g(n_, 1.0), sum(n_);
+        for (std::size_t i = 0; i < n_; ++i) {
+            const double area = input_.mesh.patches()[i].area;
+            rays_per_area.push_back(area > 0 ? N / area : 0);
+            due.push_back(area * (1 - (counts.escaped[i] + counts.absorbed[i]) / N));
+        }
+        for (std::size_t i = 0; i < n_; ++i)
+            for (std::size_t j = 0; j < n_; ++j)
+                if (const double both = counts.c[i * n_ + j] + counts.c[j * n_ + i]; both > 0)
+                    S[i * n_ + j] = both / (rays_per_area[i] + rays_per_area[j]);
+        for (int k = 0; k <= scalings; ++k) {
+            for (std::size_t i = 0; i < n_; ++i) {
+                sum[i] = 0;
+                for (std::size_t j = 0; j < n_; ++j)
+                    sum[i] += g[i] * S[i * n_ + j] * g[j];
+            }
+            for (std::size_t i = 0; i < n_ && k < scalings; ++i)
+                g[i] *= sum[i] > 0 ? std::sqrt(due[i] / sum[i]) : 0;
+        }
+        for (std::size_t i = 0; i < n_; ++i) {
+            for (std::size_t j = 0; j < n_; ++j)
+                S[i * n_ + j] *= g[i] * g[j];
+            S[i * n_ + i] += due[i] - sum[i];
+        }
+        return S;
+    }
+
+    /// B_i = E_i + rho_i / A_i sum_j S_ij B_j, again and again until nothing changes (Gauss and
+    /// Seidel).
+    [[nodiscard]] std::vector<Vec3> solve(const Counts& counts, double N) const {
+        const std::vector<double> S = exchange(counts, N);
+        std::vector<Vec3> B(n_, Vec3(0.0));
+        double change = 1, all = 0;
+        while (change > 1e-12 * all && !input_.monitor.interrupted) {
+            change = all = 0;
+            for (std::uint32_t i = 0; i < n_; ++i) {
+                Vec3 arriving(0.0);
+                for (std::size_t j = 0; j < n_; ++j)
+                    arriving += S[std::size_t{i} * n_ + j] * B[j];
+                const double area = input_.mesh.patches()[i].area;
+                const Material& material = input_.mesh.material(i);
+                const Vec3 before = B[i];
+                B[i] = material.emission;
+                if (area > 0)
+                    B[i] += material.reflectance * arriving / area;
+                change += area * mean_of_channels(glm::abs(B[i] - before));
+                all += area * mean_of_channels(B[i]);
+            }
+        }
+        return B;
+    }
+
+    /// `B`: of each set, then of all rays.
+    void combine(const std::vector<std::vector<Vec3>>& B) {
+        std::vector<Vec3> variance(n_);
+        std::array<double, sets * sets> products{};
+        CompensatedSum<Vec3> escaped;
+        double sum = 0;
+        for (std::uint32_t i = 0; i < n_; ++i) {
+            const double area = input_.mesh.patches()[i].area;
+            const Vec3 mean = (B[0][i] + B[1][i] + B[2][i] + B[3][i]) / double(sets);
+            for (std::size_t s = 0; s < sets; ++s) {
+                const Vec3 off = B[s][i] - mean;
+                variance[i] += off * off / double(sets * (sets - 1));
+                for (std::size_t t = 0; t < sets; ++t)
+                    products[s * sets + t] += area * glm::dot(off, B[t][i] - mean);
+            }
+            sum += area * (variance[i].x + variance[i].y + variance[i].z);
+            escaped += area * counts_[sets].escaped[i] / (N_ * double(sets)) * B[sets][i];
+        }
+        variance = pooled_over_neighbours(input_.mesh, variance); // of four samples each
+        for (std::uint32_t i = 0; i < n_; ++i)
+            solution_.standard_error[i] = glm::sqrt(variance[i]);
+        solution_.radiosity = B[sets];
+        solution_.variance = sum;
+        solution_.error_parts = error_parts(products, sets);
+        // As all rows are closed, what does not escape is absorbed.
+        EnergyBalance& energy = solution_.energy;
+        energy.escaped = input_.mesh.frame().area_to_world(1.0) * escaped.value();
+        energy.absorbed = energy.emitted - energy.escaped;
+        energy.unshot = Vec3(0.0);
+    }
+
+    SolverInput input_;
+    std::uint32_t n_;
+    std::vector<Counts> counts_; ///< of each set, then of all
+    double N_ = 0;               ///< rays of each patch and set
+    Solution solution_;
+};
+
+} // namespace
+
+std::unique_ptr<Solver> gathering(const SolverInput& input) {
+    return std::make_unique<Gathering>(input);
+}
+
+} // namespace hemilux::plain

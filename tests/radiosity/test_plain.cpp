@@ -1,0 +1,199 @@
+// The engine against the pages of src/radiosity/plain: the same bits where the random numbers are
+// the same, within standard errors for gathering.
+#include "io/scene_files/obj.h"
+#include "support/scenes.h"
+#include "support/solve.h"
+#include "support/statistics.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+using namespace hemilux;
+using test::Model;
+
+namespace {
+
+Scene example(const std::string& name) {
+    return read_obj(std::string(HEMILUX_SOURCE_DIR) + "/examples/scenes/" + name + ".obj").scene;
+}
+
+Solution solve_plainly(const Model& model, const Method& method, const SolveOptions& options,
+                       const StopRule& stop) {
+    Monitor monitor;
+    const SolverInput input{model.mesh, model.bvh, options, monitor};
+    const auto solver = method.plain(input);
+    run(*solver, input, stop);
+    return solver->solution();
+}
+
+/// All that a patch table holds, to the last bit, and what a run reports.
+void check_same(const Model& model, const Method& method, const SolveOptions& options,
+                std::uint32_t steps) {
+    CAPTURE(method.name, options.rays, options.depth, options.threshold, options.literal, steps);
+    const Solution plain = solve_plainly(model, method, options, test::steps(steps));
+    const Solution engine = test::solve(model, method, options, test::steps(steps));
+    CHECK(test::same_bits(plain.radiosity, engine.radiosity));
+    if (steps > 1)
+        CHECK(test::same_bits(plain.standard_error, engine.standard_error));
+    CHECK(plain.hits == engine.hits);
+    CHECK(plain.variance == engine.variance);
+    CHECK(plain.unseen == engine.unseen);
+    CHECK(plain.error_parts == engine.error_parts);
+    CHECK(plain.steps == engine.steps);
+    CHECK(plain.rays_energy == engine.rays_energy);
+    CHECK(plain.rays_density == engine.rays_density);
+    // Sums over rays are taken in another order.
+    const double emitted = glm::length(engine.energy.emitted);
+    CHECK(plain.energy.emitted == engine.energy.emitted);
+    CHECK(glm::length(plain.energy.absorbed - engine.energy.absorbed) <= 1e-12 * emitted);
+    CHECK(glm::length(plain.energy.escaped - engine.energy.escaped) <= 1e-12 * emitted);
+    CHECK(glm::length(plain.energy.unshot - engine.energy.unshot) <= 1e-12 * emitted);
+}
+
+SolveOptions with_rays(double rays, bool literal = false) {
+    SolveOptions options;
+    options.rays = rays;
+    options.literal = literal;
+    options.seed = 11;
+    return options;
+}
+
+const Method& method(const char* name) { return *find_method(name); }
+
+} // namespace
+
+TEST_CASE("Section 5 on one page has the engine's bits") {
+    for (const bool literal : {false, true}) {
+        const SolveOptions options = with_rays(6, literal);
+        check_same(Model(example("room_1002")), method("hemisphere"), options, 2);
+        check_same(Model(example("cornell_box")), method("hemisphere"), options, 2);
+        check_same(Model(test::open_scene()), method("hemisphere"), with_rays(50, literal), 3);
+        check_same(Model(test::furnace_box(3, .5)), method("hemisphere"), with_rays(20, literal),
+                   3);
+    }
+}
+
+TEST_CASE("Section 5 on one page: depths and thresholds") {
+    const Model model(test::room_with_block());
+    SolveOptions options = with_rays(30);
+    for (options.depth = 0; options.depth <= 4; ++options.depth)
+        for (const double threshold : {0.0, 1.5, 4.0}) {
+            options.threshold = threshold;
+            options.literal = threshold == 1.5;
+            check_same(model, method("hemisphere"), options, 2);
+        }
+}
+
+TEST_CASE("Sections 3.2, 3.3 and 4 on a page have the engine's bits") {
+    for (const char* name : {"monte-carlo", "progressive-monte-carlo"}) {
+        check_same(Model(example("room_1002")), method(name), with_rays(6), 2);
+        check_same(Model(test::open_scene()), method(name), with_rays(50), 4);
+        check_same(Model(test::furnace_box(3, .5)), method(name), with_rays(20), 3);
+    }
+    const Method& of_1997 = method("hemisphere-1997");
+    for (const bool literal : {false, true}) {
+        check_same(Model(test::room_with_block()), of_1997, with_rays(80, literal),
+                   literal ? 1 : 5);
+        check_same(Model(test::open_scene()), of_1997, with_rays(20, literal), 4);
+    }
+    check_same(Model(test::sphere(1, 1, .5, 1)), of_1997, with_rays(300), 4);
+    check_same(Model(example("room_1002")), of_1997, with_rays(6), 4);
+}
+
+TEST_CASE("Every page ends a run at once where nothing reflects") {
+    Scene scene = test::room_with_block();
+    for (Material& material : scene.materials)
+        material.reflectance = Vec3(0.0);
+    const Model model(std::move(scene));
+    Monitor monitor;
+    const Needs needs = find_needs(model.mesh);
+    const SolveOptions options = with_rays(4);
+    const SolverInput input{model.mesh, model.bvh, options, monitor, needs};
+    for (const Method* const one : methods()) {
+        if (!one->plain || one == &method("gathering"))
+            continue;
+        CAPTURE(one->name);
+        const auto solver = one->plain(input), engine = one->make(input);
+        run(*solver, input, test::steps(3));
+        run(*engine, input, test::steps(3));
+        CHECK(solver->solution().steps == 1);
+        CHECK(test::same_bits(solver->solution().radiosity, engine->solution().radiosity));
+        CHECK(
+            test::same_bits(solver->solution().standard_error, engine->solution().standard_error));
+    }
+}
+
+TEST_CASE("A page that is interrupted has the solution of the steps before") {
+    const Model model(test::room_with_block());
+    const SolveOptions options = with_rays(4);
+    for (const Method* const one : methods()) {
+        if (!one->plain)
+            continue;
+        CAPTURE(one->name);
+        Monitor monitor;
+        const SolverInput input{model.mesh, model.bvh, options, monitor};
+        const auto solver = one->plain(input);
+        REQUIRE(solver->step());
+        const std::vector<Vec3> before = solver->solution().radiosity;
+        monitor.interrupted = true;
+        CHECK_FALSE(solver->step());
+        CHECK(solver->solution().steps == 1);
+        CHECK(test::same_bits(solver->solution().radiosity, before));
+    }
+}
+
+TEST_CASE("Gathering on one page keeps furnaces exactly") {
+    for (const Scene& scene : {test::furnace_box(3, .5), test::furnace_l_shape(.8)}) {
+        const Model model(scene);
+        const double rho = model.mesh.material(0).reflectance.x;
+        const Solution s = solve_plainly(model, method("gathering"), with_rays(16), test::steps(2));
+        double largest = 0;
+        for (const Vec3& B : s.radiosity)
+            largest = std::max(largest, glm::length(B - Vec3(1 / (1 - rho))));
+        CHECK(largest < 1e-9);
+    }
+}
+
+TEST_CASE("Gathering on one page agrees with its engine", "[slow]") {
+    const Model model(test::room_with_block());
+    SolveOptions many = with_rays(64);
+    many.seed = 99;
+    const Solution engine =
+        test::solve(model, method("gathering"), many, {.steps = {}, .seconds = {}, .error = 1e-3});
+    const std::size_t patches = model.mesh.patches().size(), runs = 12;
+    std::vector<test::MeanTest> means(3 * patches);
+    double squares = 0, told = 0;
+    for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+        SolveOptions options = with_rays(512);
+        options.seed = seed;
+        const Solution s = solve_plainly(model, method("gathering"), options, test::steps(2));
+        for (std::size_t k = 0; k < means.size(); ++k)
+            means[k].add(s.radiosity[k / 3][int(k % 3)]);
+        const double off = true_error(model.mesh, s.radiosity, engine.radiosity).all;
+        const double error = estimated_error(model.mesh, s);
+        squares += off * off;
+        told += error * error;
+        CHECK(s.energy.imbalance() < 1e-9);
+    }
+    double least = 1;
+    for (std::size_t k = 0; k < means.size(); ++k)
+        if (means[k].standard_error() > 0)
+            least = std::min(least, means[k].p_value(engine.radiosity[k / 3][int(k % 3)]));
+    CHECK(least > test::sidak(test::significance, means.size()));
+    CHECK(std::sqrt(squares / told) > .5);
+    CHECK(std::sqrt(squares / told) < 1.5);
+}
+
+TEST_CASE("Pages have the engine's bits on 3576 patches", "[slow]") {
+    const Model model(example("office_3576"));
+    for (const Method* const one : methods())
+        if (one->plain && one != &method("gathering")) {
+            check_same(model, *one, with_rays(16), 3);
+            if (one->has_literal)
+                check_same(model, *one, with_rays(16, true), 2);
+        }
+}
