@@ -11,9 +11,15 @@
 #include "io/files/printable.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <iostream>
 #include <new>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
@@ -93,7 +99,26 @@ std::string refused(const CLI::App& program, const CLI::ParseError& error) {
     return message;
 }
 
-int run_program(int argc, const char* const* argv) {
+/// The arguments after the program's name; `help` and `help SUBCOMMAND` are --help in other words.
+std::vector<std::string> arguments_of(int argc, const char* const* argv) {
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    if (!words.empty() && words.front() == "help") {
+        words.erase(words.begin());
+        words.emplace_back("--help");
+    }
+    return words;
+}
+
+/// "solve " where that is the subcommand, "" where there is none.
+std::string subcommand_before_help(const std::vector<std::string>& words) {
+    constexpr auto names =
+        std::to_array<std::string_view>({"solve", "compare", "density", "formfactors", "info"});
+    return !words.empty() && std::ranges::find(names, words.front()) != names.end()
+               ? words.front() + " "
+               : "";
+}
+
+int run_program(std::vector<std::string> words) {
     CLI::App program("hemilux " HEMILUX_VERSION
                      ": radiosity by hemisphere subdivision, and the methods around it",
                      "hemilux");
@@ -102,7 +127,7 @@ int run_program(int argc, const char* const* argv) {
     DensitySettings density_settings;
     FormFactorSettings formfactor_settings;
     InfoSettings info_settings;
-    program.set_version_flag("--version", "hemilux " HEMILUX_VERSION);
+    program.set_version_flag("-V,--version", "hemilux " HEMILUX_VERSION);
     program.require_subcommand(1);
     const CLI::App* const solve_command = add_solve_command(program, solve_settings);
     const CLI::App* const compare_command = add_compare_command(program, compare_settings);
@@ -112,7 +137,8 @@ int run_program(int argc, const char* const* argv) {
     add_info_command(program, info_settings);
     program.footer("hemilux SUBCOMMAND --help tells more.");
     try {
-        program.parse(argc, argv);
+        std::ranges::reverse(words); // as the parser takes them
+        program.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) { // --help and --version
             const int code = program.exit(error);
@@ -135,10 +161,13 @@ int run_program(int argc, const char* const* argv) {
 
 /// Every error ends here, as one message and an exit code.
 int guarded_main(int argc, const char* const* argv) {
+    std::string hint;
     try {
-        return run_program(argc, argv);
+        const std::vector<std::string> words = arguments_of(argc, argv);
+        hint = "\nhemilux " + subcommand_before_help(words) + "--help tells what can be asked for.";
+        return run_program(words);
     } catch (const UsageError& error) {
-        return fail(exit_usage, error.what(), "\nhemilux --help tells what can be asked for.");
+        return fail(exit_usage, error.what(), hint.c_str());
     } catch (const InputError& error) {
         return fail(exit_input, error.what());
     } catch (const std::bad_alloc&) {

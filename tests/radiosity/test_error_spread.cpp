@@ -66,3 +66,25 @@ TEST_CASE("An error of many parts is well known, one of few is not") {
         CHECK(spread.uncertainty() < .5);
     }
 }
+
+TEST_CASE("Reported errors differ between seeds about as much as they say", "[slow]") {
+    const test::Model model(test::room_with_block());
+    for (const char* name : {"gathering", "hemisphere", "monte-carlo", "matrix"}) {
+        double mean = 0, squares = 0, reported = 0;
+        constexpr int seeds = 16;
+        for (int seed = 1; seed <= seeds; ++seed) {
+            SolveOptions options;
+            options.seed = static_cast<std::uint64_t>(seed);
+            options.rays = 32;
+            const Solution s = test::solve(model, *find_method(name), options, test::steps(3));
+            const double error = estimated_error(model.mesh, s);
+            mean += error / seeds;
+            squares += error * error / seeds;
+            reported += error * error_spread(model.mesh, s).uncertainty() / seeds;
+        }
+        const double spread = std::sqrt((squares - mean * mean) * seeds / (seeds - 1));
+        CAPTURE(name, mean, spread, reported);
+        CHECK(reported > spread / 2.5);
+        CHECK(reported < spread * 2.5);
+    }
+}

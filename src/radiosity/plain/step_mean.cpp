@@ -147,13 +147,15 @@ void StepMean::note_level(const Step& step) {
 void StepMean::estimate_errors() {
     const double n = solution_.steps;
     std::vector<Vec3> variance;
+    std::vector<double> of_patch;
     double sum = 0, value = 0;
     for (std::uint32_t i = 0; i < squares_.size(); ++i) {
         const double area = input_.mesh.patches()[i].area;
         const Vec3 reflected = solution_.radiosity[i] - input_.mesh.material(i).emission;
         const Vec3 of_mean = squares_[i] / (n * (n - 1));
         variance.push_back(of_mean);
-        sum += area * (of_mean.x + of_mean.y + of_mean.z);
+        of_patch.push_back(area * (of_mean.x + of_mean.y + of_mean.z));
+        sum += of_patch.back();
         value += area * glm::dot(reflected, reflected);
     }
     variance = pooled_over_neighbours(input_.mesh, variance);
@@ -176,8 +178,12 @@ void StepMean::estimate_errors() {
     const double of_level = level_squares_ / (n * (n - 1)) * value;
     solution_.variance = sum;
     solution_.unseen = unseen();
-    if (of_level > 0)
-        solution_.error_parts = std::max(std::pow(sum / of_level, 2.0), 1.0);
+    if (sum > 0) {
+        double squares = std::pow(of_level / sum, 2.0);
+        for (const double part : of_patch)
+            squares += std::pow(part / sum, 2.0);
+        solution_.error_parts = std::max(1 / squares, 1.0);
+    }
 }
 
 Vec3 StepMean::power_leaving() const {

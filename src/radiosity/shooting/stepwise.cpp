@@ -275,12 +275,14 @@ void StepwiseSolver::note_level(const std::vector<Vec3>& radiosity) {
 void StepwiseSolver::estimate_errors() {
     const double n = solution_.steps;
     std::vector<Vec3> variance(squares_.size());
+    std::vector<double> of_patch;
     double sum = 0, value = 0;
     for (std::uint32_t i = 0; i < variance.size(); ++i) {
         const double area = input_.mesh.patches()[i].area;
         const Vec3 reflected = solution_.radiosity[i] - input_.mesh.material(i).emission;
         variance[i] = squares_[i] / (n * (n - 1));
-        sum += area * (variance[i].x + variance[i].y + variance[i].z);
+        of_patch.push_back(area * (variance[i].x + variance[i].y + variance[i].z));
+        sum += of_patch.back();
         value += area * glm::dot(reflected, reflected);
     }
     variance = pooled_over_neighbours(input_.mesh, variance);
@@ -297,8 +299,12 @@ void StepwiseSolver::estimate_errors() {
     const double of_level = level_squares_ / (n * (n - 1)) * value;
     solution_.variance = sum;
     solution_.unseen = unseen();
-    if (of_level > 0)
-        solution_.error_parts = std::max(std::pow(sum / of_level, 2.0), 1.0);
+    if (sum > 0) {
+        double squares = std::pow(of_level / sum, 2.0);
+        for (const double part : of_patch)
+            squares += std::pow(part / sum, 2.0);
+        solution_.error_parts = std::max(1 / squares, 1.0);
+    }
 }
 
 /// What patches send by the solution and what rays have carried differ by chance: numbers of rays
