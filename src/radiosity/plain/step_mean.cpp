@@ -179,9 +179,10 @@ void StepMean::estimate_errors() {
     solution_.variance = sum;
     solution_.unseen = unseen();
     if (sum > 0) {
-        double squares = std::pow(of_level / sum, 2.0);
+        double squares = 0;
         for (const double part : of_patch)
             squares += std::pow(part / sum, 2.0);
+        squares = std::max(squares, std::pow(of_level / sum, 2.0));
         solution_.error_parts = std::max(1 / squares, 1.0);
     }
 }
