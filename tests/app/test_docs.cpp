@@ -1,8 +1,11 @@
 // What the documents name exists: files, links between pages, and in docs/paper_map.md also names
 // of the code and test cases.
+#include "app/program.h"
+
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -171,4 +174,13 @@ TEST_CASE("the map of the paper names code and tests that exist") {
 
 TEST_CASE("the reading guide names code that exists") {
     CHECK(checked_rows_of("docs/reading-guide.md") > 30);
+}
+
+TEST_CASE("the page of options is what the program says") {
+    const std::string script = (root / "scripts/options_page.sh").string();
+    const test::Workplace place;
+    const std::string page = place.path("options.md").string();
+    REQUIRE(std::system(("'" + script + "' '" HEMILUX_PROGRAM "' >'" + page + "'").c_str()) == 0);
+    INFO("scripts/options_page.sh build/release/hemilux >docs/options.md makes the page anew");
+    CHECK((text_of(page) == text_of(root / "docs/options.md")));
 }

@@ -1,0 +1,19 @@
+#!/bin/sh
+# Prints docs/options.md: what the program says of its options. A test compares the two.
+#
+#   scripts/options_page.sh build/release/hemilux >docs/options.md
+set -eu
+[ $# -eq 1 ] || { sed -n '2,4s/^# \{0,1\}//p' "$0" >&2; exit 1; }
+
+cat <<'END'
+# Options
+
+This page is the program's own help, made by `scripts/options_page.sh`. For what methods do and when to
+take which, see [README.md](../README.md); for what goes wrong, [troubleshooting.md](troubleshooting.md).
+END
+for command in "" solve compare density formfactors info; do
+    printf '\n## hemilux%s\n\n```\n' "${command:+ $command}"
+    # shellcheck disable=SC2086  # no word where there is no subcommand
+    "$1" $command --help | sed 's/[[:space:]]*$//' | cat -s
+    printf '```\n'
+done
