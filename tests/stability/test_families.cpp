@@ -140,5 +140,5 @@ TEST_CASE("Every other method reports an error in which one can trust", "[slow]"
 }
 
 TEST_CASE("Gathering reports an error in which one can trust: all scenes", "[slow]") {
-    check_scenes("gathering", scenes_named(), 8, {.seconds = 20, .rays = 10'000'000});
+    check_scenes("gathering", scenes_named(), 6, {.seconds = 20, .rays = 4'000'000});
 }
