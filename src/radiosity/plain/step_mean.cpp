@@ -4,6 +4,7 @@
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/check_input.h"
+#include "radiosity/solving/error_spread.h"
 #include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/unseen_sights.h"
 
@@ -178,13 +179,8 @@ void StepMean::estimate_errors() {
     const double of_level = level_squares_ / (n * (n - 1)) * value;
     solution_.variance = sum;
     solution_.unseen = unseen();
-    if (sum > 0) {
-        double squares = 0;
-        for (const double part : of_patch)
-            squares += std::pow(part / sum, 2.0);
-        squares = std::max(squares, std::pow(of_level / sum, 2.0));
-        solution_.error_parts = std::max(1 / squares, 1.0);
-    }
+    if (sum > 0)
+        solution_.error_parts = error_parts_of(of_patch, of_level);
 }
 
 Vec3 StepMean::power_leaving() const {

@@ -6,6 +6,7 @@
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/check_input.h"
+#include "radiosity/solving/error_spread.h"
 #include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/unseen_sights.h"
 
@@ -299,13 +300,8 @@ void StepwiseSolver::estimate_errors() {
     const double of_level = level_squares_ / (n * (n - 1)) * value;
     solution_.variance = sum;
     solution_.unseen = unseen();
-    if (sum > 0) {
-        double squares = 0;
-        for (const double part : of_patch)
-            squares += std::pow(part / sum, 2.0);
-        squares = std::max(squares, std::pow(of_level / sum, 2.0));
-        solution_.error_parts = std::max(1 / squares, 1.0);
-    }
+    if (sum > 0)
+        solution_.error_parts = error_parts_of(of_patch, of_level);
 }
 
 /// What patches send by the solution and what rays have carried differ by chance: numbers of rays

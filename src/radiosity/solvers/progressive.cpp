@@ -28,12 +28,14 @@
 #include "radiosity/scene/mesh.h"
 #include "radiosity/shooting/progressive_pass.h"
 #include "radiosity/solving/check_input.h"
+#include "radiosity/solving/error_spread.h"
 #include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/solver.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 namespace hemilux {
@@ -140,24 +142,23 @@ class ProgressiveSolver final : public Solver {
     /// error (error_spread.h), however many patches there are.
     void note_errors(const Estimate& estimate) {
         solution_.standard_error = pooled_over_neighbours(input_.mesh, estimate.variance);
-        double variance = 0, missing = 0, squares = 0;
+        std::vector<double> of_patch;
+        double missing = 0;
         for (std::uint32_t i = 0; i < estimate.radiosity.size(); ++i) {
             const double area = input_.mesh.patches()[i].area;
             const Vec3& light = estimate.missing[i];
-            const double here = area * glm::dot(estimate.variance[i], Vec3(1.0));
-            variance += here;
-            squares += here * here;
+            of_patch.push_back(area * glm::dot(estimate.variance[i], Vec3(1.0)));
             missing += area * glm::dot(light, light);
             const Vec3 seen = solution_.standard_error[i];
             solution_.standard_error[i] =
                 glm::sqrt(glm::max(seen, estimate.left_to_chance[i]) + light * light);
         }
+        const double variance = std::accumulate(of_patch.begin(), of_patch.end(), 0.0);
         solution_.variance = variance;
         solution_.unseen = missing;
         solution_.error_parts.reset();
-        squares = std::max(squares, estimate.shared * estimate.shared);
-        if (squares > 0)
-            solution_.error_parts = std::max(variance * variance / squares, 1.0);
+        if (variance > 0)
+            solution_.error_parts = error_parts_of(of_patch, estimate.shared);
     }
 
     SolverInput input_;

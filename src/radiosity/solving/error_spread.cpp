@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace hemilux {
 namespace {
@@ -29,12 +31,10 @@ double parts_by_patch(const Mesh& mesh, const Solution& solution) {
         const Vec3& sigma = solution.standard_error[i];
         return mesh.patches()[i].area * glm::dot(sigma, sigma);
     };
-    double sum = 0, squares = 0; // squares: of the shares, as those of variances may be too small
+    std::vector<double> of_patch;
     for (std::size_t i = 0; i < solution.standard_error.size(); ++i)
-        sum += variance(i);
-    for (std::size_t i = 0; i < solution.standard_error.size(); ++i)
-        squares += sum > 0 ? variance(i) / sum * (variance(i) / sum) : 0;
-    return squares > 0 ? std::max(1 / squares, 1.0) : std::numeric_limits<double>::infinity();
+        of_patch.push_back(variance(i));
+    return error_parts_of(of_patch, 0);
 }
 
 } // namespace
@@ -57,6 +57,17 @@ ErrorSpread error_spread(const Mesh& mesh, const Solution& solution) {
     }
     return {solution.error_parts ? *solution.error_parts : parts_by_patch(mesh, solution),
             samples - 1};
+}
+
+double error_parts_of(std::span<const double> of_patch, double shared) {
+    const double sum = std::accumulate(of_patch.begin(), of_patch.end(), 0.0);
+    if (!(sum > 0))
+        return std::numeric_limits<double>::infinity();
+    double squares = 0; // of the shares, as those of variances may be too small
+    for (const double variance : of_patch)
+        squares += variance / sum * (variance / sum);
+    squares = std::max(squares, shared / sum * (shared / sum));
+    return squares > 0 ? std::max(1 / squares, 1.0) : std::numeric_limits<double>::infinity();
 }
 
 double error_parts(std::span<const double> products, std::size_t samples) {

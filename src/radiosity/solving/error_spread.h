@@ -33,6 +33,11 @@ struct ErrorSpread {
 /// steps.
 [[nodiscard]] ErrorSpread error_spread(const Mesh& mesh, const Solution& solution);
 
+/// Parts of an error whose variance is the sum of `of_patch`, where each patch errs for itself but
+/// for the part `shared` that all err together: by whichever gives fewer. Infinite where nothing
+/// errs.
+[[nodiscard]] double error_parts_of(std::span<const double> of_patch, double shared);
+
 /// Parts from the scalar products of what each of some samples is off from their mean, all with
 /// all: row by row, `samples` squared of them. With G this matrix of n degrees of freedom and P
 /// parts, tr G^2 / (tr G)^2 is about (1 + (n + 1) / P) / (n + 2 / P) (moments of the Wishart
