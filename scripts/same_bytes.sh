@@ -13,8 +13,7 @@ here=$(cd "$(dirname "$0")/.." && pwd)
 [ $# -gt 0 ] || set -- "$here"/examples/scenes/*.obj
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-methods="gathering hemisphere hemisphere-1997 stratified monte-carlo progressive-monte-carlo
-         progressive matrix"
+methods=$("$old_program" solve --help | sed -n '/^Methods:/,/^$/s/^  \([a-z0-9-]*\) .*/\1/p')
 
 differ=0
 for scene in "$@"; do

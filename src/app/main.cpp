@@ -12,12 +12,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <iostream>
 #include <new>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 #if defined(__GLIBC__)
@@ -109,16 +107,8 @@ std::vector<std::string> arguments_of(int argc, const char* const* argv) {
     return words;
 }
 
-/// "solve " where that is the subcommand, "" where there is none.
-std::string subcommand_before_help(const std::vector<std::string>& words) {
-    constexpr auto names =
-        std::to_array<std::string_view>({"solve", "compare", "density", "formfactors", "info"});
-    return !words.empty() && std::ranges::find(names, words.front()) != names.end()
-               ? words.front() + " "
-               : "";
-}
-
-int run_program(std::vector<std::string> words) {
+/// `advice` names the help of the subcommand, where one is asked for.
+int run_program(std::vector<std::string> words, std::string& advice) {
     CLI::App program("hemilux " HEMILUX_VERSION
                      ": radiosity by hemisphere subdivision, and the methods around it",
                      "hemilux");
@@ -136,6 +126,9 @@ int run_program(std::vector<std::string> words) {
         add_formfactors_command(program, formfactor_settings);
     add_info_command(program, info_settings);
     program.footer("hemilux SUBCOMMAND --help tells more.");
+    for (const CLI::App* const subcommand : program.get_subcommands({}))
+        if (!words.empty() && words.front() == subcommand->get_name())
+            advice = "\nhemilux " + words.front() + " --help tells what can be asked for.";
     try {
         std::ranges::reverse(words); // as the parser takes them
         program.parse(std::move(words));
@@ -161,13 +154,11 @@ int run_program(std::vector<std::string> words) {
 
 /// Every error ends here, as one message and an exit code.
 int guarded_main(int argc, const char* const* argv) {
-    std::string hint;
+    std::string advice = "\nhemilux --help tells what can be asked for.";
     try {
-        const std::vector<std::string> words = arguments_of(argc, argv);
-        hint = "\nhemilux " + subcommand_before_help(words) + "--help tells what can be asked for.";
-        return run_program(words);
+        return run_program(arguments_of(argc, argv), advice);
     } catch (const UsageError& error) {
-        return fail(exit_usage, error.what(), hint.c_str());
+        return fail(exit_usage, error.what(), advice.c_str());
     } catch (const InputError& error) {
         return fail(exit_input, error.what());
     } catch (const std::bad_alloc&) {

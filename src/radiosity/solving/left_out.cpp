@@ -6,11 +6,6 @@
 namespace hemilux {
 namespace {
 
-static_assert(most_triangles_without_tree == 8);
-constexpr const char* few_triangles =
-    "all are tested at once, as there are no more than 8 triangles "
-    "(or halves of quads)";
-
 std::string patches(std::size_t n) { return std::to_string(n) + (n == 1 ? " patch" : " patches"); }
 
 void add_idle_patches(const Needs& needs, const MethodWork& work, std::vector<LeftOut>& list) {
@@ -43,7 +38,11 @@ std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
                         "all steps but one, and the search for their length"});
     add_idle_patches(needs, work, list);
     if (!needs.tree)
-        list.push_back({"the bounding volume hierarchy", few_triangles, "visits to boxes"});
+        list.push_back({"the bounding volume hierarchy",
+                        "all are tested at once, as there are no more than " +
+                            std::to_string(most_triangles_without_tree) +
+                            " triangles (or halves of quads)",
+                        "visits to boxes"});
     return list;
 }
 
