@@ -8,9 +8,9 @@
 
 #include "bvh/wide/wide_bvh.h"
 #include "radiosity/hemisphere/density.h"
+#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solver.h"
-#include "radiosity/sampling/workers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // A form factor estimated against its closed form.
 //
-// Shows: two unit squares that face each other, the floor and the ceiling of a cube. Three ways to the
-// same number, each with its standard error: pairs of random points and the kernel between them;
-// random points of the floor and directions by the cosine, counting those that meet the ceiling;
-// points of the floor and the ceiling's closed form as seen from each. Prints: estimate, standard
-// error, and by how many standard errors it misses.
+// Shows: two unit squares that face each other, the floor and the ceiling of a cube. Three ways to
+// the same number, each with its standard error: pairs of random points and the kernel between
+// them; random points of the floor and directions by the cosine, counting those that meet the
+// ceiling; points of the floor and the ceiling's closed form as seen from each. Prints: estimate,
+// standard error, and by how many standard errors it misses.
 
 #include "geometry/form_factor.h"
 #include "geometry/polygon.h"
