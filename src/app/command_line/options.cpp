@@ -230,6 +230,7 @@ std::string methods_text() {
 constexpr const char* solve_examples = R"(
 Examples:
   hemilux solve room.obj -o room.png
+  hemilux solve room.obj --divide auto --error .03 -o room.png
   hemilux solve room.obj --max-edge .1 --error .01 -o room.hdr -o room.csv
   hemilux solve map.obj --emission 'Lava=8,2,.3' --reflectance '*=.6' -o map.ply
   hemilux solve room.obj --method matrix -o reference.csv
@@ -254,11 +255,43 @@ constexpr const char* exit_codes = R"(
 Exit codes: 0 done, 1 wrong usage, 2 bad input, 3 output or system failure,
 130 interrupted by Ctrl-C and 143 by SIGTERM (what was computed has been written).)";
 
+/// What patches are divided by.
+struct DivisionChoice {
+    bool by_light = false;
+    double max_edge = 0; ///< 0: not divided
+};
+
+std::optional<DivisionChoice> division_from(const std::string& text) {
+    if (text == "auto")
+        return DivisionChoice{.by_light = true};
+    if (text == "none")
+        return DivisionChoice{};
+    const std::optional<double> length = parse_number(text);
+    if (!length || !positive.contains(*length))
+        return std::nullopt;
+    return DivisionChoice{.max_edge = *length};
+}
+
+void add_divide_option(CLI::App& app, SolveSettings& settings) {
+    add_parsed(app, "--divide", "auto|none|LENGTH",
+               "patches: auto: divided where the light changes within them, until the error of the "
+               "light itself is that of --error [.05 then]; none: the faces; LENGTH: as --max-edge "
+               "[none]",
+               "auto, none or a length above 0", division_from,
+               [&settings](const DivisionChoice& choice) {
+                   settings.divide_auto = choice.by_light;
+                   settings.scene.mesh.max_edge = choice.max_edge;
+               })
+        ->excludes(app.get_option("--max-edge"))
+        ->group("Scene");
+}
+
 } // namespace
 
 CLI::App* add_solve_command(CLI::App& program, SolveSettings& settings) {
     CLI::App* const app = program.add_subcommand("solve", "solve a scene, write the results");
     add_scene_options(*app, settings.scene);
+    add_divide_option(*app, settings);
     add_memory_option(*app, settings.scene);
     add_method_option(*app, settings.method);
     add_method_options(*app, settings.options);

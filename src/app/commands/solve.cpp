@@ -5,6 +5,7 @@
 #include "app/loading/reference.h"
 #include "app/loading/sides.h"
 #include "app/running/checkpointing.h"
+#include "app/running/division.h"
 #include "app/running/results.h"
 #include "app/running/run_notes.h"
 #include "app/running/signals.h"
@@ -39,6 +40,8 @@ std::uint64_t default_max_rays(std::size_t patches) {
 
 StopRule stop_rule(const SolveSettings& settings, std::size_t patches) {
     StopRule stop = settings.stop;
+    if (settings.divide_auto && (stop.error || (!stop.steps && !stop.seconds)))
+        stop.error = sampling_share * whole_error(settings);
     if (!stop.steps && !stop.seconds && !stop.error) {
         stop = settings.method->default_stop;
         stop.rays = settings.stop.rays;
@@ -99,7 +102,7 @@ int finish(const SolveSettings& settings, const Results& results, const WriteRep
     WriteReport report = write_results(settings, results);
     report.add(of_steps);
     say(settings.talk, Talk::normal, run_text(results.statistics));
-    for (const std::string& note : notes.texts(results.statistics.estimated_error, interrupted))
+    for (const std::string& note : notes.texts(results.statistics.error_sampling, interrupted))
         say(settings.talk, Talk::normal, "warning: " + note);
     if (results.solution.steps > 0)
         say_lost_light(settings, results);
@@ -148,19 +151,21 @@ int solve(const SolveSettings& settings) {
     check_camera(settings.view, mesh);
     check_exact(settings.options, mesh.patches().size());
     check_plain(settings, mesh.patches().size());
-    const StopRule stop = stop_rule(settings, mesh.patches().size());
     statistics.seconds_read = loaded.seconds_read;
-    std::vector<bool> detail = detail_mask(mesh, settings.detail);
-    std::optional<Reference> reference;
-    if (!settings.reference.empty())
-        reference = read_reference(settings.reference, mesh, std::move(detail));
-    const Prepared prepared = prepare(loaded, settings.options);
-    const Needs& needs = prepared.needs;
+    Prepared prepared = prepare(loaded, settings.options);
     const auto& [tracer, tree] = prepared.made;
     statistics.seconds_bvh = prepared.seconds;
     guard.watch(monitor.interrupted);
     say(settings.talk, Talk::verbose, tracer_text(tree, statistics.seconds_bvh));
-
+    if (divide_as_asked(settings, loaded.mesh, *tracer, monitor, statistics) &&
+        !settings.options.keep_all)
+        prepared.needs = find_needs(mesh);
+    const Needs& needs = prepared.needs;
+    const StopRule stop = stop_rule(settings, mesh.patches().size());
+    std::vector<bool> detail = detail_mask(mesh, settings.detail);
+    std::optional<Reference> reference;
+    if (!settings.reference.empty())
+        reference = read_reference(settings.reference, mesh, std::move(detail));
     Progress progress(monitor, share_of(stop, *settings.method),
                       settings.talk != Talk::quiet && stderr_is_terminal());
     const Stopwatch solving;
@@ -208,6 +213,8 @@ int solve(const SolveSettings& settings) {
     checkpointer.finish(rows, seconds_solver);
 
     fill(statistics, settings, mesh, solver->solution(), seconds_solver);
+    add_division_error(statistics, settings, mesh, *tracer, solver->solution(),
+                       monitor.interrupted);
     if (!settings.plain) // which leaves out nothing
         statistics.left_out = left_out(needs, *settings.method, solver->solution());
     statistics.bytes_peak = peak_memory_bytes();

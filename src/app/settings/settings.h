@@ -54,7 +54,8 @@ struct SolveSettings {
     const Method* method = nullptr;
     bool plain = false; ///< the method's page (Method::plain) instead of the engine
     SolveOptions options;
-    StopRule stop; ///< as given; the method's own rule stands in for an empty one
+    bool divide_auto = false; ///< patches are divided where the light changes within them
+    StopRule stop;            ///< as given; the method's own rule stands in for an empty one
     ViewSettings view;
     std::vector<Output> outputs;
     std::string statistics, steps_log; ///< paths; empty: not asked for

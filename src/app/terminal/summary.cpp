@@ -27,6 +27,20 @@ std::string uncertainty_text(const Statistics& s) {
                : "";
 }
 
+/// The estimated error, of what, and what the other part of it is.
+std::string errors_text(const Statistics& s) {
+    const std::string error = "estimated error " + percent(s.estimated_error) + uncertainty_text(s);
+    if (!std::isfinite(s.error_division))
+        return error;
+    const std::string division =
+        percent(s.error_division) + ", give or take " + percent(s.error_division_uncertainty);
+    if (s.estimated_error != s.error_sampling)
+        return error + ", of the light on the surfaces: sampling " + percent(s.error_sampling) +
+               ", division " + division;
+    return error + ", of the patches' mean light\nwithin patches the light differs by " + division +
+           (s.error_division > s.error_sampling ? "; --divide auto makes that less" : "");
+}
+
 } // namespace
 
 std::string mesh_text(const Mesh& mesh) {
@@ -64,8 +78,7 @@ std::string run_text(const Statistics& s) {
     text += " in " + duration(s.seconds_density + s.seconds_solve) + " (" +
             short_count(s.rays_per_second) + " rays/s)";
     if (s.steps > 0)
-        text += "\nestimated error " + percent(s.estimated_error) + uncertainty_text(s) + "\n" +
-                energy_text(s.energy);
+        text += "\n" + errors_text(s) + "\n" + energy_text(s.energy);
     return text;
 }
 

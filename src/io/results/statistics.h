@@ -22,13 +22,22 @@ struct Statistics {
     std::uint64_t rays_energy = 0, rays_density = 0;
     double seconds_read = unknown, seconds_bvh = unknown;
     double seconds_density = unknown, seconds_solve = unknown;
+    double seconds_divide = 0; ///< rough solutions and points, to divide patches by
+    std::uint64_t rays_divide = 0;
+    double seconds_division_error = unknown; ///< to find out error_division
+    std::uint64_t rays_division_error = 0;
     double rays_per_second = unknown;
     std::uint64_t bytes_density = 0;       ///< measured
     std::uint64_t bytes_transport = 0;     ///< of the rays that `gathering` keeps
     std::uint64_t bytes_density_paper = 0; ///< 4 (4^(n+1) - 1) / 3 per patch (paper section 6)
     std::uint64_t bytes_peak = 0;          ///< of the process
+    /// Where patches are divided as the light asks for, of the light on the surfaces; else of the
+    /// patches' means.
     double estimated_error = unknown;
     double estimated_error_uncertainty = unknown; ///< one sigma; NaN before two steps
+    double error_sampling = unknown;              ///< of the patches' means
+    /// Of the light on the surfaces, which changes within patches (division_error.h).
+    double error_division = unknown, error_division_uncertainty = unknown;
     EnergyBalance energy;
     std::vector<LeftOut> left_out;
 };

@@ -25,7 +25,13 @@ struct Patch;
                              const Patch& target, const PolygonSampler& targets,
                              const std::array<double, 4>& u, double near, Ray& ray);
 
-/// The same with its ray traced: the factor, or 0 if something stands between. Adds to `rays` if a
+/// The same from a given point of a surface with a unit normal, and over u in [0,1)^2. `facet`: the
+/// one that the point lies on, or none.
+[[nodiscard]] double look_from(const Vec3& point, const Vec3& normal, std::uint32_t facet,
+                               const Patch& target, const PolygonSampler& targets, Vec2 u,
+                               double near, Ray& ray);
+
+/// look_at with its ray traced: the factor, or 0 if something stands between. Adds to `rays` if a
 /// ray had to be traced. `visibility`: false where nothing can stand between two patches.
 [[nodiscard]] double point_to_patch(const Mesh& mesh, const Tracer& tracer, std::uint32_t from,
                                     std::uint32_t to, const std::array<double, 4>& u,

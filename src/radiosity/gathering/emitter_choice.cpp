@@ -156,24 +156,45 @@ void EmitterChoice::divide(std::uint32_t cluster) {
 }
 
 /// How much a cluster's emitters differ to the receiver; 0 where there is but one.
-double EmitterChoice::nearness(std::uint32_t receiver, const Cluster& cluster) const {
-    const double gap = glm::distance(mesh_.patches()[receiver].centre, cluster.centre) -
-                       radius_[receiver] - cluster.radius;
+double EmitterChoice::nearness(const EmitterReceiver& to, const Cluster& cluster) {
+    const Vec3 centre(to.centre[0], to.centre[1], to.centre[2]);
+    const double gap = glm::distance(centre, cluster.centre) - to.radius - cluster.radius;
     return cluster.left == 0 ? 0 : cluster.radius / std::max(gap, 1e-3 * cluster.radius);
 }
 
 void EmitterChoice::weigh(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const {
+    weigh_all(receiver_at(receiver), cut);
+    if (!part_.empty())
+        doubt_others(receiver, bright, cut);
+    add_up(cut);
+}
+
+void EmitterChoice::weigh(const Vec3& point, const Vec3& normal, Cut& cut) const {
+    EmitterReceiver to{};
+    for (int axis = 0; axis < 3; ++axis) {
+        to.centre[axis] = point[axis];
+        to.normal[axis] = normal[axis];
+        for (auto& corner : to.corner)
+            corner[axis] = point[axis];
+    }
+    weigh_all(to, cut);
+    add_up(cut);
+}
+
+void EmitterChoice::weigh_all(const EmitterReceiver& to, Cut& cut) const {
     if (order_.size() <= most_emitters) {
         cut.sums.resize(order_.size() + 1);
         cut.found.resize(order_.size());
-        sampling_kernels().weigh_emitters(arrays_from(0), order_.size(), receiver_at(receiver),
-                                          cut.sums.data() + 1, cut.found.data());
+        sampling_kernels().weigh_emitters(arrays_from(0), order_.size(), to, cut.sums.data() + 1,
+                                          cut.found.data());
     } else {
-        choose_clusters(receiver, cut);
-        weigh_clusters(receiver, cut);
+        choose_clusters(to, cut);
+        weigh_clusters(to, cut);
     }
-    if (!part_.empty())
-        doubt_others(receiver, bright, cut);
+}
+
+/// Weights become running sums.
+void EmitterChoice::add_up(Cut& cut) {
     cut.sum = cut.sums[0] = 0;
     for (std::size_t k = 1; k < cut.sums.size(); ++k)
         cut.sums[k] = cut.sum += cut.sums[k];
@@ -215,18 +236,18 @@ void EmitterChoice::doubt_others(std::uint32_t receiver, std::uint64_t bright, C
 }
 
 /// The cluster that is nearest for its size is divided as long as there is room.
-void EmitterChoice::choose_clusters(std::uint32_t receiver, Cut& cut) const {
+void EmitterChoice::choose_clusters(const EmitterReceiver& to, Cut& cut) const {
     using Near = std::pair<double, std::uint32_t>;
     thread_local std::vector<Near> heap;
-    heap.assign(1, {nearness(receiver, clusters_.front()), 0});
+    heap.assign(1, {nearness(to, clusters_.front()), 0});
     while (heap.size() < most_clusters) {
         std::ranges::pop_heap(heap);
         const Cluster& cluster = clusters_[heap.back().second];
         if (cluster.left == 0)
             break;
-        heap.back() = {nearness(receiver, clusters_[cluster.left]), cluster.left};
+        heap.back() = {nearness(to, clusters_[cluster.left]), cluster.left};
         std::ranges::push_heap(heap);
-        heap.push_back({nearness(receiver, clusters_[cluster.right]), cluster.right});
+        heap.push_back({nearness(to, clusters_[cluster.right]), cluster.right});
         std::ranges::push_heap(heap);
     }
     cut.clusters.clear();
@@ -247,8 +268,7 @@ void EmitterChoice::choose_clusters(std::uint32_t receiver, Cut& cut) const {
 }
 
 /// Rather too large than too small, and 0 only where no light can come from.
-void EmitterChoice::weigh_clusters(std::uint32_t receiver, Cut& cut) const {
-    const EmitterReceiver to = receiver_at(receiver);
+void EmitterChoice::weigh_clusters(const EmitterReceiver& to, Cut& cut) const {
     const auto& [x, y, z, radius, power, area, light] = cut.of_many;
     cut.sums.resize(cut.clusters.size() + 1);
     cut.found.resize(cut.clusters.size());

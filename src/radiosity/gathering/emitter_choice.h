@@ -48,8 +48,11 @@ class EmitterChoice {
         /// just those: what such a ray brings varies more than what one finds by chance.
         [[nodiscard]] bool pays() const { return sum * sum <= 4 * square_found; }
     };
-    /// For choose(). `bright`: the bits of emitters from which light has reached the receiver.
+    /// For choose(). `bright`: the bits of emitters from which light has reached the receiver, a
+    /// patch.
     void weigh(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const;
+    /// The same for a point with a unit normal, in the local frame.
+    void weigh(const Vec3& point, const Vec3& normal, Cut& cut) const;
     /// Of the emitter at this place; others have the same if there are many.
     [[nodiscard]] static std::uint64_t bit_of(std::uint32_t place) {
         return std::uint64_t{1} << place % 64;
@@ -83,13 +86,15 @@ class EmitterChoice {
     void list_emitters();
     [[nodiscard]] EmitterArrays arrays_from(std::size_t k) const;
     [[nodiscard]] EmitterReceiver receiver_at(std::uint32_t patch) const;
-    void choose_clusters(std::uint32_t receiver, Cut& cut) const;
+    void weigh_all(const EmitterReceiver& to, Cut& cut) const;
+    void choose_clusters(const EmitterReceiver& to, Cut& cut) const;
     void doubt_others(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const;
-    void weigh_clusters(std::uint32_t receiver, Cut& cut) const;
+    void weigh_clusters(const EmitterReceiver& to, Cut& cut) const;
+    static void add_up(Cut& cut);
     [[nodiscard]] Choice choose_within(const Cluster& cluster, double share) const;
     [[nodiscard]] double light_of(std::uint32_t place) const;
     [[nodiscard]] double power_of(std::uint32_t place) const;
-    [[nodiscard]] double nearness(std::uint32_t receiver, const Cluster& cluster) const;
+    [[nodiscard]] static double nearness(const EmitterReceiver& to, const Cluster& cluster);
     [[nodiscard]] const Vec3& centre(std::uint32_t place) const;
 
     const Mesh& mesh_;

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -203,12 +204,16 @@ void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
         divide_quad(division, shape, max_edge, room, made);
 
     for (const Polygon& piece : made)
-        for (const bool back : {false, true})
-            if (!back || two_sided_)
-                patches_.push_back(patch_from(piece, f, back));
+        add_patches(f, piece);
     divisions_.push_back(division);
     const bool divided = division.rows > 1 || division.columns > 1;
     only_patch_.push_back(divided ? none : division.first_patch);
+}
+
+void Mesh::add_patches(std::uint32_t facet, const Polygon& shape) {
+    for (const bool back : {false, true})
+        if (!back || two_sided_)
+            patches_.push_back(patch_from(shape, facet, back));
 }
 
 void Mesh::check_room(double count, std::size_t room) {
@@ -276,7 +281,7 @@ void Mesh::divide_triangle(Division& division, const Polygon& shape, double max_
         divide_fan(a, ab, ac, n, m, made);
 }
 
-std::uint32_t Mesh::piece_of_quad(const Division& division, const Hit& hit) const {
+Mesh::Place Mesh::place_in_quad(const Division& division, const Hit& hit) const {
     // The point is corner0 + x e1 + y e3; corner 2 lies at (1 + g_x, 1 + g_y).
     const double to_corner2 = hit.second_half ? hit.u : hit.v;
     const double x = to_corner2 * (1 + division.g_x) + (hit.second_half ? 0 : hit.u);
@@ -285,31 +290,139 @@ std::uint32_t Mesh::piece_of_quad(const Division& division, const Hit& hit) cons
     const double b = 1 + x * division.g_y - y * division.g_x;
     const double t = 2 * y / (b + safe_sqrt(b * b + 4 * division.g_x * y));
     const double s = x / (1 + t * division.g_x);
-    return piece_at(t, division.rows) * division.columns + piece_at(s, division.columns);
+    const std::uint32_t row = piece_at(t, division.rows), column = piece_at(s, division.columns);
+    return {row * division.columns + column,
+            {s * division.columns - column, t * division.rows - row}};
 }
 
-std::uint32_t Mesh::piece_of_triangle(const Division& division, const Hit& hit) const {
+Mesh::Place Mesh::place_in_triangle(const Division& division, const Hit& hit) const {
     const std::array<double, 3> weight{1 - hit.u - hit.v, hit.u, hit.v};
     const double b = weight[(division.apex + 1u) % 3], c = weight[(division.apex + 2u) % 3];
     const std::uint32_t k = piece_at(b + c, division.rows);
-    if (!division.similar)
-        return k * division.columns + piece_at(c / (b + c), division.columns);
+    if (!division.similar) {
+        const double across = c / (b + c);
+        const std::uint32_t column = piece_at(across, division.columns);
+        return {k * division.columns + column,
+                {(b + c) * division.rows - k, across * division.columns - column}};
+    }
     // Row k holds k + 1 upright triangles and between them k that are upside down.
     const std::uint32_t across = std::min(k, piece_at(c, division.rows));
     const bool upside_down = across < k && std::floor(b * division.rows) + across < k;
-    return k * k + 2 * across + (upside_down ? 1 : 0);
+    // From the corner that all rows count from.
+    const double to_b = b * division.rows - (k - across), to_c = c * division.rows - across;
+    return {k * k + 2 * across + (upside_down ? 1 : 0),
+            upside_down ? Vec2(to_b + to_c, -to_b) : Vec2(to_b, to_c)};
 }
 
 std::uint32_t Mesh::patch_at(const Hit& hit) const {
     if (!hit.front && !two_sided_)
         return none;
     const Division& division = divisions_[hit.facet];
-    std::uint32_t piece = 0;
-    if (division.rows > 1 || division.columns > 1)
-        piece = scene_.facets[hit.facet].is_triangle() ? piece_of_triangle(division, hit)
-                                                       : piece_of_quad(division, hit);
-    return two_sided_ ? division.first_patch + 2 * piece + (hit.front ? 0 : 1)
-                      : division.first_patch + piece;
+    const std::uint32_t side = two_sided_ && !hit.front ? 1 : 0;
+    if (!is_divided(hit.facet))
+        return division.first_patch + side;
+    const bool triangle = scene_.facets[hit.facet].is_triangle();
+    const Place place = triangle ? place_in_triangle(division, hit) : place_in_quad(division, hit);
+    if (division.first_cell != none)
+        return cells_.patch_at(division.first_cell + place.piece, triangle && division.similar,
+                               place.inside) +
+               side;
+    return division.first_patch + (two_sided_ ? 2 : 1) * place.piece + side;
+}
+
+std::uint32_t Mesh::pieces_of(std::uint32_t facet) const {
+    const Division& division = divisions_[facet];
+    return division.rows * (scene_.facets[facet].is_triangle() && division.similar
+                                ? division.rows
+                                : division.columns);
+}
+
+/// Of a patch's front.
+CellShape Mesh::cell_shape(std::uint32_t facet, const Polygon& piece) const {
+    const auto& p = piece.corner;
+    const bool fan = scene_.facets[facet].is_triangle() && !divisions_[facet].similar;
+    if (fan && piece.is_triangle()) // of the strip at the apex
+        return {{p[0], p[1], p[2], p[0]}, false};
+    return {p, !fan && piece.is_triangle()};
+}
+
+/// The patches and cells that there were, and how often they are to be divided.
+struct Mesh::Refinement {
+    std::vector<Patch> patches;
+    std::vector<Division> divisions;
+    CellTree cells;
+    std::span<const std::uint8_t> levels;
+
+    [[nodiscard]] int levels_of(std::uint32_t front, bool two_sided) const {
+        return std::max(levels[front], two_sided ? levels[front + 1] : levels[front]);
+    }
+};
+
+void Mesh::refine(std::span<const std::uint8_t> levels) {
+    const Refinement before{std::exchange(patches_, {}), divisions_, std::exchange(cells_, {}),
+                            levels};
+    for (std::uint32_t f = 0; f < divisions_.size(); ++f)
+        refine_facet(f, before);
+}
+
+void Mesh::refine_facet(std::uint32_t facet, const Refinement& before) {
+    Division& division = divisions_[facet];
+    const std::uint32_t begin = division.first_patch;
+    const std::uint32_t end = facet + 1 < divisions_.size()
+                                  ? before.divisions[facet + 1].first_patch
+                                  : static_cast<std::uint32_t>(before.patches.size());
+    division.first_patch = static_cast<std::uint32_t>(patches_.size());
+    const auto levels = before.levels.subspan(begin, end - begin);
+    const bool had_cells = division.first_cell != none;
+    if (!had_cells && std::ranges::all_of(levels, [](std::uint8_t level) { return level == 0; })) {
+        for (std::uint32_t i = begin; i < end; ++i)
+            patches_.push_back(before.patches[i]);
+        if (only_patch_[facet] != none)
+            only_patch_[facet] = division.first_patch;
+        return;
+    }
+    if (!is_divided(facet)) // its patch has the corners in the order of the file
+        division.apex = 0;
+    only_patch_[facet] = none;
+    const std::uint32_t pieces = pieces_of(facet);
+    const std::uint32_t old_cell = division.first_cell;
+    division.first_cell = cells_.add(pieces);
+    for (std::uint32_t q = 0; q < pieces; ++q) {
+        if (had_cells) {
+            refine_cell(division.first_cell + q, old_cell + q, facet, before);
+            continue;
+        }
+        const std::uint32_t patch = begin + q * (two_sided_ ? 2 : 1);
+        refine_leaf(division.first_cell + q, cell_shape(facet, before.patches[patch].shape), facet,
+                    before.levels_of(patch, two_sided_));
+    }
+}
+
+void Mesh::refine_cell(std::uint32_t cell, std::uint32_t before_cell, std::uint32_t facet,
+                       const Refinement& before) {
+    const CellTree::Cell old = before.cells[before_cell];
+    if (old.cut == CellCut::leaf)
+        return refine_leaf(cell, cell_shape(facet, before.patches[old.first].shape), facet,
+                           before.levels_of(old.first, two_sided_));
+    const std::uint32_t count = old.cut == CellCut::four ? 4 : 2, first = cells_.add(count);
+    cells_[cell] = {first, old.cut};
+    for (std::uint32_t q = 0; q < count; ++q)
+        refine_cell(first + q, old.first + q, facet, before);
+}
+
+void Mesh::refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t facet,
+                       int levels) {
+    if (levels == 0) {
+        cells_[cell] = {static_cast<std::uint32_t>(patches_.size()), CellCut::leaf};
+        add_patches(facet, shape.polygon());
+        return;
+    }
+    const CellCut by = best_cut(shape);
+    const std::vector<CellShape> pieces = cut(shape, by);
+    const std::uint32_t first = cells_.add(static_cast<std::uint32_t>(pieces.size()));
+    cells_[cell] = {first, by};
+    for (std::uint32_t q = 0; q < pieces.size(); ++q)
+        refine_leaf(first + q, pieces[q], facet, levels - 1);
 }
 
 } // namespace hemilux

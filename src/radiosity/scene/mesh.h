@@ -9,6 +9,7 @@
 #include "geometry/box.h"
 #include "geometry/frame.h"
 #include "geometry/polygon.h"
+#include "radiosity/scene/patch_cells.h"
 #include "radiosity/scene/scene.h"
 
 #include <span>
@@ -59,6 +60,10 @@ class Mesh {
     /// Throws std::invalid_argument when the scene has no facet or too many patches would be made.
     explicit Mesh(Scene scene, const MeshOptions& options = {});
 
+    /// Divides patches: each level makes four of one, or two of a long one, and so on. `levels` by
+    /// patch; of the two sides of a patch the larger counts. Facets, and tracers of them, remain.
+    void refine(std::span<const std::uint8_t> levels);
+
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const LocalFrame& frame() const { return frame_; }
     [[nodiscard]] std::span<const Patch> patches() const { return patches_; }
@@ -105,7 +110,14 @@ class Mesh {
         std::uint8_t apex = 0; ///< triangle: which corner
         /// Quad: corner0 - 1 + 2 - 3 in the basis of its edges at corner 0.
         double g_x = 0, g_y = 0;
+        std::uint32_t first_cell = none; ///< one for each piece; none where no piece is divided
     };
+    /// A piece of a facet, and where a point lies in it (patch_cells.h).
+    struct Place {
+        std::uint32_t piece;
+        Vec2 inside;
+    };
+    struct Refinement;
 
     [[nodiscard]] Polygon shape_of(std::uint32_t facet) const;
     [[nodiscard]] Patch patch_from(const Polygon& shape, std::uint32_t facet, bool back) const;
@@ -116,8 +128,15 @@ class Mesh {
     void divide_triangle(Division& division, const Polygon& shape, double max_edge,
                          std::size_t room, std::vector<Polygon>& made) const;
     static void check_room(double count, std::size_t room);
-    [[nodiscard]] std::uint32_t piece_of_quad(const Division& division, const Hit& hit) const;
-    [[nodiscard]] std::uint32_t piece_of_triangle(const Division& division, const Hit& hit) const;
+    [[nodiscard]] std::uint32_t pieces_of(std::uint32_t facet) const;
+    [[nodiscard]] CellShape cell_shape(std::uint32_t facet, const Polygon& piece) const;
+    void refine_facet(std::uint32_t facet, const Refinement& before);
+    void refine_cell(std::uint32_t cell, std::uint32_t before_cell, std::uint32_t facet,
+                     const Refinement& before);
+    void refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t facet, int levels);
+    void add_patches(std::uint32_t facet, const Polygon& shape);
+    [[nodiscard]] Place place_in_quad(const Division& division, const Hit& hit) const;
+    [[nodiscard]] Place place_in_triangle(const Division& division, const Hit& hit) const;
 
     Scene scene_;
     LocalFrame frame_;
@@ -127,6 +146,7 @@ class Mesh {
     bool laid_apart_ = true;
     std::vector<Patch> patches_;
     std::vector<Division> divisions_;
+    CellTree cells_;
     std::vector<std::uint32_t>
         only_patch_; ///< of a facet, none if divided: all that most hits need
     bool two_sided_ = false;

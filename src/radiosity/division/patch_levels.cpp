@@ -1,0 +1,61 @@
+#include "radiosity/division/patch_levels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+constexpr std::uint8_t most_levels = 2;
+
+/// What a level leaves of a squared error: a quarter where light changes evenly, a half along the
+/// edge of a shadow.
+constexpr double left_by_level = .4, pieces_of_level = 4;
+
+/// Levels until no piece errs more than `bound`.
+std::uint8_t levels_to(double square, double bound) {
+    std::uint8_t levels = 0;
+    for (; levels < most_levels && square > bound; ++levels)
+        square *= left_by_level / pieces_of_level;
+    return levels;
+}
+
+struct Outcome {
+    double square = 0, pieces = 0;
+};
+
+Outcome outcome_of(std::span<const double> square, double bound) {
+    Outcome outcome;
+    for (const double s : square) {
+        const std::uint8_t levels = levels_to(s, bound);
+        outcome.square += s * std::pow(left_by_level, levels);
+        outcome.pieces += std::pow(pieces_of_level, levels);
+    }
+    return outcome;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> levels_of_division(std::span<const double> square,
+                                             const LevelOptions& options) {
+    std::vector<std::uint8_t> levels(square.size());
+    if (square.empty())
+        return levels;
+    constexpr double step = .8, least = 1e-6; // of the bound; of the largest error
+    const double largest = *std::ranges::max_element(square);
+    double bound = largest;
+    for (double next = bound; next > least * largest; next *= step) {
+        const Outcome outcome = outcome_of(square, next);
+        if (outcome.pieces > static_cast<double>(options.most_pieces))
+            break;
+        bound = next;
+        if (outcome.square <= options.goal &&
+            outcome.pieces >= static_cast<double>(options.least_pieces))
+            break;
+    }
+    for (std::size_t i = 0; i < square.size(); ++i)
+        levels[i] = levels_to(square[i], bound);
+    return levels;
+}
+
+} // namespace hemilux

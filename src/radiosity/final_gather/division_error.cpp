@@ -1,0 +1,181 @@
+#include "radiosity/final_gather/division_error.h"
+
+#include "radiosity/final_gather/final_gather.h"
+#include "radiosity/final_gather/surface_points.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/error_spread.h"
+#include "radiosity/solving/solution.h"
+#include "radiosity/solving/stop_flag.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace hemilux {
+namespace {
+
+/// Rounds of points: many, since the spread of a few would end them when it happens to be small.
+constexpr std::size_t points_per_round = 64, least_rounds = 16;
+
+/// Relative uncertainty of the squared error at which it is known well enough.
+constexpr double well_known = .2;
+
+/// Sums over independent rounds of points.
+struct Rounds {
+    double sum = 0, squares = 0;
+    std::size_t count = 0;
+
+    void add(double value) {
+        sum += value;
+        squares += value * value;
+        ++count;
+    }
+    [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
+    /// One sigma of the mean.
+    [[nodiscard]] double uncertainty() const {
+        const auto n = static_cast<double>(count);
+        return std::sqrt(std::max(squares / n - mean() * mean(), 0.0) / (n - 1));
+    }
+};
+
+/// The integral of (g1 - B)(g2 - B) over the surfaces, by one set of points.
+double product_over_surface(const Mesh& mesh, const Solution& solution, FinalGather& gather,
+                            std::uint64_t seed, const Workers& workers,
+                            const StopFlag& interrupted) {
+    std::vector<SurfacePoint> at;
+    std::vector<std::uint64_t> streams;
+    const std::vector<PatchPoint> points =
+        points_over_surface(mesh, points_per_round, hash_words({seed, 0}));
+    for (const PatchPoint& point : points) {
+        at.push_back(point.at);
+        streams.push_back(hash_words({seed, at.size()}));
+    }
+    const std::vector<Vec3> irradiance = gather.irradiance(at, streams, 2, workers, interrupted);
+    double sum = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Material& material = mesh.material(points[k].patch);
+        const Vec3 reflected = solution.radiosity[points[k].patch] - material.emission;
+        const auto off = [&](std::size_t e) {
+            return material.reflectance * irradiance[2 * k + e] - reflected;
+        };
+        sum += points[k].area * glm::dot(off(0), off(1));
+    }
+    return sum;
+}
+
+/// The share of the variance that shows where the points are: all of what patches err each for
+/// itself; of what they err together only what a reflection takes away, as the gathers err with
+/// them.
+double seen_share(const Mesh& mesh, const Solution& solution) {
+    const double common = 1 / std::max(error_spread(mesh, solution).parts, 1.0);
+    const double taken_away = 1 - mean_reflectance(mesh);
+    return 1 - common + common * taken_away * taken_away;
+}
+
+double seen_variance(const Mesh& mesh, const Solution& solution) {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        const Vec3& sigma = solution.standard_error[i];
+        sum += mesh.patches()[i].area * glm::dot(sigma, sigma);
+    }
+    return seen_share(mesh, solution) * solution.variance.value_or(std::isfinite(sum) ? sum : 0);
+}
+
+double reflected_square(const Mesh& mesh, const Solution& solution) {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        const Vec3 reflected = solution.radiosity[i] - mesh.material(i).emission;
+        sum += mesh.patches()[i].area * glm::dot(reflected, reflected);
+    }
+    return sum;
+}
+
+/// `rounds`: relative to the square of the patches' values; `known`: what of it is not of the
+/// division. The square of the light itself is larger by that of the error.
+void set_error(DivisionError& result, const Rounds& rounds, double known) {
+    const auto relative = [](double square) { return std::sqrt(square / (1 + square)); };
+    const double square = std::max(rounds.mean() - known, 0.0);
+    result.error = relative(square);
+    // The root's, where it is well known; else how large it may be.
+    result.uncertainty = relative(square + rounds.uncertainty()) - result.error;
+}
+
+} // namespace
+
+DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                             const DivisionErrorOptions& options, const Workers& workers,
+                             const StopFlag& interrupted) {
+    DivisionError result;
+    const double size = reflected_square(mesh, solution);
+    if (!(size > 0))
+        return result;
+    FinalGather gather(mesh, tracer, solution.radiosity);
+    const double known = seen_variance(mesh, solution) / size;
+    Rounds rounds;
+    while (rounds.count < least_rounds || gather.rays() < options.most_rays) {
+        const double product = product_over_surface(
+            mesh, solution, gather, hash_words({options.seed, rounds.count}), workers, interrupted);
+        if (interrupted)
+            return result;
+        rounds.add(product / size);
+        const double enough =
+            std::max(well_known * (rounds.mean() - known), options.negligible * options.negligible);
+        if (rounds.count >= least_rounds && rounds.uncertainty() <= enough)
+            break;
+    }
+    set_error(result, rounds, known);
+    result.points = rounds.count * points_per_round;
+    result.rays = gather.rays();
+    return result;
+}
+
+PatchErrors patch_errors(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                         std::uint64_t seed, const Workers& workers, const StopFlag& interrupted) {
+    PatchErrors errors;
+    errors.square.resize(mesh.patches().size());
+    const double size = reflected_square(mesh, solution);
+    if (!(size > 0))
+        return errors;
+    const std::vector<PatchPoint> points = points_on_patches(mesh, hash_words({seed, 0}));
+    std::vector<SurfacePoint> at;
+    std::vector<std::uint64_t> streams;
+    for (const PatchPoint& point : points) {
+        at.push_back(point.at);
+        streams.push_back(hash_words({seed, 1, point.patch}));
+    }
+    FinalGather gather(mesh, tracer, solution.radiosity);
+    const std::vector<Vec3> irradiance = gather.irradiance(at, streams, 2, workers, interrupted);
+    if (interrupted)
+        return errors;
+    std::vector<double> of_round(least_rounds);
+    std::size_t patches = 0;
+    for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+        const std::uint32_t patch = points[begin].patch;
+        while (end < points.size() && points[end].patch == patch)
+            ++end;
+        const auto n = static_cast<double>(end - begin);
+        std::array<Vec3, 2> mean{};
+        for (std::size_t k = 2 * begin; k < 2 * end; ++k)
+            mean[k % 2] += irradiance[k] / n;
+        Vec3 products(0.0);
+        for (std::size_t k = begin; k < end; ++k)
+            products += (irradiance[2 * k] - mean[0]) * (irradiance[2 * k + 1] - mean[1]);
+        const Vec3& rho = mesh.material(patch).reflectance;
+        errors.square[patch] =
+            mesh.patches()[patch].area * glm::dot(rho * rho, products) / (n - 1) / size;
+        of_round[patches++ % least_rounds] += double(least_rounds) * errors.square[patch];
+    }
+    Rounds rounds;
+    for (const double sum : of_round)
+        rounds.add(sum);
+    set_error(errors.whole, rounds, 0);
+    errors.whole.points = points.size();
+    errors.whole.rays = gather.rays();
+    return errors;
+}
+
+} // namespace hemilux

@@ -1,0 +1,62 @@
+#pragma once
+// How far the light of a solution, one value on each patch, is from the light on the surfaces.
+//
+// At points x drawn uniformly over the area the light is gathered twice, independently: g1(x),
+// g2(x). Each is right on average for the light that the solution sends, so the mean of
+//     A (g1 - B)(g2 - B)
+// is the squared error of the solution there, free of the noise of either gather. It holds what the
+// patches lack in detail and the noise of each patch's own value; the latter is known and taken
+// off. It does not hold how far the light that the solution sends is off itself, which is smaller
+// by a reflection (Lischinski, Smits and Greenberg 1994 bound that part).
+
+#include "bvh/tracer.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+class StopFlag;
+class Workers;
+struct Solution;
+
+/// Relative to the reflected light, as estimated_error(); RMS over area and channels. NaN where it
+/// is not known.
+struct DivisionError {
+    double error = std::numeric_limits<double>::quiet_NaN();
+    double uncertainty = std::numeric_limits<double>::quiet_NaN(); ///< one sigma of `error`
+    std::size_t points = 0;
+    std::uint64_t rays = 0;
+};
+
+struct DivisionErrorOptions {
+    std::uint64_t seed = 1;
+    /// Points are added until the error is known to a tenth of itself, or surely below
+    /// `negligible`, or so many rays were traced; but a thousand points there are always.
+    std::uint64_t most_rays = 1'000'000;
+    double negligible = 0;
+};
+
+/// Of a solution with a step at least. Where it was interrupted the error is not known.
+[[nodiscard]] DivisionError division_error(const Mesh& mesh, const Tracer& tracer,
+                                           const Solution& solution,
+                                           const DivisionErrorOptions& options,
+                                           const Workers& workers, const StopFlag& interrupted);
+
+/// The same by patch, as far as the patch alone can tell: how the light varies within it. Both
+/// gathers of all points of a patch use the same random numbers, so that their noise is about the
+/// same everywhere on it, and hides little.
+struct PatchErrors {
+    DivisionError whole;
+    /// Of each patch its share of the squared error, relative to the sum over patches of area times
+    /// reflected radiosity squared; an estimate from few points, which may be negative.
+    std::vector<double> square;
+};
+
+[[nodiscard]] PatchErrors patch_errors(const Mesh& mesh, const Tracer& tracer,
+                                       const Solution& solution, std::uint64_t seed,
+                                       const Workers& workers, const StopFlag& interrupted);
+
+} // namespace hemilux

@@ -1,0 +1,55 @@
+#pragma once
+// How a patch is divided further: cells of a tree, as in quadtrees, below the pieces of a facet.
+//
+// A cell is the image of the unit square by a bilinear map, or of a triangle by an affine one. A
+// square is cut in four or, where it is long, in two across its length; a triangle is cut in four
+// of its own shape. What a ray has struck is found by going down with the coordinates inside.
+
+#include "geometry/polygon.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+/// What is cut, in coordinates (x, y): a square with corners at (0,0), (1,0), (1,1), (0,1), or the
+/// triangle of those at (0,0), (1,0), (0,1), whose fourth corner repeats the third.
+struct CellShape {
+    std::array<Vec3, 4> corner;
+    bool triangle;
+
+    /// Of a square that two corners may share a place in.
+    [[nodiscard]] Polygon polygon() const;
+};
+
+enum class CellCut : std::uint8_t { leaf, four, across_x, across_y };
+
+/// How a shape is to be cut: so that the pieces are about as wide as long.
+[[nodiscard]] CellCut best_cut(const CellShape& shape);
+/// The pieces, in the order of piece_at_point().
+[[nodiscard]] std::vector<CellShape> cut(const CellShape& shape, CellCut by);
+/// Which piece holds a point; its coordinates become those inside the piece. A point that is
+/// outside by a rounding error belongs to the nearest.
+[[nodiscard]] std::uint32_t piece_at_point(CellCut by, bool triangle, Vec2& at);
+
+/// Cells of all facets.
+class CellTree {
+  public:
+    struct Cell {
+        std::uint32_t first = 0; ///< of its pieces; of a leaf, the patch
+        CellCut cut = CellCut::leaf;
+    };
+    /// Adds so many cells in a row; returns the first.
+    std::uint32_t add(std::uint32_t count);
+    [[nodiscard]] Cell& operator[](std::uint32_t cell) { return cells_[cell]; }
+    [[nodiscard]] const Cell& operator[](std::uint32_t cell) const { return cells_[cell]; }
+    /// The patch of the leaf below `cell` that holds a point.
+    [[nodiscard]] std::uint32_t patch_at(std::uint32_t cell, bool triangle, Vec2 at) const;
+
+  private:
+    std::vector<Cell> cells_;
+};
+
+} // namespace hemilux

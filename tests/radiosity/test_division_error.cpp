@@ -1,0 +1,138 @@
+// The error of the light on the surfaces, against light in closed form and against finer divisions.
+#include "geometry/form_factor.h"
+#include "radiosity/final_gather/division_error.h"
+#include "radiosity/sampling/workers.h"
+#include "support/scenes.h"
+#include "support/solve.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace hemilux;
+using test::Model;
+
+namespace {
+
+constexpr double lamp_emission = 100;
+
+/// Ground of 4 x 4 m and a lamp of `width` at a height of 1 m, facing down.
+Scene lamp_over_ground(double width) {
+    Scene scene;
+    scene.materials = {{"ground", Vec3(.2, .5, .8), Vec3(0)},
+                       {"lamp", Vec3(0), Vec3(lamp_emission, .5 * lamp_emission, 0)}};
+    scene.groups = {"default"};
+    test::add_quad(scene, {-2, 0, -2}, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, 1, 1, 0);
+    const double a = width / 2;
+    test::add_quad(scene, {-a, 1, -a}, {a, 1, -a}, {a, 1, a}, {-a, 1, a}, 1, 1, 1);
+    scene.faces = 2;
+    return scene;
+}
+
+Polygon lamp_of(const Mesh& mesh) {
+    for (const Patch& patch : mesh.patches())
+        if (mesh.material(patch).emission != Vec3(0.0))
+            return mesh.whole_side(patch.facet, false).shape;
+    return {};
+}
+
+/// The error of the patches' values as a function on the ground, by a grid of points on each.
+double true_error_on_ground(const Mesh& mesh, std::span<const Vec3> radiosity) {
+    const Polygon lamp = lamp_of(mesh);
+    constexpr int grid = 24;
+    double error = 0, size = 0;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        const Patch& patch = mesh.patches()[i];
+        if (mesh.material(i).emission != Vec3(0.0))
+            continue;
+        const auto& p = patch.shape.corner;
+        for (int s = 0; s < grid; ++s)
+            for (int t = 0; t < grid; ++t) {
+                const double u = (s + .5) / grid, v = (t + .5) / grid;
+                const Vec3 x = p[0] + u * (p[1] - p[0]) + v * (p[3] - p[0]);
+                const Vec3 light = mesh.material(i).reflectance *
+                                   point_to_polygon(x, patch.normal, lamp) *
+                                   Vec3(lamp_emission, .5 * lamp_emission, 0);
+                const Vec3 off = radiosity[i] - light;
+                error += patch.area * glm::dot(off, off);
+                size += patch.area * glm::dot(light, light);
+            }
+    }
+    return std::sqrt(error / size);
+}
+
+DivisionError division_error_of(const Model& model, const Solution& solution, std::uint64_t seed,
+                                unsigned threads = 0, std::uint64_t most_rays = 1'000'000) {
+    const StopFlag never;
+    return division_error(model.mesh, model.bvh, solution,
+                          {.seed = seed, .most_rays = most_rays, .negligible = 0}, Workers(threads),
+                          never);
+}
+
+} // namespace
+
+TEST_CASE("the error of a division is that against light in closed form") {
+    const double width = GENERATE(.02, .3);
+    const double max_edge = GENERATE(1.0, .5, .2);
+    const Model model(lamp_over_ground(width), {.max_edge = max_edge});
+    const Solution solution = test::solve(model, *find_method("gathering"), {},
+                                          {.steps = {}, .seconds = {}, .error = .002});
+    const double truth = true_error_on_ground(model.mesh, solution.radiosity);
+    double mean_square = 0, mean_uncertainty = 0;
+    constexpr int seeds = 8;
+    for (int seed = 0; seed < seeds; ++seed) {
+        const DivisionError found =
+            division_error_of(model, solution, static_cast<std::uint64_t>(seed) + 1);
+        CAPTURE(width, max_edge, seed, truth, found.error, found.uncertainty, found.points);
+        CHECK(std::abs(found.error - truth) < 5 * found.uncertainty);
+        CHECK(found.uncertainty < .2 * truth);
+        mean_square += found.error * found.error / seeds;
+        mean_uncertainty += found.uncertainty / seeds;
+    }
+    CAPTURE(width, max_edge, truth, mean_square, mean_uncertainty);
+    CHECK(std::abs(std::sqrt(mean_square) - truth) < 4 * mean_uncertainty / std::sqrt(seeds));
+}
+
+TEST_CASE("light that does not change within patches has no error of division") {
+    const Model model(test::furnace_box(3, .7));
+    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(1));
+    CHECK(division_error_of(model, solution, 1).error < 1e-9);
+}
+
+TEST_CASE("noise of the patches' values is not taken for an error of division") {
+    const Model model(test::furnace_box(4, .5));
+    const char* method = GENERATE("monte-carlo", "hemisphere");
+    const Solution solution =
+        test::solve(model, *find_method(method), {.rays = 32}, test::steps(8));
+    const double sampling = estimated_error(model.mesh, solution);
+    const DivisionError found = division_error_of(model, solution, 1);
+    CAPTURE(method, sampling, found.error, found.uncertainty);
+    CHECK(sampling > .02);
+    CHECK(found.error < .4 * sampling);
+}
+
+TEST_CASE("an error of division does not depend on the number of threads") {
+    const Model model(test::room_with_block());
+    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(1));
+    const DivisionError one = division_error_of(model, solution, 7, 1);
+    const DivisionError three = division_error_of(model, solution, 7, 3);
+    CHECK(one.error == three.error);
+    CHECK(one.uncertainty == three.uncertainty);
+    CHECK(one.rays == three.rays);
+    CHECK(one.error > .02);
+}
+
+TEST_CASE("an error of division is unknown where nothing is lit or the user has ended the run") {
+    Scene scene = test::furnace_box(2, .5);
+    for (Material& material : scene.materials)
+        material.emission = Vec3(0.0);
+    const Model dark(scene);
+    const Solution black = test::solve(dark, *find_method("gathering"), {}, test::steps(1));
+    CHECK(std::isnan(division_error_of(dark, black, 1).error));
+
+    const Model model(test::furnace_box(2, .5));
+    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(1));
+    StopFlag now;
+    now = true;
+    CHECK(std::isnan(division_error(model.mesh, model.bvh, solution, {}, Workers(1), now).error));
+}

@@ -1,0 +1,135 @@
+// Patches that are divided further: nothing is lost, and rays find the pieces.
+#include "radiosity/division/adaptive_division.h"
+#include "radiosity/division/patch_levels.h"
+#include "radiosity/sampling/rng.h"
+#include "support/scenes.h"
+#include "support/solve.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+using namespace hemilux;
+using test::Model;
+
+namespace {
+
+/// A skewed quad, a triangle about as wide as long, a narrow one, and a long quad; apart from each
+/// other.
+Scene some_shapes() {
+    Scene scene;
+    scene.materials = {{"grey", Vec3(.5), Vec3(1)}};
+    scene.groups = {"default"};
+    scene.vertices = {{0, 0, 0}, {1, 0, 0},    {.8, .6, 0}, {.1, 1, 0}, {2, 0, 0},
+                      {3, 0, 0}, {2.4, .9, 0}, {4, 0, 0},   {6, 0, 0},  {6, .2, 0},
+                      {0, 2, 0}, {4, 2, 0},    {4, 2.5, 0}, {0, 2.5, 0}};
+    scene.facets = {{{0, 1, 2, 3}, 0, 0, 0},
+                    {{4, 5, 6, 6}, 1, 0, 0},
+                    {{7, 8, 9, 9}, 2, 0, 0},
+                    {{10, 11, 12, 13}, 3, 0, 0}};
+    scene.faces = 4;
+    return scene;
+}
+
+double area_of(const Mesh& mesh) {
+    double sum = 0;
+    for (const Patch& patch : mesh.patches())
+        sum += patch.area;
+    return sum;
+}
+
+std::vector<std::uint8_t> random_levels(const Mesh& mesh, Rng& rng) {
+    std::vector<std::uint8_t> levels(mesh.patches().size());
+    for (std::uint8_t& level : levels)
+        level = static_cast<std::uint8_t>(3 * rng.uniform());
+    return levels;
+}
+
+/// How many rays towards random points of patches do not find their patch.
+int rays_astray(const Model& model, Rng& rng) {
+    int astray = 0;
+    for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i) {
+        const Patch& patch = model.mesh.patches()[i];
+        for (int k = 0; k < 4; ++k) {
+            const Vec3 point = patch.shape.sample({rng.uniform(), rng.uniform()});
+            const auto hit = model.bvh.closest({point + patch.normal, -patch.normal});
+            astray += !hit || model.mesh.patch_at(*hit) != i;
+        }
+    }
+    return astray;
+}
+
+} // namespace
+
+TEST_CASE("refined patches cover their facets, and rays find each of them") {
+    const bool two_sided = GENERATE(false, true);
+    const double max_edge = GENERATE(0.0, .3);
+    const int seed = GENERATE(1, 2, 3);
+    Model model(some_shapes(), {.max_edge = max_edge, .two_sided = two_sided});
+    const double area = area_of(model.mesh);
+    Rng rng(static_cast<std::uint64_t>(seed));
+    for (int round = 0; round < 3; ++round) {
+        const std::size_t before = model.mesh.patches().size();
+        model.mesh.refine(random_levels(model.mesh, rng));
+        CAPTURE(two_sided, max_edge, seed, round);
+        CHECK(model.mesh.patches().size() > before);
+        CHECK(area_of(model.mesh) == Approx(area).epsilon(1e-12));
+        CHECK(std::ranges::all_of(model.mesh.patches(),
+                                  [](const Patch& patch) { return patch.area > 0; }));
+        CHECK(rays_astray(model, rng) == 0);
+    }
+}
+
+TEST_CASE("a level of refinement makes four of a patch, or two of a long one") {
+    Model model(some_shapes());
+    model.mesh.refine(std::vector<std::uint8_t>{1, 1, 1, 1});
+    CHECK(model.mesh.patches().size() == 4 + 4 + 4 + 2);
+    model.mesh.refine(std::vector<std::uint8_t>(14, 0));
+    CHECK(model.mesh.patches().size() == 14);
+}
+
+TEST_CASE("the light of a furnace is the same on refined patches") {
+    Model model(test::furnace_l_shape(.5));
+    Rng rng(7);
+    model.mesh.refine(random_levels(model.mesh, rng));
+    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(2));
+    for (const Vec3& radiosity : solution.radiosity)
+        CHECK(radiosity.x == Approx(2).epsilon(1e-6));
+}
+
+TEST_CASE("patches are divided until what errs most errs little, and no further") {
+    const std::vector<double> square{.01, 1e-4, -1e-3, 1e-6};
+    const double sum = std::accumulate(square.begin(), square.end(), 0.0);
+    using Levels = std::vector<std::uint8_t>;
+    CHECK(levels_of_division(square, {.goal = sum, .least_pieces = 0, .most_pieces = 1000}) ==
+          Levels{0, 0, 0, 0});
+    CHECK(levels_of_division(square, {.goal = .5 * sum, .least_pieces = 0, .most_pieces = 1000}) ==
+          Levels{1, 0, 0, 0});
+    const Levels least =
+        levels_of_division(square, {.goal = sum, .least_pieces = 8, .most_pieces = 1000});
+    CHECK(least[0] > 0);
+    CHECK(least[2] == 0);
+    CHECK(levels_of_division(square, {.goal = 0, .least_pieces = 0, .most_pieces = 7}) ==
+          Levels{1, 0, 0, 0});
+    CHECK(levels_of_division({}, {.goal = 0, .least_pieces = 0, .most_pieces = 7}).empty());
+}
+
+TEST_CASE("division goes where the light changes, and ends at the error asked for") {
+    Model model(test::room_with_block());
+    const std::size_t before = model.mesh.patches().size();
+    Monitor monitor;
+    std::vector<double> errors;
+    CHECK(divide_where_light_changes(
+        model.mesh, model.bvh, {.error = .1}, monitor,
+        [&](const DivisionRound& round) { errors.push_back(round.found.error); }));
+    REQUIRE(errors.size() > 1);
+    CHECK(errors.front() > .1);
+    CHECK(errors.back() <= .1);
+    CHECK(model.mesh.patches().size() > before);
+
+    Model even(test::furnace_box(2, .5));
+    CHECK(divide_where_light_changes(even.mesh, even.bvh, {.error = .01}, monitor));
+    CHECK(even.mesh.patches().size() == 24);
+}
