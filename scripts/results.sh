@@ -91,7 +91,7 @@ means() {
 five_scenes="cornell_box room_1002 open_scene wall_before_crowd office_3576"
 
 references() {
-    echo "| scene | patches | rays | estimated error, from 8 replicates |"
+    echo "| scene | patches | rays | estimated error, from 8 batches |"
     echo "|---|---|---|---|"
     for scene in $five_scenes; do
         refer_to "$scene"

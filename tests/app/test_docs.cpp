@@ -212,6 +212,13 @@ std::vector<std::string> unknown_in(const std::string& reference) {
     return unknown;
 }
 
+bool has_test(const fs::path& folder, const std::string& name) {
+    return std::ranges::any_of(
+        fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {
+            return text_of(entry.path()).find("TEST_CASE(\"" + name + '"') != std::string::npos;
+        });
+}
+
 /// The numbers of the sections "### D7. ..." of a page, as they follow each other.
 std::vector<int> decisions_in(const char* page) {
     std::vector<int> numbers;
@@ -340,6 +347,39 @@ TEST_CASE("the map of the paper names code and tests that exist") {
 
 TEST_CASE("the reading guide names code that exists") {
     CHECK(checked_rows_of("docs/reading-guide.md") > 30);
+}
+
+TEST_CASE("programs and tests that results.md runs are there") {
+    const std::string bench = text_of(root / "bench/CMakeLists.txt");
+    int programs = 0;
+    std::istringstream page(text_of(root / "docs/results.md"));
+    for (std::string line; std::getline(page, line);) {
+        if (line.rfind("    ", 0) != 0)
+            continue;
+        CAPTURE(line);
+        std::istringstream words(line);
+        for (std::string word; words >> word;) {
+            if (word.rfind("build/", 0) != 0 || word.find('/', 6) == std::string::npos)
+                continue;
+            ++programs;
+            const fs::path program = word;
+            const std::string name = program.filename().string(),
+                              folder = program.parent_path().filename().string();
+            if (folder == "bench")
+                CHECK(bench.find("add_executable(" + name + ' ') != std::string::npos);
+            else if (folder == "tests")
+                CHECK(fs::is_directory(root / "tests" / name.substr(name.find('_') + 1)));
+            else if (folder == "examples" || folder == "fuzz")
+                CHECK(fs::exists(root / fs::path(folder == "fuzz" ? "tests/fuzz" : folder) /
+                                 (name + ".cpp")));
+            else
+                CHECK(name == "hemilux");
+            const std::vector<std::string> quoted = between(line, "\"", "\"");
+            if (folder == "tests" && !quoted.empty() && std::isalpha(quoted[0][0]) != 0)
+                CHECK(has_test(root / "tests" / name.substr(name.find('_') + 1), quoted[0]));
+        }
+    }
+    CHECK(programs > 10);
 }
 
 TEST_CASE("README leads to the line that computes N_tr") {
