@@ -179,7 +179,8 @@ std::vector<std::pair<std::string, std::string>> names_with_files(const std::str
             for (const std::string& name : waiting)
                 found.emplace_back(name, file);
             waiting.clear();
-            bracket = text.compare(close + 1, 2, " (") == 0 ? close + 2 : std::string::npos;
+            const std::size_t next = text.find_first_not_of(" \n", close + 1);
+            bracket = next != std::string::npos && text[next] == '(' ? next : std::string::npos;
         } else if (bracket != std::string::npos && text.find(')', bracket) > open) {
             found.emplace_back(span, file);
         } else {
