@@ -69,6 +69,28 @@ bool is_relative(const std::string& link) {
     return !link.empty() && link.find("://") == std::string::npos && link[0] != '#';
 }
 
+/// As web pages make it of a heading: "D7. Counts" is #d7-counts.
+std::string anchor_of(const std::string& heading) {
+    std::string anchor;
+    for (const char c : heading.substr(std::min(heading.find_first_not_of("# "), heading.size())))
+        if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_')
+            anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        else if (c == ' ')
+            anchor += '-';
+    return anchor;
+}
+
+/// Whether a link's file is there, and in a page the heading after #.
+bool leads_somewhere(const fs::path& folder, const std::string& link) {
+    const std::size_t mark = link.find('#');
+    const fs::path file = folder / link.substr(0, mark);
+    if (mark == std::string::npos || file.extension() != ".md" || !fs::exists(file))
+        return fs::exists(file);
+    return std::ranges::any_of(prose_of(text_of(file)), [&](const std::string& line) {
+        return line.rfind('#', 0) == 0 && anchor_of(line) == link.substr(mark + 1);
+    });
+}
+
 /// What a page names and is not there.
 std::vector<std::string> missing_in(const std::string& markdown, const fs::path& folder) {
     std::vector<std::string> missing;
@@ -77,7 +99,7 @@ std::vector<std::string> missing_in(const std::string& markdown, const fs::path&
             if (is_source_path(span) && !fs::exists(root / span))
                 missing.push_back(span);
         for (const std::string& link : between(line, "](", ")"))
-            if (is_relative(link) && !fs::exists(folder / link.substr(0, link.find('#'))))
+            if (is_relative(link) && !leads_somewhere(folder, link))
                 missing.push_back(link);
     }
     return missing;
@@ -269,13 +291,15 @@ int checked_rows_of(const char* page) {
 } // namespace
 
 TEST_CASE("what documents name is told from what is not there") {
-    CHECK(missing_in("see `src/app/main.cpp`, [this](README.md#a) and `hemilux solve`, `src/*.h`",
-                     root)
-              .empty());
+    CHECK(
+        missing_in("see `src/app/main.cpp`, [this](README.md#start) and `hemilux solve`, `src/*.h`",
+                   root)
+            .empty());
     CHECK(missing_in("[far](https://example.org/a), [near](#part)", root).empty());
     CHECK(missing_in("```\n`src/no.cpp`\n```", root).empty());
-    CHECK(missing_in("`src/no.cpp` and [no](docs/no.md)", root) ==
-          std::vector<std::string>{"src/no.cpp", "docs/no.md"});
+    CHECK(missing_in("`src/no.cpp` and [no](docs/no.md), [no](README.md#no)", root) ==
+          std::vector<std::string>{"src/no.cpp", "docs/no.md", "README.md#no"});
+    CHECK(anchor_of("### D7. The paper's own, and `x`") == "d7-the-papers-own-and-x");
     CHECK(unknown_in("`is_source_path` in `tests/app/test_docs.cpp` \"what a page names exists\"")
               .empty());
     const std::string absent = std::string("no_such_") + "name";
