@@ -9,7 +9,7 @@ cat <<'END'
 # Options
 
 This page is the program's own help, made by `scripts/options_page.sh`. For what methods do and when to
-take which, see [README.md](../README.md); for what goes wrong, [troubleshooting.md](troubleshooting.md).
+take which, see [methods.md](methods.md); for what goes wrong, [troubleshooting.md](troubleshooting.md).
 END
 for command in "" solve compare density formfactors info; do
     printf '\n## hemilux%s\n\n```\n' "${command:+ $command}"

@@ -1,15 +1,19 @@
-// What the documents name exists: files, links between pages, and in docs/paper_map.md also names
-// of the code and test cases.
+// What the documents name exists: files, links between pages, numbers of decisions; and in the map
+// of the paper, the reading guide and decisions also what the named files declare, and test cases.
 #include "app/program.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -65,6 +69,28 @@ bool is_relative(const std::string& link) {
     return !link.empty() && link.find("://") == std::string::npos && link[0] != '#';
 }
 
+/// As web pages make it of a heading: "D7. Counts" is #d7-counts.
+std::string anchor_of(const std::string& heading) {
+    std::string anchor;
+    for (const char c : heading.substr(std::min(heading.find_first_not_of("# "), heading.size())))
+        if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_')
+            anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        else if (c == ' ')
+            anchor += '-';
+    return anchor;
+}
+
+/// Whether a link's file is there, and in a page the heading after #.
+bool leads_somewhere(const fs::path& folder, const std::string& link) {
+    const std::size_t mark = link.find('#');
+    const fs::path file = folder / link.substr(0, mark);
+    if (mark == std::string::npos || file.extension() != ".md" || !fs::exists(file))
+        return fs::exists(file);
+    return std::ranges::any_of(prose_of(text_of(file)), [&](const std::string& line) {
+        return line.rfind('#', 0) == 0 && anchor_of(line) == link.substr(mark + 1);
+    });
+}
+
 /// What a page names and is not there.
 std::vector<std::string> missing_in(const std::string& markdown, const fs::path& folder) {
     std::vector<std::string> missing;
@@ -73,40 +99,172 @@ std::vector<std::string> missing_in(const std::string& markdown, const fs::path&
             if (is_source_path(span) && !fs::exists(root / span))
                 missing.push_back(span);
         for (const std::string& link : between(line, "](", ")"))
-            if (is_relative(link) && !fs::exists(folder / link.substr(0, link.find('#'))))
+            if (is_relative(link) && !leads_somewhere(folder, link))
                 missing.push_back(link);
     }
     return missing;
 }
 
-/// Whether all parts of a name such as Mesh::patch_at occur.
-bool names_something_in(const std::string& code, const std::string& name) {
-    const std::size_t colons = name.find("::");
-    if (colons != std::string::npos)
-        return names_something_in(code, name.substr(0, colons)) &&
-               names_something_in(code, name.substr(colons + 2));
-    return code.find(name) != std::string::npos;
+bool is_word_character(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+bool is_identifier(const std::string& name) {
+    return !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
+           std::ranges::all_of(name, is_word_character);
 }
 
-/// In a text that gives files: names in `` and test cases in "" that none of them has.
-std::vector<std::string> unknown_in(const std::string& reference) {
+/// C++ without what compilers pass over: comments, and the text of strings on one line.
+std::string code_of(const std::string& text) {
     std::string code;
-    std::vector<std::string> names, unknown;
-    for (const std::string& span : between(reference, "`", "`")) {
-        if (is_source_path(span))
-            code += text_of(root / span);
-        else
-            names.push_back(span);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text.compare(i, 2, "//") == 0)
+            i = std::min(text.find('\n', i), text.size() - 1);
+        else if (text.compare(i, 2, "/*") == 0)
+            i = std::min(text.find("*/", i), text.size() - 2) + 1;
+        else if (text[i] == '"' && (i == 0 || text[i - 1] != '\''))
+            for (++i; i < text.size() && text[i] != '"' && text[i] != '\n'; ++i)
+                i += text[i] == '\\';
+        else {
+            code += text[i];
+            continue;
+        }
+        code += ' ';
     }
-    if (code.empty())
-        return {};
-    for (const std::string& name : names)
-        if (!names_something_in(code, name))
+    return code;
+}
+
+/// The word, or the other character, that ends before `end`, spaces left out.
+std::string before(const std::string& code, std::size_t end) {
+    while (end > 0 && std::isspace(static_cast<unsigned char>(code[end - 1])))
+        --end;
+    std::size_t begin = end;
+    while (begin > 0 && is_word_character(code[begin - 1]))
+        --begin;
+    return begin < end ? code.substr(begin, end - begin) : code.substr(end - (end > 0), end > 0);
+}
+
+/// What may stand before a name that is used, not declared.
+bool leads_to_use(const std::string& word) {
+    static const std::vector<std::string> words{"return", "else", "throw", "case", "goto", "new"};
+    return std::ranges::find(words, word) != words.end();
+}
+
+/// Whether the code declares or defines the name: a whole word after a type, a keyword of types or
+/// a class (`Class::`), or in a list of declarations, and not after an operator.
+bool declares(const std::string& code, const std::string& name) {
+    for (std::size_t at = code.find(name); at != std::string::npos; at = code.find(name, at + 1)) {
+        const std::size_t end = at + name.size();
+        if ((at > 0 && is_word_character(code[at - 1])) ||
+            (end < code.size() && is_word_character(code[end])))
+            continue;
+        const std::size_t next = code.find_first_not_of(" \n", end);
+        const char follows = next == std::string::npos ? ' ' : code[next];
+        const std::string word = before(code, at);
+        const bool after_type = !word.empty() && !leads_to_use(word) &&
+                                (is_word_character(word[0]) || word == ">" || word == "&" ||
+                                 word == "*" || word == "]");
+        const bool of_class = code.compare(at < 2 ? 0 : at - 2, 2, "::") == 0 && follows == '(';
+        const bool in_list =
+            (word == "," || word == "{") && std::string(",=;{}").find(follows) != std::string::npos;
+        if (after_type || of_class || in_list)
+            return true;
+    }
+    return false;
+}
+
+/// Whether a file has what is named of it. Of Class::member it has both; a constructor is where its
+/// class is. What is no C++ name (an option) and what is in no C++ file occurs as it is.
+bool has_name(const fs::path& file, const std::string& name) {
+    const std::string text = text_of(root / file);
+    const std::size_t colons = name.find("::");
+    if (colons != std::string::npos)
+        return text.find(name.substr(0, colons)) != std::string::npos &&
+               has_name(file, name.substr(name.rfind("::") + 2));
+    const bool cpp = file.extension() == ".cpp" || file.extension() == ".h";
+    return cpp && is_identifier(name) ? declares(code_of(text), name)
+                                      : text.find(name) != std::string::npos;
+}
+
+/// The names of a text, each with its file: that in the brackets of which it stands, else the next
+/// one, else the last.
+std::vector<std::pair<std::string, std::string>> names_with_files(const std::string& text) {
+    std::vector<std::pair<std::string, std::string>> found;
+    std::vector<std::string> waiting;
+    std::string file;
+    std::size_t at = 0, bracket = std::string::npos; // bracket: where that of the file begins
+    for (std::size_t open; (open = text.find('`', at)) != std::string::npos;) {
+        const std::size_t close = text.find('`', open + 1);
+        if (close == std::string::npos)
+            break;
+        const std::string span = text.substr(open + 1, close - open - 1);
+        if (is_source_path(span)) {
+            file = span;
+            for (const std::string& name : waiting)
+                found.emplace_back(name, file);
+            waiting.clear();
+            const std::size_t next = text.find_first_not_of(" \n", close + 1);
+            bracket = next != std::string::npos && text[next] == '(' ? next : std::string::npos;
+        } else if (bracket != std::string::npos && text.find(')', bracket) > open) {
+            found.emplace_back(span, file);
+        } else {
+            waiting.push_back(span);
+        }
+        at = close + 1;
+    }
+    if (!file.empty())
+        for (const std::string& name : waiting)
+            found.emplace_back(name, file);
+    return found;
+}
+
+/// In a text that gives files: names in `` that their file does not declare, and test cases in ""
+/// that none of the files has.
+std::vector<std::string> unknown_in(const std::string& reference) {
+    std::vector<std::string> unknown;
+    for (const auto& [name, file] : names_with_files(reference))
+        if (!has_name(file, name))
             unknown.push_back(name);
+    std::string tests;
+    for (const std::string& span : between(reference, "`", "`"))
+        if (is_source_path(span))
+            tests += text_of(root / span);
+    if (tests.empty())
+        return unknown;
     for (const std::string& test : between(reference, "\"", "\""))
-        if (code.find("TEST_CASE(\"" + test + '"') == std::string::npos)
+        if (tests.find("TEST_CASE(\"" + test + '"') == std::string::npos)
             unknown.push_back(test);
     return unknown;
+}
+
+bool has_test(const fs::path& folder, const std::string& name) {
+    return std::ranges::any_of(
+        fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {
+            return text_of(entry.path()).find("TEST_CASE(\"" + name + '"') != std::string::npos;
+        });
+}
+
+/// The numbers of the sections "### D7. ..." of a page, as they follow each other.
+std::vector<int> decisions_in(const char* page) {
+    std::vector<int> numbers;
+    std::istringstream stream(text_of(root / page));
+    for (std::string line; std::getline(stream, line);) {
+        constexpr std::string_view mark = "### D";
+        if (line.starts_with(mark))
+            numbers.push_back(std::stoi(line.substr(mark.size())));
+    }
+    return numbers;
+}
+
+/// "D7" in a text: the numbers of decisions that it refers to.
+std::set<int> decisions_named_in(const std::string& text) {
+    std::set<int> numbers;
+    for (std::size_t at = text.find('D'); at != std::string::npos; at = text.find('D', at + 1)) {
+        const std::size_t end = std::min(text.find_first_not_of("0123456789", at + 1), text.size());
+        const bool word = (at == 0 || !is_word_character(text[at - 1])) &&
+                          (end == text.size() || !is_word_character(text[end]));
+        if (word && end > at + 1 && end < at + 4)
+            numbers.insert(std::stoi(text.substr(at + 1, end - at - 1)));
+    }
+    return numbers;
 }
 
 std::vector<std::string> cells_of(const std::string& row) {
@@ -133,18 +291,37 @@ int checked_rows_of(const char* page) {
 } // namespace
 
 TEST_CASE("what documents name is told from what is not there") {
-    CHECK(missing_in("see `src/app/main.cpp`, [this](README.md#a) and `hemilux solve`, `src/*.h`",
-                     root)
-              .empty());
+    CHECK(
+        missing_in("see `src/app/main.cpp`, [this](README.md#start) and `hemilux solve`, `src/*.h`",
+                   root)
+            .empty());
     CHECK(missing_in("[far](https://example.org/a), [near](#part)", root).empty());
     CHECK(missing_in("```\n`src/no.cpp`\n```", root).empty());
-    CHECK(missing_in("`src/no.cpp` and [no](docs/no.md)", root) ==
-          std::vector<std::string>{"src/no.cpp", "docs/no.md"});
+    CHECK(missing_in("`src/no.cpp` and [no](docs/no.md), [no](README.md#no)", root) ==
+          std::vector<std::string>{"src/no.cpp", "docs/no.md", "README.md#no"});
+    CHECK(anchor_of("### D7. The paper's own, and `x`") == "d7-the-papers-own-and-x");
     CHECK(unknown_in("`is_source_path` in `tests/app/test_docs.cpp` \"what a page names exists\"")
               .empty());
     const std::string absent = std::string("no_such_") + "name";
     CHECK(unknown_in("`" + absent + "` in `src/app/main.cpp` \"x\"") ==
           std::vector<std::string>{absent, "x"});
+}
+
+TEST_CASE("a name that is declared is told from one that is used") {
+    const std::string code = code_of("// int a(); \nint b(int c) { return d(c) + e::f(1); }\n"
+                                     "struct g; \"int h\"; g i = 0, j; void k::l() {} mn();");
+    for (const char* declared : {"b", "c", "g", "i", "j", "l"})
+        CHECK(declares(code, declared));
+    for (const char* used : {"a", "d", "h", "m", "n"})
+        CHECK_FALSE(declares(code, used));
+    using Names = std::vector<std::pair<std::string, std::string>>;
+    CHECK(names_with_files("`a`, `b` in `src/x.h`; `src/y.h` (`c`), `d` in `src/z.h`: `e`") ==
+          Names{{"a", "src/x.h"},
+                {"b", "src/x.h"},
+                {"c", "src/y.h"},
+                {"d", "src/z.h"},
+                {"e", "src/z.h"}});
+    CHECK(decisions_named_in("(D1, D2) D10; SD3 D4x 2D5 D678") == std::set<int>{1, 2, 10});
 }
 
 TEST_CASE("what a page names exists") {
@@ -161,11 +338,32 @@ TEST_CASE("what a page names exists") {
 }
 
 TEST_CASE("the code that decisions refer to exists") {
-    const std::vector<std::string> references =
-        between(text_of(root / "docs/decisions.md"), "Code: ", ".\n");
-    CHECK(references.size() >= 29);
-    for (const std::string& reference : references)
-        CHECK(unknown_in(reference) == std::vector<std::string>{});
+    for (const char* page : {"docs/decisions.md", "docs/engineering.md"}) {
+        const std::vector<std::string> references = between(text_of(root / page), "Code: ", ".\n");
+        CHECK(references.size() == decisions_in(page).size());
+        for (const std::string& reference : references)
+            CHECK(unknown_in(reference) == std::vector<std::string>{});
+    }
+}
+
+TEST_CASE("decisions stand in their order, each in one place, and all that are referred to exist") {
+    const std::vector<int> decisions = decisions_in("docs/decisions.md"),
+                           engineering = decisions_in("docs/engineering.md");
+    CHECK(std::ranges::is_sorted(decisions));
+    CHECK(std::ranges::is_sorted(engineering));
+    std::set<int> all(decisions.begin(), decisions.end());
+    all.insert(engineering.begin(), engineering.end());
+    CHECK(all.size() == decisions.size() + engineering.size());
+    for (const char* folder : {"src", "tests", "bench", "examples", "docs"})
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+            const fs::path& file = entry.path();
+            if (file == fs::path(__FILE__) ||
+                (file.extension() != ".cpp" && file.extension() != ".h" &&
+                 file.extension() != ".md"))
+                continue;
+            CAPTURE(file);
+            CHECK(std::ranges::includes(all, decisions_named_in(text_of(file))));
+        }
 }
 
 TEST_CASE("the map of the paper names code and tests that exist") {
@@ -174,6 +372,47 @@ TEST_CASE("the map of the paper names code and tests that exist") {
 
 TEST_CASE("the reading guide names code that exists") {
     CHECK(checked_rows_of("docs/reading-guide.md") > 30);
+}
+
+TEST_CASE("programs and tests that results.md runs are there") {
+    const std::string bench = text_of(root / "bench/CMakeLists.txt");
+    int programs = 0;
+    std::istringstream page(text_of(root / "docs/results.md"));
+    for (std::string line; std::getline(page, line);) {
+        if (line.rfind("    ", 0) != 0)
+            continue;
+        CAPTURE(line);
+        std::istringstream words(line);
+        for (std::string word; words >> word;) {
+            if (word.rfind("build/", 0) != 0 || word.find('/', 6) == std::string::npos)
+                continue;
+            ++programs;
+            const fs::path program = word;
+            const std::string name = program.filename().string(),
+                              folder = program.parent_path().filename().string();
+            if (folder == "bench")
+                CHECK(bench.find("add_executable(" + name + ' ') != std::string::npos);
+            else if (folder == "tests")
+                CHECK(fs::is_directory(root / "tests" / name.substr(name.find('_') + 1)));
+            else if (folder == "examples" || folder == "fuzz")
+                CHECK(fs::exists(root / fs::path(folder == "fuzz" ? "tests/fuzz" : folder) /
+                                 (name + ".cpp")));
+            else
+                CHECK(name == "hemilux");
+            const std::vector<std::string> quoted = between(line, "\"", "\"");
+            if (folder == "tests" && !quoted.empty() && std::isalpha(quoted[0][0]) != 0)
+                CHECK(has_test(root / "tests" / name.substr(name.find('_') + 1), quoted[0]));
+        }
+    }
+    CHECK(programs > 10);
+}
+
+TEST_CASE("README leads to the line that computes N_tr") {
+    const std::string page = "src/radiosity/plain/hemisphere.cpp", line = "const double N_tr =";
+    const std::string readme = text_of(root / "README.md");
+    CHECK(readme.find("](" + page + ")") != std::string::npos);
+    CHECK(readme.find("`" + line + "`") != std::string::npos);
+    CHECK(text_of(root / page).find(line) != std::string::npos);
 }
 
 TEST_CASE("the page of options is what the program says") {

@@ -1,5 +1,5 @@
-// The commands that README.md prints do what it says: every line of a block that is fenced as
-// ```sh run is executed in the repository's folder, with hemilux in the PATH.
+// The commands that README.md and docs/tutorial.md print work: every line of a block that is fenced
+// as ```sh run is executed in the repository's folder, with hemilux in the PATH.
 #include <catch2/catch.hpp>
 
 #include <cstdlib>
@@ -39,14 +39,19 @@ TEST_CASE("runnable commands are told from other blocks") {
     CHECK(runnable_commands(text) == std::vector<std::string>{"one", "two \\\n  more", "three"});
 }
 
-TEST_CASE("the commands of README.md work", "[slow]") {
+TEST_CASE("the commands of README.md and of the tutorial work", "[slow]") {
     const std::string root = HEMILUX_SOURCE_DIR;
     const std::string programs = std::filesystem::path(HEMILUX_PROGRAM).parent_path().string();
-    std::ifstream readme(root + "/README.md");
-    REQUIRE(readme.good());
-    for (const std::string& command : runnable_commands(readme)) {
-        CAPTURE(command);
-        const std::string line = "cd '" + root + "' && PATH='" + programs + "':$PATH && " + command;
-        CHECK(std::system((line + " </dev/null >/dev/null").c_str()) == 0);
+    for (const char* name : {"/README.md", "/docs/tutorial.md"}) {
+        std::ifstream page(root + name);
+        const std::vector<std::string> commands = runnable_commands(page);
+        CAPTURE(name);
+        CHECK_FALSE(commands.empty());
+        for (const std::string& command : commands) {
+            CAPTURE(command);
+            const std::string line =
+                "cd '" + root + "' && PATH='" + programs + "':$PATH && " + command;
+            CHECK(std::system((line + " </dev/null >/dev/null").c_str()) == 0);
+        }
     }
 }

@@ -1,6 +1,6 @@
 # Installs the library from build folder BUILD, then configures, builds and runs the consumer beside
 # this file against what was installed, as a user would; then the same with the program that
-# README.md prints. Nothing but BUILD/package_test is written.
+# docs/library.md prints. Nothing but BUILD/package_test is written.
 cmake_minimum_required(VERSION 3.25)
 set(work ${BUILD}/package_test)
 file(REMOVE_RECURSE ${work})
@@ -30,13 +30,13 @@ endfunction()
 
 build_and_run(${CMAKE_CURRENT_LIST_DIR} ${work}/build consumer)
 
-file(READ ${CMAKE_CURRENT_LIST_DIR}/../../README.md readme)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/../../docs/library.md page)
 foreach(block "cmake;CMakeLists.txt" "cpp;first.cpp")
   list(GET block 0 language)
   list(GET block 1 name)
-  if(NOT readme MATCHES "```${language}\n([^`]+)```")
-    message(FATAL_ERROR "README.md has no block of ${language}")
+  if(NOT page MATCHES "```${language}\n([^`]+)```")
+    message(FATAL_ERROR "docs/library.md has no block of ${language}")
   endif()
-  file(WRITE ${work}/readme/${name} "${CMAKE_MATCH_1}")
+  file(WRITE ${work}/page/${name} "${CMAKE_MATCH_1}")
 endforeach()
-build_and_run(${work}/readme ${work}/readme/build first)
+build_and_run(${work}/page ${work}/page/build first)
