@@ -43,6 +43,10 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
   "seconds_bvh": null,
   "seconds_density": null,
   "seconds_solve": null,
+  "seconds_divide": 0.0,
+  "rays_divide": 0,
+  "seconds_division_error": null,
+  "rays_division_error": 0,
   "rays_per_second": null,
   "bytes_density": 40000,
   "bytes_density_paper": 82824,
@@ -50,6 +54,9 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
   "bytes_peak": 1048576,
   "estimated_error": null,
   "estimated_error_uncertainty": null,
+  "error_sampling": null,
+  "error_division": null,
+  "error_division_uncertainty": null,
   "energy": {
     "emitted": [
       1.0,

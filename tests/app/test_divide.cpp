@@ -1,0 +1,85 @@
+// --divide, and the error of the light within patches.
+#include "app/program.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <string>
+
+using Catch::Matchers::Contains;
+using test::Workplace;
+
+namespace {
+
+/// A number in a file of --stats; NaN for null.
+double statistic(const std::string& json, const std::string& key) {
+    const std::size_t at = json.find("\"" + key + "\": ");
+    REQUIRE(at != std::string::npos);
+    const std::string value = json.substr(at + key.size() + 4);
+    return value.rfind("null", 0) == 0 ? std::nan("") : std::stod(value);
+}
+
+} // namespace
+
+TEST_CASE("a run on fixed patches reports what sampling and what the division leaves") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux("solve room.obj -o r.csv --stats s.json");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("of the patches' mean light") &&
+                                Contains("within patches the light differs by") &&
+                                Contains("--divide auto"));
+    const std::string json = place.read("s.json");
+    CHECK(statistic(json, "estimated_error") == statistic(json, "error_sampling"));
+    CHECK(statistic(json, "error_division") > .05);
+    CHECK(statistic(json, "error_division_uncertainty") > 0);
+    CHECK(statistic(json, "rays_divide") == 0);
+}
+
+TEST_CASE(
+    "--divide auto ends near the whole error asked for, with the same bytes for any threads") {
+    const Workplace place;
+    place.write_room();
+    const std::string command = "solve room.obj --divide auto --error .1 --seed 3 ";
+    const auto outcome = place.hemilux(command + "-t 1 -o 1.csv -o 1.ply -o 1.png --stats s.json");
+    REQUIRE(outcome.code == 0);
+    REQUIRE(place.hemilux(command + "-t 2 -o 2.csv -o 2.ply -o 2.png -q").code == 0);
+    for (const std::string kind : {".csv", ".ply", ".png"})
+        CHECK(place.read("1" + kind) == place.read("2" + kind));
+    CHECK_THAT(outcome.err, Contains("of the light on the surfaces: sampling"));
+    const std::string json = place.read("s.json");
+    const double whole = statistic(json, "estimated_error");
+    CHECK(whole ==
+          Approx(std::hypot(statistic(json, "error_sampling"), statistic(json, "error_division"))));
+    CHECK(whole < .15);
+    CHECK(statistic(json, "patches") > 24);
+    CHECK(statistic(json, "rays_divide") > 0);
+}
+
+TEST_CASE("a run that divides patches can be resumed to the same bytes") {
+    const Workplace place;
+    place.write_room();
+    const std::string command = "solve room.obj --divide auto --error .1 --method hemisphere ";
+    REQUIRE(place.hemilux(command + "--steps 6 -q -o whole.csv").code == 0);
+    REQUIRE(place.hemilux(command + "--steps 3 -q -o half.csv --checkpoint saved").code == 0);
+    REQUIRE(place.hemilux(command + "--steps 6 -q -o resumed.csv --resume saved").code == 0);
+    CHECK(place.read("whole.csv") == place.read("resumed.csv"));
+}
+
+TEST_CASE("--divide takes a length as --max-edge does, and not both") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place.hemilux("solve room.obj --divide .2 -q -o a.csv").code == 0);
+    REQUIRE(place.hemilux("solve room.obj --max-edge .2 -q -o b.csv").code == 0);
+    REQUIRE(place.hemilux("solve room.obj --divide none -q -o c.csv").code == 0);
+    REQUIRE(place.hemilux("solve room.obj -q -o d.csv").code == 0);
+    CHECK(place.read("a.csv") == place.read("b.csv"));
+    CHECK(place.read("c.csv") == place.read("d.csv"));
+    const auto both = place.hemilux("solve room.obj --divide auto --max-edge .2 -o e.csv");
+    CHECK(both.code == 1);
+    for (const std::string wrong : {"0", "-1", "fine", "nan"}) {
+        const auto outcome = place.hemilux("solve room.obj --divide=" + wrong + " -o e.csv");
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains("--divide: expected auto, none or a length above 0"));
+    }
+}
