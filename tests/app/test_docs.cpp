@@ -1,8 +1,7 @@
 // What the documents name exists: files, links between pages, and in docs/paper_map.md also names
 // of the code and test cases.
 #include "app/program.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <algorithm>
 #include <cstdlib>

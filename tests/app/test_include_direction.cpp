@@ -1,6 +1,6 @@
 // Includes go one way, from later rooms of this list to earlier ones, and each dependency has one
 // place.
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <algorithm>
 #include <filesystem>
