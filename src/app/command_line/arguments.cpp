@@ -61,7 +61,7 @@ std::string refused(const CLI::App& program, const CLI::ParseError& error) {
     if (&command == &program && !subcommands.empty() &&
         dynamic_cast<const CLI::RequiredError*>(&error))
         return "expected a subcommand, one of " + list_names(subcommands, subcommands.size());
-    const std::string message = error.what();
+    std::string message = error.what();
     if (dynamic_cast<const CLI::RequiredError*>(&error))
         return command.get_name() + ": expected " + message.substr(0, message.find(' ')) +
                ", which is missing";
