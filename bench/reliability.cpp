@@ -4,8 +4,7 @@
 //     hemilux_reliability --family lamp --method gathering --seeds 40
 
 #include "support/families/reliability.h"
-
-#include <CLI/CLI.hpp>
+#include "app/command_line/option_kinds.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -91,32 +90,53 @@ void judge_scene(const HardSceneEntry& entry, const Settings& settings) {
     }
 }
 
-void add_options(CLI::App& app, Settings& settings) {
-    app.add_option("--family", settings.families, "only families whose name contains one of these")
-        ->delimiter(',');
-    app.add_option("--scene", settings.scenes,
-                   "only scenes whose name contains one of these; names may contain commas");
-    app.add_option("--method", settings.methods, "one or several; all: all of them")
-        ->delimiter(',');
-    app.add_option("--seeds", settings.seeds, "runs of each scene and method");
-    app.add_option("--first-seed", settings.first_seed, "the others follow it");
-    app.add_option("--error", settings.error,
-                   "reported error to stop at; else the method's own stop");
-    app.add_option("--most-rays", settings.limits.rays, "of a run");
-    app.add_option("--seconds", settings.limits.seconds, "of a run, at most");
-    app.add_option("--threads", settings.threads, "0: all cores");
-    app.add_flag("--list", settings.list, "only names the scenes");
-    app.add_flag("--every-run", settings.every_run, "a line for each run too");
+template <class Whole>
+void add_count(Command command, const std::string& name, Whole& target, const std::string& help) {
+    add_whole<Whole>(command, name, target, 0, std::numeric_limits<Whole>::max(), help);
+}
+
+void add_options(Command command, Settings& settings) {
+    command
+        .add_texts("--family", "NAME,...", settings.families,
+                   "only families whose name contains one of these")
+        .separated_by(',');
+    command.add_texts("--scene", "NAME", settings.scenes,
+                      "only scenes whose name contains one of these; names may contain commas");
+    command.add_texts("--method", "NAME,...", settings.methods, "one or several; all: all of them")
+        .separated_by(',');
+    add_count(command, "--seeds", settings.seeds, "runs of each scene and method");
+    add_count(command, "--first-seed", settings.first_seed, "the others follow it");
+    add_number(command, "--error", "X", settings.error, positive,
+               "reported error to stop at; else the method's own stop");
+    add_count(command, "--most-rays", settings.limits.rays, "of a run");
+    add_number(command, "--seconds", "S", settings.limits.seconds, positive, "of a run, at most");
+    add_count(command, "--threads", settings.threads, "0: all cores");
+    command.add_flag("--list", settings.list, "only names the scenes");
+    command.add_flag("--every-run", settings.every_run, "a line for each run too");
+}
+
+/// False where --help was asked for, which is then printed.
+bool read_arguments(int count, char** words, Settings& settings) {
+    Arguments arguments("hemilux_reliability",
+                        "Compares the errors that methods report with the true ones.");
+    add_options(arguments.program(), settings);
+    arguments.program().end_help_with(explanation);
+    const std::string help = arguments.parse({words + 1, words + count});
+    std::fputs(help.c_str(), stdout);
+    return help.empty();
 }
 
 } // namespace
 
 int main(int count, char** arguments) {
     Settings settings;
-    CLI::App app("Compares the errors that methods report with the true ones.");
-    add_options(app, settings);
-    app.footer(explanation);
-    CLI11_PARSE(app, count, arguments);
+    try {
+        if (!read_arguments(count, arguments, settings))
+            return 0;
+    } catch (const UsageError& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
     if (settings.methods == std::vector<std::string>{"all"}) {
         settings.methods.clear();
         for (const Method* const method : methods())

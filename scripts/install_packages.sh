@@ -11,11 +11,13 @@ brings() {
     cmake) command -v cmake ;;
     ninja-build) command -v ninja ;;
     clang) command -v clang++ ;;
+    clang-format) command -v clang-format-14 || command -v clang-format ;;
+    clang-tidy) command -v clang-tidy-14 || command -v clang-tidy ;;
     libglm-dev) header glm/glm.hpp ;;
     libstb-dev) header stb/stb_image_write.h || header stb_image_write.h ;;
     libcli11-dev) header CLI/CLI.hpp ;;
     nlohmann-json3-dev) header nlohmann/json.hpp ;;
-    catch2) header catch2/catch.hpp ;;
+    catch2) header catch2/catch.hpp || header catch2/catch_test_macros.hpp ;;
     *) return 1 ;;
     esac
 }

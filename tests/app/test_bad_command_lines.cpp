@@ -1,7 +1,6 @@
 // Command lines that cannot be meant: exit code 1, a message that says what could be.
 #include "app/program.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 using Catch::Contains;
 using test::Workplace;

@@ -4,8 +4,7 @@
 #include "app/running.h"
 #include "io/results/checkpoint.h"
 #include "radiosity/solving/solver.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <filesystem>
 #include <limits>

@@ -1,8 +1,7 @@
 // What `hemilux compare` writes and says.
 #include "app/program.h"
 #include "radiosity/solving/solver.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,6 @@
 // What `hemilux density` writes and says.
 #include "app/program.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 using Catch::Contains;
 using test::Workplace;

@@ -1,7 +1,7 @@
 // --divide, and the error of the light within patches.
 #include "app/program.h"
 
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <cmath>
 #include <string>

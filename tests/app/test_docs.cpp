@@ -1,8 +1,7 @@
 // What the documents name exists: files, links between pages, numbers of decisions; and in the map
 // of the paper, the reading guide and decisions also what the named files declare, and test cases.
 #include "app/program.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,7 @@
 // Every way in which the program ends, with the message that goes with it.
 #include "app/program.h"
+#include "support/catch.h"
 
-#include <catch2/catch.hpp>
 #include <unistd.h>
 
 using test::Workplace;

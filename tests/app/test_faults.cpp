@@ -3,9 +3,8 @@
 #include "app/running.h"
 #include "app/settings/memory.h"
 #include "radiosity/scene/mesh.h"
+#include "support/catch.h"
 #include "support/scenes.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <chrono>

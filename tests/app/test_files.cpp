@@ -1,8 +1,7 @@
 // The files of a run: none is lost, none is read without end, and no wait outlasts a signal.
 #include "app/program.h"
 #include "app/running.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <cstdlib>
 #include <filesystem>

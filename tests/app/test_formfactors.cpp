@@ -1,7 +1,6 @@
 // What `hemilux formfactors` writes and says.
 #include "app/program.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <cmath>
 #include <sstream>

@@ -1,7 +1,6 @@
 // Names that attack the terminal, files under a wrong name, and the words for them.
 #include "app/program.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 using Catch::Contains;
 using test::Workplace;

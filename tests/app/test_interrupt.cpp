@@ -2,8 +2,7 @@
 #include "app/program.h"
 #include "app/running.h"
 #include "app/running/signals.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <atomic>
 #include <chrono>

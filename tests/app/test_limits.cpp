@@ -2,8 +2,7 @@
 #include "app/program.h"
 #include "app/running/step_size.h"
 #include "radiosity/solving/solver.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <string>
 

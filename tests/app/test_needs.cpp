@@ -1,7 +1,6 @@
 // What a scene does not need: shown by info, left out by solve, recorded, and kept with --keep-all.
 #include "app/program.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 using Catch::Contains;
 using test::Workplace;

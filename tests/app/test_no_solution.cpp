@@ -1,7 +1,6 @@
 // What the program says of scenes that have no solution, and what it keeps.
 #include "app/program.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 using Catch::Contains;
 using test::Workplace;

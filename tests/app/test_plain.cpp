@@ -1,7 +1,6 @@
 // --plain: the page of a method instead of its engine.
 #include "app/program.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <string>
 

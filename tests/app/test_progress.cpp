@@ -1,7 +1,6 @@
 // The progress bar's arithmetic.
 #include "app/terminal/progress.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // The commands that README.md and docs/tutorial.md print work: every line of a block that is fenced
 // as ```sh run is executed in the repository's folder, with hemilux in the PATH.
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <cstdlib>
 #include <filesystem>

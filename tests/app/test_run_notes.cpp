@@ -1,13 +1,12 @@
 // What the program says about how a run ended.
 #include "app/running/run_notes.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <cmath>
 #include <limits>
 
 using namespace hemilux;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

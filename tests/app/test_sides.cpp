@@ -4,8 +4,7 @@
 #include "io/results/tables.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/sides/orientation.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <cstdlib>
 #include <filesystem>

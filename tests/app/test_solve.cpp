@@ -1,8 +1,7 @@
 // What `hemilux solve` and `hemilux info` write and say.
 #include "app/program.h"
 #include "io/results/tables.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <algorithm>
 #include <sstream>

@@ -4,8 +4,7 @@
 #include "app/settings/outputs.h"
 #include "app/settings/overrides.h"
 #include "app/settings/text.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <limits>
 

@@ -2,8 +2,8 @@
 #include "bvh/brute_force.h"
 #include "bvh/bvh.h"
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 
-#include <catch2/catch.hpp>
 #include <limits>
 
 using namespace hemilux;

@@ -2,9 +2,9 @@
 #include "bvh/wide/wide_bvh.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 
-#include <catch2/catch.hpp>
 #include <numbers>
 
 using namespace hemilux;

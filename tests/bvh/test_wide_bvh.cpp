@@ -3,9 +3,9 @@
 #include "bvh/brute_force.h"
 #include "bvh/wide/kernel_choice.h"
 #include "bvh/wide/wide_bvh.h"
+#include "support/catch.h"
 #include "support/soups.h"
 
-#include <catch2/catch.hpp>
 #include <cstring>
 #include <limits>
 #include <stdexcept>

@@ -1,11 +1,8 @@
-// Any lines as the arguments of the program: understood, or refused by one of its two errors.
+// Any lines as the arguments of the program: understood, or refused by its error.
 
 #include "app/command_line/options.h"
-#include "app/commands/density.h"
-#include "app/commands/formfactors.h"
 #include "app/settings/exit_code.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <sstream>
 #include <string>
@@ -19,7 +16,6 @@ using namespace hemilux;
 class Program {
   public:
     Program() {
-        program_.require_subcommand(1);
         add_solve_command(program_, now_.solve);
         add_compare_command(program_, now_.compare);
         add_density_command(program_, now_.density);
@@ -28,11 +24,10 @@ class Program {
         fresh_ = now_;
     }
 
-    void parse(const std::vector<const char*>& arguments) {
+    void parse(const std::vector<std::string>& words) {
         now_ = fresh_;
         try {
-            program_.parse(static_cast<int>(arguments.size()), arguments.data());
-        } catch (const CLI::ParseError&) {
+            (void)program_.parse(words);
         } catch (const UsageError&) {
         }
     }
@@ -45,7 +40,7 @@ class Program {
         FormFactorSettings formfactors;
         InfoSettings info;
     };
-    CLI::App program_{"", "hemilux"};
+    Arguments program_{"hemilux", ""};
     Settings now_, fresh_;
 };
 
@@ -54,12 +49,9 @@ class Program {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static Program program;
     std::istringstream lines(std::string(reinterpret_cast<const char*>(data), size));
-    std::vector<std::string> words{"hemilux"};
+    std::vector<std::string> words;
     for (std::string line; std::getline(lines, line);)
         words.push_back(line.substr(0, line.find('\0')));
-    std::vector<const char*> arguments;
-    for (const std::string& word : words)
-        arguments.push_back(word.c_str());
-    program.parse(arguments);
+    program.parse(words);
     return 0;
 }

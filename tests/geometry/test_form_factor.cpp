@@ -4,10 +4,9 @@
 #include "geometry/form_factor.h"
 #include "geometry/frame.h"
 #include "geometry/projected_polygon.h"
+#include "support/catch.h"
 #include "support/directions.h"
 #include "support/statistics.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <numbers>

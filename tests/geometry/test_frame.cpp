@@ -3,9 +3,8 @@
 #include "geometry/box.h"
 #include "geometry/frame.h"
 #include "geometry/numeric.h"
+#include "support/catch.h"
 #include "support/directions.h"
-
-#include <catch2/catch.hpp>
 
 #include <limits>
 

@@ -2,8 +2,7 @@
 #include "geometry/flat_polygon.h"
 #include "geometry/rectangle_pairs.h"
 #include "radiosity/sampling/rng.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <algorithm>
 #include <cmath>

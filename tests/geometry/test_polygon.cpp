@@ -2,10 +2,9 @@
 
 #include "geometry/polygon.h"
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 #include "support/directions.h"
 #include "support/statistics.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <vector>

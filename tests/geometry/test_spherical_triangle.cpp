@@ -2,10 +2,9 @@
 // inverse against each other.
 
 #include "geometry/spherical_triangle.h"
+#include "support/catch.h"
 #include "support/directions.h"
 #include "support/statistics.h"
-
-#include <catch2/catch.hpp>
 
 #include <numbers>
 

@@ -1,9 +1,8 @@
 // The tests' own statistics against values known in closed form or from tables.
 
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 #include "support/statistics.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,7 @@
 // Loops over threads: each index once, in order where order is promised, and errors come through;
 // within one another, from several threads, and again and again.
 #include "geometry/workers.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <atomic>
 #include <chrono>

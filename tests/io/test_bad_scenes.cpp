@@ -3,9 +3,8 @@
 
 #include "io/files/error.h"
 #include "io/scene_files/obj.h"
+#include "support/catch.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <chrono>
 #include <cmath>

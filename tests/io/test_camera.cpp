@@ -2,9 +2,8 @@
 #include "io/pictures/automatic_camera.h"
 #include "io/pictures/camera.h"
 #include "radiosity/scene/mesh.h"
+#include "support/catch.h"
 #include "support/scenes.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

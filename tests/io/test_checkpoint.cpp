@@ -3,10 +3,9 @@
 #include "io/files/error.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <limits>

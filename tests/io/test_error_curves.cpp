@@ -1,7 +1,6 @@
 #include "io/drawings/error_curves.h"
 #include "radiosity/sampling/rng.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <cmath>
 #include <limits>

@@ -3,8 +3,7 @@
 
 #include "geometry/box.h"
 #include "io/scene_files/obj.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,5 @@
 #include "io/drawings/false_colour.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <limits>
 #include <stdexcept>

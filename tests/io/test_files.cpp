@@ -4,9 +4,8 @@
 #include "io/files/file_identity.h"
 #include "io/scene_files/mtl.h"
 #include "io/scene_files/obj.h"
+#include "support/catch.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <filesystem>

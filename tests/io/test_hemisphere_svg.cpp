@@ -3,10 +3,9 @@
 #include "io/drawings/density_picture.h"
 #include "io/drawings/hemisphere_svg.h"
 #include "radiosity/sampling/workers.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <numbers>

@@ -2,9 +2,8 @@
 #include "io/files/error.h"
 #include "io/pictures/image.h"
 #include "io/png_reader.h"
+#include "support/catch.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <limits>

@@ -1,8 +1,7 @@
 #include "io/scene_files/inspect.h"
 
+#include "support/catch.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <string>

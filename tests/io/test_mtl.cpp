@@ -2,9 +2,8 @@
 
 #include "io/files/error.h"
 #include "io/scene_files/material_table.h"
+#include "support/catch.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <string>
 

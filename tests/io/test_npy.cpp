@@ -2,9 +2,8 @@
 #include "io/files/error.h"
 #include "io/results/factor_table.h"
 #include "io/results/npy.h"
+#include "support/catch.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <array>
 #include <cstring>

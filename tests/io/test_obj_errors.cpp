@@ -3,9 +3,8 @@
 #include "io/files/error.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <string>
 

@@ -1,8 +1,7 @@
 #include "io/drawings/canvas.h"
 #include "io/drawings/log_axis.h"
 #include "io/drawings/plot.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <array>
 #include <cmath>

@@ -1,10 +1,9 @@
 #include "io/files/error.h"
 #include "io/results/ply.h"
 #include "radiosity/scene/mesh.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <array>
 #include <cstring>

@@ -4,8 +4,7 @@
 #include "geometry/polygon.h"
 #include "io/scene_files/ear_clipping.h"
 #include "radiosity/sampling/rng.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <algorithm>
 #include <cmath>

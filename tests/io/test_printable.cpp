@@ -3,8 +3,7 @@
 
 #include "io/drawings/canvas.h"
 #include "io/results/csv.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 using namespace hemilux;
 using Catch::Contains;

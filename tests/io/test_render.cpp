@@ -2,9 +2,8 @@
 #include "io/pictures/render.h"
 #include "io/results/smooth.h"
 #include "radiosity/scene/mesh.h"
+#include "support/catch.h"
 #include "support/scenes.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

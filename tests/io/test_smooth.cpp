@@ -2,9 +2,8 @@
 #include "io/results/weld.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
+#include "support/catch.h"
 #include "support/scenes.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,5 @@
 #include "io/results/statistics.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 using namespace hemilux;
 

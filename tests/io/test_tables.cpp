@@ -4,10 +4,9 @@
 #include "io/results/tables.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <limits>

@@ -1,9 +1,8 @@
 // What killed processes leave behind is removed; what others write to is not.
 #include "io/files/atomic_file.h"
 #include "io/files/temporary_file.h"
+#include "support/catch.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <csignal>
 #include <filesystem>

@@ -1,7 +1,7 @@
 # Installs the library from build folder BUILD, then configures, builds and runs the consumer beside
 # this file against what was installed, as a user would; then the same with the program that
 # docs/library.md prints. Nothing but BUILD/package_test is written.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 set(work ${BUILD}/package_test)
 file(REMOVE_RECURSE ${work})
 

@@ -1,10 +1,9 @@
 // Proof of the estimators: every unbiased method against the reference, patch by patch, on scenes
 // with occlusion, within the standard errors that both report.
 #include "io/scene_files/obj.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

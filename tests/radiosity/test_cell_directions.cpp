@@ -3,9 +3,8 @@
 #include "geometry/instruction_set.h"
 #include "radiosity/hemisphere/cell_directions.h"
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 #include "support/statistics.h"
-
-#include <catch2/catch.hpp>
 
 #include <memory>
 #include <numbers>

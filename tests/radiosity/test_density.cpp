@@ -2,10 +2,9 @@
 #include "radiosity/hemisphere/density.h"
 
 #include "radiosity/sampling/workers.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 using namespace hemilux;
 using test::Model;

@@ -5,7 +5,7 @@
 #include "support/scenes.h"
 #include "support/solve.h"
 
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <cmath>
 

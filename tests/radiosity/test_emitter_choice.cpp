@@ -4,10 +4,9 @@
 #include "radiosity/gathering/emitter_choice.h"
 #include "radiosity/gathering/small_emitters.h"
 #include "radiosity/rays/shot.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,8 @@
 // How well an estimated error is known: parts of an error, and what follows from few of them.
 #include "radiosity/solving/error_spread.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <random>
 #include <vector>

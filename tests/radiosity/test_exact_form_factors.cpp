@@ -5,11 +5,10 @@
 #include "radiosity/form_factors/matrix_quality.h"
 #include "radiosity/linear/gmres.h"
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 #include "support/directions.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 using namespace hemilux;
 

@@ -8,10 +8,9 @@
 #include "radiosity/linear/conjugate_gradients.h"
 #include "radiosity/saving/state.h"
 #include "support/after_streams.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #include "radiosity/linear/gmres.h"
 
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace hemilux;

@@ -3,10 +3,9 @@
 
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 #include "support/directions.h"
 #include "support/statistics.h"
-
-#include <catch2/catch.hpp>
 
 #include <array>
 #include <cmath>

@@ -5,11 +5,11 @@
 #include "radiosity/sampling/workers.h"
 #include "radiosity/scene/edge_division.h"
 #include "radiosity/shooting/strategy.h"
+#include "support/catch.h"
 #include "support/directions.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 

@@ -4,10 +4,9 @@
 #include "radiosity/linear/energy_closing.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/solving/solve_error.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <array>
 #include <bit>

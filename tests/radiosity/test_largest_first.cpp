@@ -1,8 +1,8 @@
 // The order in which monte-carlo takes the patches.
 #include "radiosity/sampling/largest_first.h"
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace hemilux;

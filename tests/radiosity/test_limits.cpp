@@ -6,10 +6,9 @@
 #include "radiosity/solving/time_limit.h"
 #include "support/after_streams.h"
 
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <sys/resource.h>

@@ -3,8 +3,7 @@
 
 #include "radiosity/sampling/rng.h"
 #include "radiosity/shooting/line_of_cells.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <numeric>
 #include <vector>

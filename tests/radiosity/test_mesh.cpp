@@ -3,9 +3,9 @@
 
 #include "bvh/bvh.h"
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 
-#include <catch2/catch.hpp>
 #include <stdexcept>
 
 using namespace hemilux;

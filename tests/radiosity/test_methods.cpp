@@ -1,12 +1,15 @@
 // Every method on scenes whose solution is known in closed form, patch by patch: a mean would not
 // see a broken direction law. Scenes where a method is added inherit all of this.
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
-#include <catch2/catch.hpp>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <vector>
 
 using namespace hemilux;
 using test::Model;
@@ -237,4 +240,20 @@ TEST_CASE("A step shoots about the rays that were asked for") {
             CHECK(per_step == Approx(100).epsilon(.12));
         }
     }
+}
+
+TEST_CASE("Each role is one method's, and each flag sets an option of its own") {
+    for (const Role role : {Role::standard, Role::reference, Role::baseline, Role::paper})
+        CHECK(std::ranges::count(methods(), role, [](const Method* m) { return m->role; }) == 1);
+    SolveOptions options;
+    std::vector<std::string_view> names;
+    for (const Method* const method : methods())
+        for (const MethodFlag& flag : method->flags) {
+            CAPTURE(flag.name);
+            CHECK_FALSE(flag.value(options));
+            flag.value(options) = true;
+            CHECK(std::ranges::count(names, flag.name) == 0);
+            names.push_back(flag.name);
+        }
+    CHECK(names.size() == 4);
 }

@@ -7,10 +7,9 @@
 #include "radiosity/scene/convex_enclosure.h"
 #include "radiosity/scene/lit_facets.h"
 #include "radiosity/solving/left_out.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,10 @@
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sides/orientation.h"
 #include "radiosity/sides/shells.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/sided_scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

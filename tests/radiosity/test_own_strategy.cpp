@@ -1,9 +1,8 @@
 // That a strategy is one file: see tests/CMakeLists.txt, which lists one of examples/ for this
 // program, and test_strategies.cpp and test_methods.cpp, which then test it as all others.
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 using namespace hemilux;
 

@@ -1,11 +1,10 @@
 // The engine against the pages of src/radiosity/plain: the same bits where the random numbers are
 // the same, within standard errors for gathering.
 #include "io/scene_files/obj.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 #include "support/statistics.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

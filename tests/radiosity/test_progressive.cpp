@@ -1,9 +1,9 @@
 // Progressive radiosity against the matrix, its energy, and its options.
 #include "radiosity/form_factors/pair_factor.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 using namespace hemilux;

@@ -6,8 +6,7 @@
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sampling_kernels.h"
 #include "radiosity/sampling/sobol.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <algorithm>
 #include <array>

@@ -6,10 +6,9 @@
 #include "radiosity/saving/state.h"
 #include "radiosity/shooting/shooting.h"
 #include "radiosity/shooting/strategy.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

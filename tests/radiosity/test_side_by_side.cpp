@@ -1,10 +1,9 @@
 // Steps that are worked out at the same time: nobody can tell from the solution.
 
 #include "support/after_streams.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <stdexcept>
 

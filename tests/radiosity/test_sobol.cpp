@@ -3,9 +3,8 @@
 
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
+#include "support/catch.h"
 #include "support/statistics.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,7 @@
 #include "radiosity/form_factors/sparse_rows.h"
 
 #include "radiosity/sampling/rng.h"
-
-#include <catch2/catch.hpp>
+#include "support/catch.h"
 
 #include <algorithm>
 #include <set>

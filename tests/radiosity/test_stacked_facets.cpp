@@ -5,9 +5,8 @@
 #include "radiosity/scene/coplanar_overlaps.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/scene/stacked_facets.h"
+#include "support/catch.h"
 #include "support/scenes.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <array>

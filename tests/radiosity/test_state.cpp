@@ -1,10 +1,9 @@
 // Solver::save and load, for all methods that say that they have them.
 
 #include "radiosity/saving/state.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 using namespace hemilux;
 

@@ -3,10 +3,10 @@
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/shooting/strategy.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
-#include <catch2/catch.hpp>
 #include <numbers>
 
 using namespace hemilux;

@@ -5,11 +5,10 @@
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/sampling/rng.h"
+#include "support/catch.h"
 #include "support/directions.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <limits>
 

@@ -1,10 +1,9 @@
 // Where all light goes: emitted = absorbed + escaped + unshot to the last digits that doubles have,
 // for every method, and what stands for chance in it is small.
 #include "geometry/compensated_sum.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -9,10 +9,9 @@
 // and a test fails where so many or more of them have a probability below the significance, shared
 // out among the scenes, the families and their total. Of 8 runs of a scene 5 wrong ones are too
 // many, of 72 of a family 11, of 632 in all 36.
+#include "support/catch.h"
 #include "support/families/reliability.h"
 #include "support/statistics.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

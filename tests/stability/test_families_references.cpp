@@ -1,13 +1,12 @@
 // The references of the hard scenes, compared with closed forms and with each other: what they are
 // made of, what must hold for all of them, and walks from patch to patch that know nothing of it.
 #include "geometry/form_factor.h"
+#include "support/catch.h"
 #include "support/families/builders.h"
 #include "support/families/gauss_rule.h"
 #include "support/families/reliability.h"
 #include "support/families/walks.h"
 #include "support/statistics.h"
-
-#include <catch2/catch.hpp>
 
 #include <array>
 #include <cmath>

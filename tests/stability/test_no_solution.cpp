@@ -2,10 +2,9 @@
 // run or an infinite number; and scenes of reflectance 1 that do have one.
 #include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/trapped_light.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

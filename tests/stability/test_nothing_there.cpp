@@ -1,10 +1,9 @@
 // Scenes and options with next to nothing in them: every method ends, and nothing is NaN.
 
 #include "radiosity/scene/needs.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <stdexcept>

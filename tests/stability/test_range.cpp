@@ -2,10 +2,9 @@
 // faces lie where no real surface could: each against the same scene without the oddity, against a
 // closed form, or against the balance of energy.
 #include "radiosity/scene/needs.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 

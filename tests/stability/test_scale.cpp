@@ -3,11 +3,10 @@
 #include "io/files/error.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/scene/needs.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 #include "support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <iomanip>

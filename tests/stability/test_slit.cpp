@@ -3,10 +3,9 @@
 #include "geometry/horizon_clip.h"
 #include "radiosity/form_factors/exchange_area.h"
 #include "radiosity/sampling/sobol.h"
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <numbers>
 

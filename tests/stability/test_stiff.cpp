@@ -1,9 +1,8 @@
 // Closed rooms that reflect nearly all: there the tail of the series of bounces is the solution,
 // and the smallest loss of energy between patches would be multiplied by 1 / (1 - rho).
+#include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
 #include "app/command_line/option_groups.h"
 #include "app/command_line/option_kinds.h"
+#include "app/command_line/options.h"
 #include "app/commands/formfactors.h"
 #include "app/settings/extension.h"
 
-#include <CLI/CLI.hpp>
 #include <bit>
 
 namespace hemilux {
@@ -30,28 +30,29 @@ std::optional<std::uint32_t> power_of_two(const std::string& text) {
 
 } // namespace
 
-CLI::App* add_formfactors_command(CLI::App& program, FormFactorSettings& settings) {
-    CLI::App* const app =
-        program.add_subcommand("formfactors", "write the form factors between all patches");
-    add_scene_options(*app, settings.scene);
-    add_parsed(*app, "--rays", "N", "rays per patch, a power of two [4096]",
+Command add_formfactors_command(Arguments& program, FormFactorSettings& settings) {
+    const Command command =
+        program.add_command("formfactors", "write the form factors between all patches");
+    add_scene_options(command, settings.scene);
+    add_parsed(command, "--rays", "N", "rays per patch, a power of two [4096]",
                "a power of two from 1 to 1048576", power_of_two,
                [&settings](std::uint32_t rays) { settings.rays = rays; })
-        ->group("Method");
-    app->add_flag("--exact", settings.options.exact,
+        .group("Method");
+    command
+        .add_flag("--exact", settings.options.exact,
                   "without chance where nothing can stand between two patches; up to 2000 patches")
-        ->group("Method");
-    add_random_options(*app, settings.options);
-    repeatable(
-        add_parsed(*app, "-o,--output", "FILE",
-                   "i,j,F of the factors above 0 .csv, dense NumPy array .npy; repeatable",
-                   "a file name that ends with .csv or .npy", matrix_path,
-                   [&settings](const std::string& path) { settings.outputs.push_back(path); }))
-        ->required()
-        ->group(output_group);
-    add_talk_options(*app, settings.talk);
-    app->footer(examples);
-    return app;
+        .group("Method");
+    add_random_options(command, settings.options);
+    add_parsed(command, "-o,--output", "FILE",
+               "i,j,F of the factors above 0 .csv, dense NumPy array .npy; repeatable",
+               "a file name that ends with .csv or .npy", matrix_path,
+               [&settings](const std::string& path) { settings.outputs.push_back(path); })
+        .repeatable()
+        .required()
+        .group(output_group);
+    add_talk_options(command, settings.talk);
+    command.end_help_with(examples);
+    return command;
 }
 
 } // namespace hemilux

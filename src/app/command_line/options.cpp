@@ -6,22 +6,25 @@
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <span>
 #include <string>
 
 namespace hemilux {
 
 namespace {
 
-constexpr std::string_view default_method = "gathering";
-/// Taken where one of its own options is given and no --method.
-constexpr std::string_view method_of_division = "hemisphere";
-constexpr auto division_options =
-    std::to_array<const char*>({"--depth", "--threshold", "--guide", "--literal"});
 constexpr const char* comparison_group = "Comparison";
+
+void add_plain_option(Command command, bool& plain) {
+    command
+        .add_flag("--plain", plain,
+                  "by the page of src/radiosity/plain that shows the method: slower, one thread; "
+                  "these have one: " +
+                      methods_with_a_page())
+        .group("Method");
+}
 
 /// The method named, or UsageError with the nearest name.
 const Method* method_by_name(std::string_view name) {
@@ -33,19 +36,34 @@ const Method* method_by_name(std::string_view name) {
     throw UsageError("--method: " + unknown_name("method", name, names));
 }
 
-void add_method_option(CLI::App& app, const Method*& method) {
-    method = find_method(default_method);
-    app.add_option_function<std::string>(
-           "--method", [&method](const std::string& name) { method = method_by_name(name); },
-           "how to solve, see below [" + std::string(default_method) + "; " +
-               std::string(method_of_division) +
-               " where --depth, --threshold, --guide or --literal are given]")
-        ->type_name("NAME")
-        ->group("Method");
-    app.parse_complete_callback([&app, &method] {
-        const auto given = [&app](const char* name) { return app.count(name) > 0; };
-        if (!given("--method") && std::ranges::any_of(division_options, given))
-            method = find_method(method_of_division);
+/// "a, b or c".
+std::string either(std::span<const std::string_view> names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + std::string(names[i]);
+    return text;
+}
+
+void add_method_option(Command command, const Method*& method) {
+    method = &method_of(Role::standard);
+    std::string taken(method->name);
+    for (const Method* const other : methods())
+        if (!other->implied_by.empty())
+            taken += "; " + std::string(other->name) + " where " + either(other->implied_by) +
+                     " are given";
+    command
+        .add_value("--method", "NAME", "how to solve, see below [" + taken + "]",
+                   [&method](const std::string& name) { method = method_by_name(name); })
+        .group("Method");
+    command.after_parsing([command, &method] {
+        const auto given = [&command](std::string_view name) {
+            return command.given(std::string(name));
+        };
+        if (given("--method"))
+            return;
+        for (const Method* const other : methods())
+            if (std::ranges::any_of(other->implied_by, given))
+                method = other;
     });
 }
 
@@ -54,10 +72,11 @@ std::vector<Entrant> possible_entrants() {
     std::vector<Entrant> list;
     for (const Method* const method : methods()) {
         list.push_back({std::string(method->name), method, {}});
-        if (method->name == method_of_division) {
-            list.push_back({list.back().name + "-visible", method, Guide::visible});
-            list.push_back({std::string(method->name) + "-learned", method, Guide::learned});
-        }
+        if (method->guided)
+            for (const Guide guide : {Guide::visible, Guide::learned})
+                list.push_back(
+                    {std::string(method->name) + "-" + guide_names[static_cast<std::size_t>(guide)],
+                     method, guide});
     }
     return list;
 }
@@ -87,134 +106,159 @@ std::vector<Entrant> entrants_from(std::string_view text) {
     return list;
 }
 
-void add_methods_option(CLI::App& app, std::vector<Entrant>& list) {
+void add_methods_option(Command command, std::vector<Entrant>& list) {
+    std::string with_guides;
     for (const Entrant& entrant : possible_entrants())
-        if ((entrant.method->unbiased || entrant.name == default_method) && !entrant.guide)
+        if (entrant.guide)
+            with_guides += (with_guides.empty() ? "" : ", ") + entrant.name;
+        else if (entrant.method->unbiased || entrant.method->role == Role::standard)
             list.push_back(entrant);
-    app.add_option_function<std::string>(
-           "--methods", [&list](const std::string& text) { list = entrants_from(text); },
-           "what to compare, see below; also hemisphere-visible, hemisphere-learned [" +
-               std::string(default_method) + " and all that are unbiased]")
-        ->type_name("NAME,NAME,...")
-        ->group("Method");
+    command
+        .add_value("--methods", "NAME,NAME,...",
+                   "what to compare, see below; also " + with_guides + " [" +
+                       std::string(method_of(Role::standard).name) + " and all that are unbiased]",
+                   [&list](const std::string& text) { list = entrants_from(text); })
+        .group("Method");
 }
 
-void add_method_options(CLI::App& app, SolveOptions& options) {
-    add_number(app, "--rays", "N", options.rays, {.low = 0, .high = 1e9, .low_included = false},
+/// Names of those that --guide changes.
+std::string guided_methods() {
+    std::string names;
+    for (const Method* const method : methods())
+        if (method->guided)
+            names += (names.empty() ? "" : ", ") + std::string(method->name);
+    return names;
+}
+
+void add_method_options(Command command, SolveOptions& options) {
+    add_number(command, "--rays", "N", options.rays, {.low = 0, .high = 1e9, .low_included = false},
                "mean rays per patch and step [64]")
-        ->group("Method");
-    add_division_options(app, options);
-    app.add_option_function<std::string>(
-           "--guide",
-           [&options](const std::string& name) {
-               const auto found = std::ranges::find(guide_names, name);
-               if (found == guide_names.end()) {
-                   const std::vector<std::string> names(guide_names.begin(), guide_names.end());
-                   throw UsageError("--guide: " + unknown_name("guide", name, names));
-               }
-               options.guide = static_cast<Guide>(found - guide_names.begin());
-           },
-           "what guides hemisphere: density, visible or learned [density]")
-        ->type_name("NAME")
-        ->group("Method");
-    app.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased")
-        ->group("Method");
-    app.add_flag("--keep-all", options.keep_all,
-                 "leave out nothing that the scene does not need (see hemilux info)")
-        ->group("Method");
-    add_random_options(app, options);
+        .group("Method");
+    add_division_options(command, options);
+    command
+        .add_value("--guide", "NAME",
+                   "what guides " + guided_methods() + ": density, visible or learned [density]",
+                   [&options](const std::string& name) {
+                       const auto found = std::ranges::find(guide_names, name);
+                       if (found == guide_names.end()) {
+                           const std::vector<std::string> names(guide_names.begin(),
+                                                                guide_names.end());
+                           throw UsageError("--guide: " + unknown_name("guide", name, names));
+                       }
+                       options.guide = static_cast<Guide>(found - guide_names.begin());
+                   })
+        .group("Method");
+    command.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased")
+        .group("Method");
+    command
+        .add_flag("--keep-all", options.keep_all,
+                  "leave out nothing that the scene does not need (see hemilux info)")
+        .group("Method");
+    add_random_options(command, options);
 }
 
-void add_stop_options(CLI::App& app, StopRule& stop) {
+void add_stop_options(Command command, StopRule& stop) {
     const std::string group = "Stop at the first that is met";
-    add_whole<std::uint32_t>(app, "--steps", stop.steps, 1,
+    add_whole<std::uint32_t>(command, "--steps", stop.steps, 1,
                              std::numeric_limits<std::uint32_t>::max(), "after N steps")
-        ->group(group);
-    add_number(app, "--time", "SECONDS", stop.seconds, positive, "after a time of solving")
-        ->group(group);
-    add_number(app, "--error", "X", stop.error, positive,
+        .group(group);
+    add_number(command, "--time", "SECONDS", stop.seconds, positive, "after a time of solving")
+        .group(group);
+    add_number(command, "--error", "X", stop.error, positive,
                "at an estimated relative error, e.g. .01")
-        ->group(group);
+        .group(group);
     add_whole<std::uint64_t>(
-        app, "--max-rays", stop.rays, 1, std::numeric_limits<std::uint64_t>::max(),
+        command, "--max-rays", stop.rays, 1, std::numeric_limits<std::uint64_t>::max(),
         "after N rays, even if the error is not reached [1e8 and 1000 a patch]")
-        ->group(group);
+        .group(group);
 }
 
-void add_output_options(CLI::App& app, SolveSettings& settings) {
-    repeatable(add_parsed(
-                   app, "-o,--output", "FILE",
-                   "picture .png .hdr, mesh .ply, patches .csv, statistics .json; "
-                   "repeatable",
-                   "a file name that ends with .png, .hdr, .ply, .csv or .json",
-                   [](const std::string& path) { return parse_output(path); },
-                   [&settings](const Output& value) { settings.outputs.push_back(value); }))
-        ->group(output_group);
-    add_text(app, "--stats", "FILE", settings.statistics, "statistics of the run as JSON")
-        ->group(output_group);
-    add_text(app, "--steps-log", "FILE", settings.steps_log, "a CSV row per step")
-        ->group(output_group);
-    app.add_flag("--every-step", settings.every_step,
-                 "also write the pictures after every step, as NAME-0001.png and so on")
-        ->group(output_group);
-    add_view_options(app, settings.view);
+void add_output_options(Command command, SolveSettings& settings) {
+    add_parsed(
+        command, "-o,--output", "FILE",
+        "picture .png .hdr, mesh .ply, patches .csv, statistics .json; repeatable",
+        "a file name that ends with .png, .hdr, .ply, .csv or .json",
+        [](const std::string& path) { return parse_output(path); },
+        [&settings](const Output& value) { settings.outputs.push_back(value); })
+        .repeatable()
+        .group(output_group);
+    command.add_text("--stats", "FILE", settings.statistics, "statistics of the run as JSON")
+        .group(output_group);
+    command.add_text("--steps-log", "FILE", settings.steps_log, "a CSV row per step")
+        .group(output_group);
+    command
+        .add_flag("--every-step", settings.every_step,
+                  "also write the pictures after every step, as NAME-0001.png and so on")
+        .group(output_group);
+    add_view_options(command, settings.view);
 }
 
-void add_checkpoint_options(CLI::App& app, CheckpointSettings& checkpoint) {
+void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
     const std::string group = "Checkpoints";
-    add_text(app, "--checkpoint", "FILE", checkpoint.path,
-             "keep what was computed in a file, after steps and at the end")
-        ->group(group);
-    add_number(app, "--every", "SECONDS", checkpoint.every, non_negative,
+    command
+        .add_text("--checkpoint", "FILE", checkpoint.path,
+                  "keep what was computed in a file, after steps and at the end")
+        .group(group);
+    add_number(command, "--every", "SECONDS", checkpoint.every, non_negative,
                "of the time between two checkpoints; 0: after each step [60]")
-        ->group(group);
-    add_text(app, "--resume", "FILE", checkpoint.resumed,
-             "go on from a checkpoint: the same scene and method, the same bytes in the end")
-        ->group(group);
+        .group(group);
+    command
+        .add_text("--resume", "FILE", checkpoint.resumed,
+                  "go on from a checkpoint: the same scene and method, the same bytes in the end")
+        .group(group);
 }
 
-void add_detail_option(CLI::App& app, std::vector<std::string>& detail) {
-    repeatable(app.add_option("--detail", detail,
-                              "groups whose error is also reported apart [detail...]; "
-                              "repeatable"))
-        ->type_name("GROUP")
-        ->group(comparison_group);
+void add_detail_option(Command command, std::vector<std::string>& detail) {
+    command
+        .add_texts("--detail", "GROUP", detail,
+                   "groups whose error is also reported apart [detail...]; repeatable")
+        .repeatable()
+        .group(comparison_group);
 }
 
-void add_comparison_options(CLI::App& app, SolveSettings& settings) {
-    add_text(app, "--reference", "FILE.csv", settings.reference,
-             "patch table of the same patches: report the true error")
-        ->group(comparison_group);
-    add_detail_option(app, settings.detail);
+void add_comparison_options(Command command, SolveSettings& settings) {
+    command
+        .add_text("--reference", "FILE.csv", settings.reference,
+                  "patch table of the same patches: report the true error")
+        .group(comparison_group);
+    add_detail_option(command, settings.detail);
 }
 
-void add_budget_options(CLI::App& app, CompareSettings& settings) {
+void add_budget_options(Command command, CompareSettings& settings) {
     const std::string group = "Budget of each run of each method, one of the two";
-    CLI::Option* const rays = add_number(app, "--budget-rays", "N", settings.budget.rays, positive,
-                                         "rays, density rays included [64 steps]");
-    CLI::Option* const seconds =
-        add_number(app, "--budget-time", "SECONDS", settings.budget.seconds, positive,
-                   "its own time, preprocessing included");
-    rays->group(group);
-    seconds->group(group)->excludes(rays);
-    add_whole<std::uint32_t>(app, "--runs", settings.runs, 1, 1000,
+    const Option rays = add_number(command, "--budget-rays", "N", settings.budget.rays, positive,
+                                   "rays, density rays included [64 steps]");
+    const Option seconds = add_number(command, "--budget-time", "SECONDS", settings.budget.seconds,
+                                      positive, "its own time, preprocessing included");
+    rays.group(group);
+    seconds.group(group).excludes(rays);
+    add_whole<std::uint32_t>(command, "--runs", settings.runs, 1, 1000,
                              "runs of each method, with seeds that follow each other [3]")
-        ->group(group);
+        .group(group);
 }
 
-void add_reference_options(CLI::App& app, CompareSettings& settings) {
-    app.add_option_function<std::string>(
-           "--reference",
-           [&settings](const std::string& text) {
-               settings.reference = text == "matrix" ? std::string() : text;
-           },
-           "what is taken for the truth: a patch table, or the matrix method [matrix]")
-        ->type_name("FILE.csv|matrix")
-        ->group(comparison_group);
-    add_number(app, "--reference-error", "X", settings.reference_error, positive,
-               "estimated relative error of the matrix method [.002]")
-        ->group(comparison_group);
-    add_detail_option(app, settings.detail);
+/// --exact of `matrix` and so on.
+void add_own_options(Command command, SolveOptions& options) {
+    for (const Method* const method : methods())
+        for (const MethodFlag& flag : method->flags)
+            command.add_flag(std::string(flag.name), flag.value(options), std::string(flag.help))
+                .group("Of one method");
+}
+
+void add_reference_options(Command command, CompareSettings& settings) {
+    const std::string method(method_of(Role::reference).name);
+    command
+        .add_value("--reference", "FILE.csv|" + method,
+                   "what is taken for the truth: a patch table, or the " + method + " method [" +
+                       method + "]",
+                   [&settings, method](const std::string& text) {
+                       settings.reference = text == method ? std::string() : text;
+                   })
+        .group(comparison_group);
+    add_number(command, "--reference-error", "X", settings.reference_error, positive,
+               "estimated relative error of the " + method + " method [.002]")
+        .group(comparison_group);
+    add_detail_option(command, settings.detail);
 }
 
 std::string methods_text() {
@@ -272,8 +316,8 @@ std::optional<DivisionChoice> division_from(const std::string& text) {
     return DivisionChoice{.max_edge = *length};
 }
 
-void add_divide_option(CLI::App& app, SolveSettings& settings) {
-    add_parsed(app, "--divide", "auto|none|LENGTH",
+void add_divide_option(Command command, Option max_edge, SolveSettings& settings) {
+    add_parsed(command, "--divide", "auto|none|LENGTH",
                "patches: auto: divided where the light changes within them, until the error of the "
                "light itself is that of --error [.05 then]; none: the faces; LENGTH: as --max-edge "
                "[none]",
@@ -282,58 +326,60 @@ void add_divide_option(CLI::App& app, SolveSettings& settings) {
                    settings.divide_auto = choice.by_light;
                    settings.scene.mesh.max_edge = choice.max_edge;
                })
-        ->excludes(app.get_option("--max-edge"))
-        ->group("Scene");
+        .excludes(max_edge)
+        .group("Scene");
 }
 
 } // namespace
 
-CLI::App* add_solve_command(CLI::App& program, SolveSettings& settings) {
-    CLI::App* const app = program.add_subcommand("solve", "solve a scene, write the results");
-    add_scene_options(*app, settings.scene);
-    add_divide_option(*app, settings);
-    add_memory_option(*app, settings.scene);
-    add_method_option(*app, settings.method);
-    add_method_options(*app, settings.options);
-    add_plain_option(*app, settings.plain);
-    add_own_options(*app, settings.options);
-    add_stop_options(*app, settings.stop);
-    add_output_options(*app, settings);
-    add_checkpoint_options(*app, settings.checkpoint);
-    add_comparison_options(*app, settings);
-    add_talk_options(*app, settings.talk);
-    app->footer(methods_text() + solve_examples + exit_codes);
-    return app;
+Command add_solve_command(Arguments& program, SolveSettings& settings) {
+    const Command command = program.add_command("solve", "solve a scene, write the results");
+    const Option max_edge = add_scene_options(command, settings.scene);
+    add_divide_option(command, max_edge, settings);
+    add_memory_option(command, settings.scene);
+    add_method_option(command, settings.method);
+    add_method_options(command, settings.options);
+    add_plain_option(command, settings.plain);
+    add_own_options(command, settings.options);
+    add_stop_options(command, settings.stop);
+    add_output_options(command, settings);
+    add_checkpoint_options(command, settings.checkpoint);
+    add_comparison_options(command, settings);
+    add_talk_options(command, settings.talk);
+    command.end_help_with(methods_text() + solve_examples + exit_codes);
+    return command;
 }
 
-CLI::App* add_compare_command(CLI::App& program, CompareSettings& settings) {
-    CLI::App* const app = program.add_subcommand(
-        "compare", "error against run time of several methods, side by side");
-    add_scene_options(*app, settings.scene);
-    add_memory_option(*app, settings.scene);
-    add_methods_option(*app, settings.entrants);
-    add_method_options(*app, settings.options);
-    add_own_options(*app, settings.options);
-    add_budget_options(*app, settings);
-    add_reference_options(*app, settings);
-    add_text(*app, "-o,--output", "DIR", settings.folder,
-             "folder, made where it is not there: error.csv, error.svg, error.png, reference.csv, "
-             "reference.png and two pictures per method")
-        ->required()
-        ->group(output_group);
-    add_view_options(*app, settings.view);
-    add_talk_options(*app, settings.talk);
-    app->footer(methods_text() + compare_examples + exit_codes);
-    return app;
+Command add_compare_command(Arguments& program, CompareSettings& settings) {
+    const Command command =
+        program.add_command("compare", "error against run time of several methods, side by side");
+    add_scene_options(command, settings.scene);
+    add_memory_option(command, settings.scene);
+    add_methods_option(command, settings.entrants);
+    add_method_options(command, settings.options);
+    add_own_options(command, settings.options);
+    add_budget_options(command, settings);
+    add_reference_options(command, settings);
+    command
+        .add_text(
+            "-o,--output", "DIR", settings.folder,
+            "folder, made where it is not there: error.csv, error.svg, error.png, reference.csv, "
+            "reference.png and two pictures per method")
+        .required()
+        .group(output_group);
+    add_view_options(command, settings.view);
+    add_talk_options(command, settings.talk);
+    command.end_help_with(methods_text() + compare_examples + exit_codes);
+    return command;
 }
 
-CLI::App* add_info_command(CLI::App& program, InfoSettings& settings) {
-    CLI::App* const app = program.add_subcommand(
+Command add_info_command(Arguments& program, InfoSettings& settings) {
+    const Command command = program.add_command(
         "info", "what was read from a scene, what is doubtful in it, what it does not need");
-    add_scene_options(*app, settings.scene);
-    add_talk_options(*app, settings.talk);
-    app->footer(std::string(info_examples) + exit_codes);
-    return app;
+    add_scene_options(command, settings.scene);
+    add_talk_options(command, settings.talk);
+    command.end_help_with(std::string(info_examples) + exit_codes);
+    return command;
 }
 
 } // namespace hemilux

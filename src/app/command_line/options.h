@@ -1,14 +1,18 @@
 #pragma once
 // The command line: which options there are, what they accept, and the text of --help.
 
-#include "app/settings/command_line.h"
+#include "app/command_line/arguments.h"
+#include "app/commands/density.h"
+#include "app/commands/formfactors.h"
 #include "app/settings/settings.h"
 
 namespace hemilux {
 
-/// Each adds a subcommand that fills the settings while CLI11 parses.
-CLI::App* add_solve_command(CLI::App& program, SolveSettings& settings);
-CLI::App* add_compare_command(CLI::App& program, CompareSettings& settings);
-CLI::App* add_info_command(CLI::App& program, InfoSettings& settings);
+/// Each adds a subcommand that fills the settings while the arguments are parsed.
+Command add_solve_command(Arguments& program, SolveSettings& settings);
+Command add_compare_command(Arguments& program, CompareSettings& settings);
+Command add_density_command(Arguments& program, DensitySettings& settings);
+Command add_formfactors_command(Arguments& program, FormFactorSettings& settings);
+Command add_info_command(Arguments& program, InfoSettings& settings);
 
 } // namespace hemilux

@@ -37,7 +37,7 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
                                            const Tracer& tracer, const Needs& needs,
                                            Monitor& monitor) {
     const StopRule stop{.steps = {}, .seconds = {}, .error = settings.reference_error};
-    const Method& method = *find_method("matrix");
+    const Method& method = method_of(Role::reference);
     SolveOptions options = settings.options;
     options.literal = false;
     options.seed = hash_words({options.seed, 0x7265666572656e63u});
@@ -48,7 +48,8 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
     run(*solver, input, stop, [&](const StepRecord& record, const Solution&) {
         progress.step_done(record);
         if (settings.talk == Talk::verbose)
-            progress.say("reference, " + step_text({"matrix", 0, record, std::nullopt}));
+            progress.say("reference, " +
+                         step_text({std::string(method.name), 0, record, std::nullopt}));
     });
     const Solution& solution = solver->solution();
     if (solution.steps == 0)
@@ -125,7 +126,7 @@ int run_comparison(const CompareSettings& settings, std::vector<std::uint32_t>& 
     for (const Entrant& entrant : settings.entrants)
         methods.push_back(entrant.method);
     if (settings.reference.empty())
-        methods.push_back(find_method("matrix"));
+        methods.push_back(&method_of(Role::reference));
     check_own_options(settings.options, methods);
     make_folder(settings.folder);
     const RunFiles files = check_files(settings);

@@ -128,8 +128,8 @@ std::vector<MethodSummary> summarise(std::span<const MethodRuns> results, bool l
     std::vector<MethodSummary> summaries;
     for (const MethodRuns& result : results)
         summaries.push_back(summarise(result, literal));
-    const auto base =
-        std::ranges::find(results, base_method, [](const MethodRuns& r) { return r.entrant.name; });
+    const auto base = std::ranges::find(results, method_of(Role::baseline).name,
+                                        [](const MethodRuns& r) { return r.entrant.name; });
     if (base == results.end())
         return summaries;
     const MethodSummary yardstick = summaries[static_cast<std::size_t>(base - results.begin())];

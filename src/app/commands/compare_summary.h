@@ -30,9 +30,6 @@ struct MethodSummary {
     std::optional<Gain> gain_seconds, gain_rays;
 };
 
-/// The method that gains are relative to.
-inline constexpr std::string_view base_method = "progressive-monte-carlo";
-
 /// In the order of the results. Runs that were interrupted count only where a method has no other.
 [[nodiscard]] std::vector<MethodSummary> summarise(std::span<const MethodRuns> results,
                                                    bool literal);

@@ -71,12 +71,12 @@ std::uint32_t patch_to_draw(const Preprocessed& made, const PatchDensities& dens
     return patch;
 }
 
-/// Directions of energy rays as the method `hemisphere` deals them, in the hemisphere's frame.
+/// Directions of energy rays as the paper's method deals them, in the hemisphere's frame.
 std::vector<Vec3> energy_rays(const Preprocessed& made, std::uint32_t patch) {
     const SolveOptions& options = made.settings.options;
     const SolverInput input{made.mesh, made.tracer, options, made.monitor};
     const auto strategy =
-        find_method("hemisphere")->strategy(input, made.hemisphere, Workers(options.threads));
+        method_of(Role::paper).strategy(input, made.hemisphere, Workers(options.threads));
     DealtCells memory;
     const Dealing dealing = strategy->deal(patch, memory);
     Rng rng(hash_words({options.seed, patch}));

@@ -1,7 +1,6 @@
 #pragma once
 // hemilux density: what preprocessing found (paper section 5a), as drawings.
 
-#include "app/settings/command_line.h"
 #include "app/settings/settings.h"
 
 namespace hemilux {
@@ -15,8 +14,6 @@ struct DensitySettings {
     std::vector<std::string> outputs; ///< .svg: a hemisphere; .png: mean densities
     Talk talk = Talk::normal;
 };
-
-CLI::App* add_density_command(CLI::App& program, DensitySettings& settings);
 
 /// Returns the exit code or throws UsageError, InputError or OutputError.
 int density(const DensitySettings& settings);

@@ -1,7 +1,6 @@
 #pragma once
 // hemilux formfactors: the matrix that the method `matrix` solves with.
 
-#include "app/settings/command_line.h"
 #include "app/settings/settings.h"
 
 namespace hemilux {
@@ -15,8 +14,6 @@ struct FormFactorSettings {
 
     static constexpr std::size_t most_dense = 20'000; ///< patches
 };
-
-CLI::App* add_formfactors_command(CLI::App& program, FormFactorSettings& settings);
 
 /// Returns the exit code or throws UsageError, InputError or OutputError.
 int formfactors(const FormFactorSettings& settings);

@@ -1,21 +1,18 @@
 #pragma once
 // Options that are of one method alone.
 
-#include "app/settings/command_line.h"
 #include "app/settings/settings.h"
 
 #include <span>
+#include <string>
 
 namespace hemilux {
 
-/// --exact of `matrix`; --one-shot, --ambient and --overshoot of `progressive`.
-void add_own_options(CLI::App& app, SolveOptions& options);
+/// Throws UsageError where an option was given whose method (Method::flags) is not among these.
+void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen);
 
-/// Throws UsageError where an option was given whose method is not among these.
-void check_own_options(const SolveOptions& options, std::span<const Method* const> methods);
-
-/// --plain.
-void add_plain_option(CLI::App& app, bool& plain);
+/// Names of those that --plain may choose, with commas between them.
+[[nodiscard]] std::string methods_with_a_page();
 
 /// Throws UsageError where --plain was given and the method has no page, or its page does not
 /// support another option that was given.

@@ -149,7 +149,7 @@ void PixelCanvas::text(const Vec2& at, std::string_view text, const TextStyle& s
 
 Image PixelCanvas::image() const {
     Image image(width_, height_);
-    const auto columns = static_cast<std::size_t>(width_ * fineness);
+    const auto columns = static_cast<std::size_t>(width_) * fineness;
     for (int y = 0; y < height_; ++y)
         for (int x = 0; x < width_; ++x) {
             glm::vec3 sum(0.0f); // of encoded values, as viewers of SVG do it

@@ -14,7 +14,8 @@ struct Attempt {
 } // namespace
 
 CellDirections::CellDirections(const Hemisphere& hemisphere, bool literal) {
-    for (std::uint16_t cell = 0; cell < hemisphere.cells().size(); ++cell) {
+    const auto cells = static_cast<std::uint16_t>(hemisphere.cells().size());
+    for (std::uint16_t cell = 0; cell < cells; ++cell) {
         add(hemisphere.cells()[cell].shape);
         power_shares_.push_back(hemilux::power_share(hemisphere, cell, literal));
     }

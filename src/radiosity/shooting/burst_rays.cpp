@@ -50,7 +50,7 @@ void BurstRays::list_burst(Burst& burst, std::uint32_t rays) {
     }
     if (has_private_cells_)
         if (auto own = source_.strategy.private_cell(burst.patch, burst.cell))
-            return list_private(burst, rays, std::move(*own));
+            return list_private(burst, rays, *own);
     add_to_batch(burst, rays, burst.cell, source_.directions.power_share(burst.cell));
     if (!runs_.empty() && runs_.back().patch == burst.patch && runs_.back().own == none)
         runs_.back().rays += rays;
@@ -59,10 +59,10 @@ void BurstRays::list_burst(Burst& burst, std::uint32_t rays) {
 }
 
 /// Its directions are drawn elsewhere (fill_private).
-void BurstRays::list_private(Burst& burst, std::uint32_t rays, PrivateCell own) {
+void BurstRays::list_private(Burst& burst, std::uint32_t rays, const PrivateCell& own) {
     add_to_batch(burst, rays, whole_hemisphere, own.power);
     runs_.push_back({burst.patch, rays, static_cast<std::uint32_t>(own_.size())});
-    own_.push_back(std::move(own));
+    own_.push_back(own);
 }
 
 void BurstRays::add_to_batch(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power) {

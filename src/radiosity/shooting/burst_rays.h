@@ -52,7 +52,7 @@ class BurstRays {
     };
     void list();
     void list_burst(Burst& burst, std::uint32_t rays);
-    void list_private(Burst& burst, std::uint32_t rays, PrivateCell own);
+    void list_private(Burst& burst, std::uint32_t rays, const PrivateCell& own);
     void add_to_batch(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power);
     void fill(const Run& run, std::size_t first);
     void fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,

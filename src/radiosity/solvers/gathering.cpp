@@ -325,6 +325,8 @@ const Method gathering_method{
     .work = {.pairs = true},
     .saves = true,
     .plain = plain::gathering,
+    .most_plain_patches = plain::most_patches_of_gathering,
+    .role = Role::standard,
 };
 
 } // namespace hemilux

@@ -307,6 +307,12 @@ std::unique_ptr<Solver> make_matrix(const SolverInput& input) {
     return std::make_unique<MatrixSolver>(input);
 }
 
+constexpr std::array<MethodFlag, 1> flags{{
+    {"--exact",
+     "matrix: factors without chance where patches see each other fully; for small scenes",
+     [](SolveOptions& options) -> bool& { return options.exact; }},
+}};
+
 } // namespace
 
 extern const Method matrix_method;
@@ -319,6 +325,8 @@ const Method matrix_method{
     .make = make_matrix,
     .strategy = nullptr,
     .work = {.pairs = true, .linear_systems = true, .passes = true},
+    .role = Role::reference,
+    .flags = flags,
 };
 
 } // namespace hemilux

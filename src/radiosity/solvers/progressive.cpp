@@ -33,6 +33,7 @@
 #include "radiosity/solving/solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -175,6 +176,15 @@ std::unique_ptr<Solver> make_progressive(const SolverInput& input) {
     return std::make_unique<ProgressiveSolver>(input);
 }
 
+constexpr std::array<MethodFlag, 3> flags{{
+    {"--one-shot", "progressive: a step is one shot",
+     [](SolveOptions& options) -> bool& { return options.progressive.one_shot; }},
+    {"--ambient", "progressive: show an estimate of the light that is still unshot",
+     [](SolveOptions& options) -> bool& { return options.progressive.ambient; }},
+    {"--overshoot", "progressive: also shoot what a patch will probably receive later",
+     [](SolveOptions& options) -> bool& { return options.progressive.overshoot; }},
+}};
+
 } // namespace
 
 extern const Method progressive_method;
@@ -187,6 +197,7 @@ const Method progressive_method{
     .make = make_progressive,
     .strategy = nullptr,
     .work = {.pairs = true},
+    .flags = flags,
 };
 
 } // namespace hemilux

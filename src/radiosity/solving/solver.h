@@ -141,6 +141,21 @@ struct MethodWork {
     bool passes = false;         ///< solves again and again, to take the mean or with more rays
 };
 
+/// An option that one method takes and no other: a flag.
+struct MethodFlag {
+    std::string_view name;         ///< as `--exact`
+    std::string_view help;         ///< one line for --help
+    bool& (*value)(SolveOptions&); ///< what it sets
+};
+
+/// What the program takes a method for where the user names none. Each role is one method's.
+enum class Role {
+    standard,  ///< solves
+    reference, ///< is taken for the truth in comparisons
+    baseline,  ///< the others' gains are relative to it
+    paper      ///< shows how hemispheres are divided
+};
+
 /// A method as the user picks it.
 struct Method {
     std::string_view name;    ///< of --method
@@ -154,6 +169,12 @@ struct Method {
     bool saves = false;              ///< save and load are there; all shooting methods have them
     /// The same on one page, slow and obviously right (plain/plain.h); nullptr where there is none.
     std::unique_ptr<Solver> (*plain)(const SolverInput&) = nullptr;
+    std::size_t most_plain_patches = std::numeric_limits<std::size_t>::max(); ///< of its page
+    std::optional<Role> role = {};
+    bool guided = false; ///< --guide changes it
+    std::span<const MethodFlag> flags = {};
+    /// Options that make it the one to solve with where --method is not given.
+    std::span<const std::string_view> implied_by = {};
 
     [[nodiscard]] bool can_resume() const { return saves || strategy; }
 };
@@ -162,6 +183,8 @@ struct Method {
 [[nodiscard]] std::span<const Method* const> methods();
 /// nullptr if there is no such method.
 [[nodiscard]] const Method* find_method(std::string_view name);
+/// The one that has this role.
+[[nodiscard]] const Method& method_of(Role role);
 
 /// A row of the steps log.
 struct StepRecord {

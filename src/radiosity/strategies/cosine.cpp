@@ -38,6 +38,7 @@ const Method cosine_method{
     .strategy = make_cosine,
     .work = {.passes = true},
     .plain = plain::progressive_monte_carlo,
+    .role = Role::baseline,
 };
 
 } // namespace hemilux

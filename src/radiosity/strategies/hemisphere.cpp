@@ -22,6 +22,7 @@
 #include "radiosity/shooting/shooting.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 namespace hemilux {
@@ -157,6 +158,9 @@ std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisp
     return std::make_unique<HemisphereStrategy>(input, hemisphere, workers);
 }
 
+constexpr std::array<std::string_view, 4> division_options{"--depth", "--threshold", "--guide",
+                                                           "--literal"};
+
 } // namespace
 
 extern const Method hemisphere_method;
@@ -170,6 +174,9 @@ const Method hemisphere_method{
     .strategy = make_hemisphere,
     .work = {.densities = true, .passes = true},
     .plain = plain::hemisphere,
+    .role = Role::paper,
+    .guided = true,
+    .implied_by = division_options,
 };
 
 } // namespace hemilux

@@ -1,0 +1,198 @@
+#include "app/command_line/arguments.h"
+
+#include "app/settings/exit_code.h"
+#include "app/settings/names.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace hemilux {
+
+namespace {
+
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& subcommands) {
+    std::vector<std::string> names;
+    for (const CLI::App* const subcommand : subcommands)
+        names.push_back(subcommand->get_name());
+    return names;
+}
+
+std::vector<const CLI::App*> all_subcommands(const CLI::App& program) {
+    return program.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// The subcommand that was named, else the program.
+const CLI::App& command_of(const CLI::App& program) {
+    const std::vector<CLI::App*> parsed = program.get_subcommands();
+    return parsed.empty() ? program : *parsed.front();
+}
+
+/// What the parser did not understand, with the nearest name that it would.
+std::string unknown_argument(const CLI::App& program, const std::string& otherwise) {
+    const CLI::App& command = command_of(program);
+    const std::vector<std::string> left = command.remaining();
+    if (left.empty())
+        return otherwise;
+    const bool is_option = left.front().starts_with("-");
+    if (!is_option && &command != &program)
+        return otherwise;
+    std::vector<std::string> names;
+    if (is_option)
+        for (const CLI::Option* const option : command.get_options())
+            for (const std::string& name : option->get_lnames())
+                names.push_back("--" + name);
+    else
+        names = names_of(all_subcommands(program));
+    const std::string word = left.front().substr(0, left.front().find('='));
+    return unknown_name(is_option ? "option" : "subcommand", word, names);
+}
+
+/// The option of a message of the parser, which begins with one of its names; or nullptr.
+const CLI::Option* option_of(const CLI::App& command, const std::string& message) {
+    return command.get_option_no_throw(message.substr(0, message.find(':')));
+}
+
+/// What the parser did not take, in this program's words.
+std::string refused(const CLI::App& program, const CLI::ParseError& error) {
+    const CLI::App& command = command_of(program);
+    const std::vector<std::string> subcommands = names_of(all_subcommands(program));
+    if (&command == &program && !subcommands.empty() &&
+        dynamic_cast<const CLI::RequiredError*>(&error))
+        return "expected a subcommand, one of " + list_names(subcommands, subcommands.size());
+    std::string message = error.what();
+    if (dynamic_cast<const CLI::RequiredError*>(&error))
+        return command.get_name() + ": expected " + message.substr(0, message.find(' ')) +
+               ", which is missing";
+    const CLI::Option* const option = option_of(command, message);
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) && option) {
+        const std::string name = message.substr(0, message.find(':'));
+        return option->count() > 1
+                   ? name + ": expected once, it is given " + std::to_string(option->count()) +
+                         " times"
+                   : name + ": expected a value after it: " + option->get_type_name();
+    }
+    if (dynamic_cast<const CLI::ExcludesError*>(&error))
+        return message.substr(0, message.find(' ')) + " and " +
+               message.substr(message.rfind(' ') + 1) + " contradict each other; give one of them";
+    const std::vector<std::string> left = command.remaining();
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) && !left.empty())
+        return "'" + left.front() + "' was not expected; an option's value follows its name";
+    return message;
+}
+
+} // namespace
+
+Option Option::group(const std::string& heading) const {
+    option_->group(heading);
+    return *this;
+}
+
+Option Option::required() const {
+    option_->required();
+    return *this;
+}
+
+Option Option::excludes(Option other) const {
+    option_->excludes(other.option_);
+    return *this;
+}
+
+Option Option::repeatable() const {
+    option_->expected(1, CLI::detail::expected_max_vector_size)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false);
+    return *this;
+}
+
+Option Option::separated_by(char letter) const {
+    option_->delimiter(letter);
+    return *this;
+}
+
+Option Command::add_values(const std::string& name, const std::string& type,
+                           const std::string& help,
+                           std::function<void(const std::vector<std::string>&)> read) const {
+    const auto read_all = [read = std::move(read)](const CLI::results_t& texts) {
+        read(texts);
+        return true;
+    };
+    return Option(*app_->add_option(name, read_all, help)->type_name(type));
+}
+
+Option Command::add_value(const std::string& name, const std::string& type, const std::string& help,
+                          std::function<void(const std::string&)> read) const {
+    return add_values(
+        name, type, help,
+        [read = std::move(read)](const std::vector<std::string>& texts) { read(texts.front()); });
+}
+
+Option Command::add_text(const std::string& name, const std::string& type, std::string& target,
+                         const std::string& help) const {
+    return Option(*app_->add_option(name, target, help)->type_name(type));
+}
+
+Option Command::add_texts(const std::string& name, const std::string& type,
+                          std::vector<std::string>& target, const std::string& help) const {
+    return Option(*app_->add_option(name, target, help)->type_name(type));
+}
+
+Option Command::add_flag(const std::string& name, bool& target, const std::string& help) const {
+    return Option(*app_->add_flag(name, target, help));
+}
+
+Option Command::add_action(const std::string& name, std::function<void()> action,
+                           const std::string& help) const {
+    return Option(*app_->add_flag_callback(name, std::move(action), help));
+}
+
+Option Command::add_version(const std::string& name, const std::string& version,
+                            const std::string& help) const {
+    return Option(*app_->set_version_flag(name, version, help));
+}
+
+Option Command::add_help(const std::string& name, const std::string& help) const {
+    app_->set_help_flag(); // takes away the one that stands first
+    return Option(*app_->set_help_flag(name, help));
+}
+
+void Command::end_help_with(const std::string& text) const { app_->footer(text); }
+
+void Command::after_parsing(std::function<void()> action) const {
+    app_->parse_complete_callback(std::move(action));
+}
+
+bool Command::given(const std::string& option) const { return app_->count(option) > 0; }
+
+bool Command::parsed() const { return app_->parsed(); }
+
+Arguments::Arguments(const std::string& program, const std::string& description)
+    : app_(std::make_unique<CLI::App>(description, program)) {}
+
+Arguments::~Arguments() = default;
+
+Command Arguments::program() const { return Command(*app_); }
+
+Command Arguments::add_command(const std::string& name, const std::string& description) {
+    app_->require_subcommand(1);
+    return Command(*app_->add_subcommand(name, description));
+}
+
+std::vector<std::string> Arguments::commands() const { return names_of(all_subcommands(*app_)); }
+
+std::string Arguments::parse(std::vector<std::string> words) {
+    try {
+        std::ranges::reverse(words); // as the parser takes them
+        app_->parse(std::move(words));
+        return {};
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0)
+            throw UsageError(unknown_argument(*app_, refused(*app_, error)));
+        std::ostringstream text; // --help and --version
+        app_->exit(error, text, text);
+        return text.str();
+    }
+}
+
+} // namespace hemilux

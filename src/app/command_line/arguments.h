@@ -1,0 +1,93 @@
+#pragma once
+// The arguments of a program: options with their help, subcommands, and what is said of a mistake.
+// CLI11 does the work. It takes long to compile, so arguments.cpp alone includes it.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+} // namespace CLI
+
+namespace hemilux {
+
+/// An option that was added. Copies mean the same option.
+class Option {
+  public:
+    explicit Option(CLI::Option& option) : option_(&option) {}
+    /// The heading of --help under which it stands.
+    Option group(const std::string& heading) const;
+    Option required() const;
+    /// At most one of the two may be given.
+    Option excludes(Option other) const;
+    /// It may be given several times, with one value each time.
+    Option repeatable() const;
+    /// A value may be several, with this letter between them.
+    Option separated_by(char letter) const;
+
+  private:
+    CLI::Option* option_;
+};
+
+/// A subcommand, or a program without any. Copies mean the same one; all of it, and what options
+/// write to, outlives the parsing. `type` is what --help says of an option's value.
+class Command {
+  public:
+    explicit Command(CLI::App& app) : app_(&app) {}
+    /// `read` gets all values that were given, and throws UsageError for those that it refuses.
+    Option add_values(const std::string& name, const std::string& type, const std::string& help,
+                      std::function<void(const std::vector<std::string>&)> read) const;
+    /// The same with one value.
+    Option add_value(const std::string& name, const std::string& type, const std::string& help,
+                     std::function<void(const std::string&)> read) const;
+    Option add_text(const std::string& name, const std::string& type, std::string& target,
+                    const std::string& help) const;
+    Option add_texts(const std::string& name, const std::string& type,
+                     std::vector<std::string>& target, const std::string& help) const;
+    Option add_flag(const std::string& name, bool& target, const std::string& help) const;
+    /// A flag that does something where it is given.
+    Option add_action(const std::string& name, std::function<void()> action,
+                      const std::string& help) const;
+    Option add_version(const std::string& name, const std::string& version,
+                       const std::string& help) const;
+    /// --help stands where this is called, not first.
+    Option add_help(const std::string& name, const std::string& help) const;
+    /// What --help ends with.
+    void end_help_with(const std::string& text) const;
+    void after_parsing(std::function<void()> action) const;
+
+    /// Whether the option was given.
+    [[nodiscard]] bool given(const std::string& option) const;
+    /// Whether the subcommand was named.
+    [[nodiscard]] bool parsed() const;
+
+  private:
+    CLI::App* app_;
+};
+
+class Arguments {
+  public:
+    Arguments(const std::string& program, const std::string& description);
+    ~Arguments();
+    Arguments(const Arguments&) = delete;
+    Arguments& operator=(const Arguments&) = delete;
+
+    /// Where options of the program itself are added.
+    [[nodiscard]] Command program() const;
+    /// One of the subcommands has to be named.
+    Command add_command(const std::string& name, const std::string& description);
+    [[nodiscard]] std::vector<std::string> commands() const;
+
+    /// Fills what the options write to. Returns the text that --help or --version asked for; empty
+    /// where the program is to do its work. Throws UsageError, with the nearest name for one that
+    /// there is not.
+    [[nodiscard]] std::string parse(std::vector<std::string> words);
+
+  private:
+    std::unique_ptr<CLI::App> app_;
+};
+
+} // namespace hemilux
