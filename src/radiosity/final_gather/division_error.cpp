@@ -94,14 +94,20 @@ double reflected_square(const Mesh& mesh, const Solution& solution) {
     return sum;
 }
 
-/// `rounds`: relative to the square of the patches' values; `known`: what of it is not of the
-/// division. The square of the light itself is larger by that of the error.
-void set_error(DivisionError& result, const Rounds& rounds, double known) {
+/// What is not of the division, relative to the square of the patches' values as all else. One
+/// error is not as large as errors are on average: its square scatters by 2 / parts.
+struct OtherError {
+    double square = 0, scatter = 0;
+};
+
+/// `rounds`: of all of the error. The square of the light itself is larger by that of the error.
+void set_error(DivisionError& result, const Rounds& rounds, const OtherError& other) {
     const auto relative = [](double square) { return std::sqrt(square / (1 + square)); };
-    const double square = std::max(rounds.mean() - known, 0.0);
+    const double square = std::max(rounds.mean() - other.square, 0.0);
+    const double sigma = std::hypot(rounds.uncertainty(), other.scatter);
     result.error = relative(square);
     // The root's, where it is well known; else how large it may be.
-    result.uncertainty = relative(square + rounds.uncertainty()) - result.error;
+    result.uncertainty = relative(square + sigma) - result.error;
 }
 
 } // namespace
@@ -115,6 +121,7 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
         return result;
     FinalGather gather(mesh, tracer, solution.radiosity);
     const double known = seen_variance(mesh, solution) / size;
+    const double parts = std::max(error_spread(mesh, solution).parts, 1.0);
     Rounds rounds;
     while (rounds.count < least_rounds || gather.rays() < options.most_rays) {
         const double product = product_over_surface(
@@ -127,7 +134,7 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
         if (rounds.count >= least_rounds && rounds.uncertainty() <= enough)
             break;
     }
-    set_error(result, rounds, known);
+    set_error(result, rounds, {known, known * std::sqrt(2 / parts)});
     result.points = rounds.count * points_per_round;
     result.rays = gather.rays();
     return result;
@@ -172,7 +179,7 @@ PatchErrors patch_errors(const Mesh& mesh, const Tracer& tracer, const Solution&
     Rounds rounds;
     for (const double sum : of_round)
         rounds.add(sum);
-    set_error(errors.whole, rounds, 0);
+    set_error(errors.whole, rounds, {});
     errors.whole.points = points.size();
     errors.whole.rays = gather.rays();
     return errors;
