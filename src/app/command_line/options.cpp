@@ -284,7 +284,7 @@ CLI::App* add_compare_command(CLI::App& program, CompareSettings& settings) {
     add_budget_options(*app, settings);
     add_reference_options(*app, settings);
     add_text(*app, "-o,--output", "DIR", settings.folder,
-             "folder, made where it is not there: error.csv, error.svg, error.png, reference.csv, "
+             "folder, made where it is not there: error.csv, error.svg, reference.csv, "
              "reference.png and two pictures per method")
         ->required()
         ->group(output_group);
