@@ -4,6 +4,7 @@
 #include "geometry/form_factor.h"
 #include "geometry/frame.h"
 #include "geometry/projected_polygon.h"
+#include "support/closed_forms.h"
 #include "support/directions.h"
 #include "support/statistics.h"
 

@@ -5,6 +5,7 @@
 #include "radiosity/form_factors/matrix_quality.h"
 #include "radiosity/linear/gmres.h"
 #include "radiosity/sampling/rng.h"
+#include "support/closed_forms.h"
 #include "support/directions.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -12,6 +13,7 @@
 #include <catch2/catch.hpp>
 
 using namespace hemilux;
+using test::perpendicular_rectangles;
 
 namespace {
 

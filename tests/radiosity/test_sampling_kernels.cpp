@@ -5,7 +5,7 @@
 #include "radiosity/sampling/matrix_kernels.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sampling_kernels.h"
-#include "radiosity/sampling/sobol.h"
+#include "support/sobol.h"
 
 #include <catch2/catch.hpp>
 
@@ -17,6 +17,7 @@
 #include <vector>
 
 using namespace hemilux;
+using test::sobol4;
 
 namespace {
 

@@ -2,7 +2,7 @@
 // than random numbers do.
 
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/sobol.h"
+#include "support/sobol.h"
 #include "support/statistics.h"
 
 #include <catch2/catch.hpp>

@@ -2,8 +2,8 @@
 // passes, and all light of the other room does. The wall is a sheet with a face for each room.
 #include "geometry/horizon_clip.h"
 #include "radiosity/form_factors/exchange_area.h"
-#include "radiosity/sampling/sobol.h"
 #include "support/scenes.h"
+#include "support/sobol.h"
 #include "support/solve.h"
 
 #include <catch2/catch.hpp>
@@ -13,6 +13,7 @@
 using namespace hemilux;
 using test::add_quad;
 using test::Model;
+using test::sobol4;
 
 namespace {
 
