@@ -64,10 +64,7 @@ class Inside {
     [[nodiscard]] Ray cosine_ray(Rng& rng) const {
         const std::uint32_t from = any_patch(rng);
         const Patch& patch = mesh_.patches()[from];
-        Ray ray{sample_uniform(PolygonSampler(patch.shape), rng),
-                mesh_.hemisphere_frame(from).to_world(sample_cosine(rng))};
-        ray.from = patch.facet;
-        return ray;
+        return cosine_ray(patch, PolygonSampler(patch.shape), mesh_.hemisphere_frame(from), rng);
     }
 
     /// At a vertex, or a point between two. Not along the patch's own plane: the point that the ray

@@ -96,9 +96,8 @@ std::vector<bool> lit_patches(const Mesh& mesh, std::span<const Vec3> radiosity)
 
 /// Surfaces that look alike: of one material and turned to one side.
 std::uint64_t kind_of(const Patch& patch) {
-    const Vec3 size = glm::abs(patch.normal);
-    const unsigned axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    return std::uint64_t{patch.material} * 6 + 2 * axis + (patch.normal[int(axis)] > 0);
+    const int axis = largest_axis(patch.normal), side = 2 * axis + (patch.normal[axis] > 0);
+    return std::uint64_t{patch.material} * 6 + static_cast<std::uint64_t>(side);
 }
 
 /// How much of the picture shows lit fronts, how many kinds of them, and how far the near ones are.
