@@ -53,7 +53,7 @@ class Report {
     }
     void print_means() const {
         std::printf("\n%-12s %8s %8s\n", "work", "mean", "worst");
-        for (const char* work : {"independent", "bundle1024", "bundle64", "count", "build"}) {
+        for (const char* work : {"independent", "count", "build"}) {
             double sum = 0, worst = INFINITY;
             int n = 0;
             for (const Row& row : rows_)
@@ -106,13 +106,8 @@ class Course {
         const RaySet many = make_rays(mesh_, 1024, settings_.rays);
         if (wanted("independent"))
             independent(many);
-        if (wanted("bundle1024"))
-            bundles("bundle1024", 1024, many);
-        const RaySet few = make_rays(mesh_, 64, settings_.rays);
-        if (wanted("bundle64"))
-            bundles("bundle64", 64, few);
         if (wanted("count"))
-            count(few);
+            count(make_rays(mesh_, 64, settings_.rays));
         if (wanted("agreement"))
             agreement(many);
     }
@@ -149,49 +144,30 @@ class Course {
             {name_, "build", 0, millions(n, ours), theirs < 1e300 ? millions(n, theirs) : 0});
     }
 
+    /// Against Embree's single rays.
     void independent(const RaySet& set) const {
         std::vector<Struck> struck(set.shuffled.size());
-        race("independent", 1024, set, [&] { bvh_->closest_stream(set.shuffled, struck); });
-    }
-
-    void bundles(const char* work, std::size_t per_patch, const RaySet& set) const {
-        std::vector<Struck> struck(per_patch);
-        race(work, per_patch, set, [&] {
-            for (const Bundle& bundle : set.bundles)
-                bvh_->closest_bundle(bundle, struck);
-        });
-    }
-
-    /// Against Embree's single rays in random order.
-    template <class Ours>
-    void race(const char* work, std::size_t per_patch, const RaySet& set, const Ours& ours) const {
-        std::vector<std::function<void()>> entrants{ours};
+        std::vector<std::function<void()>> entrants{
+            [&] { bvh_->closest_stream(set.shuffled, struck); }};
 #if defined(HEMILUX_EMBREE)
-        std::vector<std::uint32_t> struck(set.shuffled.size());
-        entrants.push_back([&] { embree_closest(*embree_, set.shuffled, struck); });
+        std::vector<std::uint32_t> theirs(set.shuffled.size());
+        entrants.push_back([&] { embree_closest(*embree_, set.shuffled, theirs); });
 #endif
         const auto seconds = contest(entrants, settings_.rounds);
         const std::size_t n = set.shuffled.size();
-        report_.add({name_, work, per_patch, millions(n, seconds[0]),
+        report_.add({name_, "independent", 1024, millions(n, seconds[0]),
                      seconds.size() > 1 ? millions(n, seconds[1]) : 0});
     }
 
     void count(const RaySet& set) const {
-        std::vector<std::uint32_t> pierced(set.shuffled.size());
+        const std::vector<Ray>& sorted = set.sorted;
+        std::vector<std::uint32_t> pierced(sorted.size());
         std::vector<std::function<void()>> entrants{[&] {
-            std::size_t at = 0;
-            for (const Bundle& bundle : set.bundles) {
-                const std::size_t n = bundle.directions.size();
-                bvh_->count_bundle(bundle, std::span(pierced).subspan(at, n));
-                at += n;
-            }
+            for (std::size_t k = 0; k < sorted.size(); ++k)
+                pierced[k] = bvh_->count(sorted[k]);
         }};
 #if defined(HEMILUX_EMBREE)
         const EmbreeScene counting(soup_, false, counting_filter);
-        std::vector<Ray> sorted;
-        for (const Bundle& bundle : set.bundles)
-            for (std::size_t k = 0; k < bundle.directions.size(); ++k)
-                sorted.push_back(bundle.ray(k));
         std::vector<std::uint32_t> theirs(sorted.size());
         for (const CountBy by : {CountBy::intersect1, CountBy::occluded1, CountBy::intersect16})
             entrants.push_back([&, by] { embree_count(counting, by, sorted, theirs); });

@@ -49,7 +49,7 @@ Direction sample(Rng& rng, int bits) {
     return {{x, y, std::sqrt(std::max(0.0, 1 - x * x - y * y))}, morton({s, t}, bits)};
 }
 
-void add_bundle(const Mesh& mesh, std::uint32_t index, std::size_t count, Rng& rng, RaySet& set) {
+void add_patch(const Mesh& mesh, std::uint32_t index, std::size_t count, Rng& rng, RaySet& set) {
     const Patch& patch = mesh.patches()[index];
     const Frame frame = mesh.hemisphere_frame(index);
     const int bits = count >= 1024 ? 5 : 3;
@@ -58,10 +58,11 @@ void add_bundle(const Mesh& mesh, std::uint32_t index, std::size_t count, Rng& r
         directions.push_back(sample(rng, bits));
     std::stable_sort(directions.begin(), directions.end(),
                      [](const Direction& a, const Direction& b) { return a.cell < b.cell; });
-    for (const Direction& d : directions)
-        set.directions.push_back(frame.to_world(d.local));
     const double u = rng.uniform(), v = rng.uniform();
-    set.bundles.push_back({patch.shape.sample({u, v}), patch.facet, {}});
+    const Vec3 origin = patch.shape.sample({u, v});
+    for (const Direction& d : directions)
+        set.sorted.push_back(
+            {.origin = origin, .direction = frame.to_world(d.local), .from = patch.facet});
 }
 
 } // namespace
@@ -76,18 +77,12 @@ RaySet make_rays(const Mesh& mesh, std::size_t per_patch, std::size_t total) {
     Rng rng(1);
     for (std::size_t r = 0; r < runs; ++r)
         for (std::size_t k = 0; k < length; ++k)
-            add_bundle(mesh, order[(r * order.size() / runs + k) % order.size()], per_patch, rng,
-                       set);
-    for (std::size_t b = 0; b < set.bundles.size(); ++b) {
-        set.bundles[b].directions = std::span(set.directions).subspan(b * per_patch, per_patch);
-        for (std::size_t k = 0; k < per_patch; ++k)
-            set.origin.push_back(static_cast<std::uint32_t>(b * per_patch + k));
-    }
-    for (std::size_t k = set.origin.size(); k > 1; --k)
-        std::swap(set.origin[k - 1],
-                  set.origin[static_cast<std::size_t>(rng.uniform() * double(k))]);
-    for (const std::uint32_t k : set.origin)
-        set.shuffled.push_back(set.bundles[k / per_patch].ray(k % per_patch));
+            add_patch(mesh, order[(r * order.size() / runs + k) % order.size()], per_patch, rng,
+                      set);
+    set.shuffled = set.sorted;
+    for (std::size_t k = set.shuffled.size(); k > 1; --k)
+        std::swap(set.shuffled[k - 1],
+                  set.shuffled[static_cast<std::size_t>(rng.uniform() * double(k))]);
     return set;
 }
 

@@ -10,10 +10,8 @@
 namespace hemilux::bench {
 
 struct RaySet {
-    std::vector<Vec3> directions; ///< all bundles one after the other
-    std::vector<Bundle> bundles;
-    std::vector<Ray> shuffled;         ///< the same rays in random order
-    std::vector<std::uint32_t> origin; ///< shuffled[k] is ray origin[k] of the bundles
+    std::vector<Ray> sorted;   ///< patch by patch, those of a patch by cell
+    std::vector<Ray> shuffled; ///< the same rays in random order
 };
 
 /// About `total` rays. The patches are taken from runs of neighbours, as if all were visited.

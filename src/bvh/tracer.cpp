@@ -10,16 +10,6 @@ Struck struck_by(const Tracer& tracer, const Ray& ray) {
 
 } // namespace
 
-void Tracer::closest_bundle(const Bundle& bundle, std::span<Struck> out) const {
-    for (std::size_t k = 0; k < bundle.directions.size(); ++k)
-        out[k] = struck_by(*this, bundle.ray(k));
-}
-
-void Tracer::count_bundle(const Bundle& bundle, std::span<std::uint32_t> out) const {
-    for (std::size_t k = 0; k < bundle.directions.size(); ++k)
-        out[k] = count(bundle.ray(k));
-}
-
 void Tracer::closest_stream(std::span<const Ray> rays, std::span<Struck> out) const {
     for (std::size_t k = 0; k < rays.size(); ++k)
         out[k] = struck_by(*this, rays[k]);

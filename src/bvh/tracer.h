@@ -47,20 +47,6 @@ struct Struck {
     bool front = false;
 };
 
-/// Rays that share their origin, on one facet. They are traced fastest when neighbours in
-/// `directions` point about the same way, in runs of 16 or more.
-struct Bundle {
-    Vec3 origin;
-    std::uint32_t from = none;
-    std::span<const Vec3> directions;
-
-    [[nodiscard]] Ray ray(std::size_t k) const {
-        Ray ray{origin, directions[k]};
-        ray.from = from;
-        return ray;
-    }
-};
-
 class Tracer {
   public:
     virtual ~Tracer() = default;
@@ -75,8 +61,6 @@ class Tracer {
     // The same questions about many rays at once, with the same answers: out[k] is that of ray k.
     // By default they are asked one by one.
 
-    virtual void closest_bundle(const Bundle& bundle, std::span<Struck> out) const;
-    virtual void count_bundle(const Bundle& bundle, std::span<std::uint32_t> out) const;
     /// Rays that have nothing in common.
     virtual void closest_stream(std::span<const Ray> rays, std::span<Struck> out) const;
     /// out[k] != 0: something but targets[k] lies on ray k.

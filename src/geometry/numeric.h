@@ -1,16 +1,12 @@
 #pragma once
 // Small numerical helpers with a name for each hazard they avoid.
 
-#include <algorithm>
 #include <cmath>
 
 namespace hemilux {
 
 /// sqrt that takes a rounding error below zero as zero. A NaN stays a NaN.
 [[nodiscard]] inline double safe_sqrt(double x) { return x < 0 ? 0.0 : std::sqrt(x); }
-
-/// acos whose argument may be beyond +-1 by a rounding error.
-[[nodiscard]] inline double safe_acos(double x) { return std::acos(std::clamp(x, -1.0, 1.0)); }
 
 /// a b - c d with an error below 1.5 ulp and, short of underflow, the right sign
 /// (Jeannerod, Louvet and Muller 2013, Kahan's algorithm).

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace hemilux {
 
@@ -31,5 +32,12 @@ struct Polygon {
     /// The same polygon seen from behind.
     [[nodiscard]] Polygon flipped() const;
 };
+
+/// That of a facet, by the indices of its corners.
+[[nodiscard]] inline Polygon polygon_of(std::span<const Vec3> vertices,
+                                        const std::array<std::uint32_t, 4>& corners) {
+    return {
+        {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]], vertices[corners[3]]}};
+}
 
 } // namespace hemilux

@@ -56,7 +56,7 @@ void check_fails(const Workplace& place, int code, const std::string& arguments,
 
 } // namespace
 
-TEST_CASE("a comparison leaves a log, charts, pictures and a table") {
+TEST_CASE("a comparison leaves a log, a chart, pictures and a table") {
     const Workplace place;
     place.write_room();
     const auto outcome =
@@ -65,7 +65,7 @@ TEST_CASE("a comparison leaves a log, charts, pictures and a table") {
                       quick);
     REQUIRE(outcome.code == 0);
     for (const char* file :
-         {"error.csv", "error.svg", "error.png", "reference.csv", "reference.png", "hemisphere.png",
+         {"error.csv", "error.svg", "reference.csv", "reference.png", "hemisphere.png",
           "hemisphere_difference.png", "progressive-monte-carlo.png",
           "progressive-monte-carlo_difference.png"}) {
         CHECK(place.has(std::string("deep/compared/") + file));

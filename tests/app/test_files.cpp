@@ -68,7 +68,7 @@ TEST_CASE("an output that is the scene, a library or a texture by another name i
     fs::create_directory(place.path("compared"));
     link(place, "../room.mtl", "compared/error.svg");
     check_refused(place, "compare room.obj -o compared", "compared/error.svg", "room.mtl");
-    fs::create_directories(place.path("full/error.png"));
+    fs::create_directories(place.path("full/reference.png"));
     CHECK(place.hemilux("compare none.obj -o full").code == 3); // before the scene is read
     CHECK(place.read("wood.png") == "a texture");
     CHECK_FALSE(place.has("a.csv"));
@@ -254,7 +254,7 @@ TEST_CASE("a signal ends the rendering of a picture and leaves the other outputs
         std::pair("density room.obj -o a.svg -o huge.png", "a.svg"),
         std::pair("compare room.obj -o huge --methods stratified --runs 1 "
                   "--budget-rays 1e4 --reference-error .1",
-                  "huge/error.png"));
+                  "huge/error.svg"));
     CAPTURE(command);
     Running run(place, std::string(command) + " --threads 1 --size 4096x4096 >table.txt",
                 place.path("talk.txt").c_str());

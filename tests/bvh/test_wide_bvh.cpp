@@ -129,43 +129,6 @@ void check_streams(const WideBvh& bvh, const std::vector<Ray>& rays) {
     CHECK(occluded_differ == 0);
 }
 
-/// Bundles of the same rays ask the same as rays one by one.
-void check_bundles(const WideBvh& bvh, const Soup& soup, std::size_t bundles) {
-    Rng rng(5);
-    int closest_differ = 0, count_differ = 0;
-    for (std::size_t b = 0; b < bundles; ++b) {
-        // Wide and narrow bundles, full and rest packets, from vertices, from facets, from outside.
-        const std::size_t n = 1 + b * 7 % 70;
-        const double spread = std::pow(10.0, -double(b % 4));
-        const Vec3 axis = point_within(rng, 1);
-        std::vector<Vec3> directions;
-        for (std::size_t k = 0; k < n; ++k)
-            directions.push_back(glm::normalize(axis + point_within(rng, spread)));
-        Bundle bundle{point_within(rng, b % 5 == 0 ? 2 : .9), none, directions};
-        if (b % 3 == 0)
-            bundle.from = static_cast<std::uint32_t>(b % soup.facets.size());
-        if (b % 4 == 0) {
-            const auto v = soup.vertices[b % soup.vertices.size()];
-            directions[0] = glm::normalize(v - bundle.origin);
-            directions[n / 2] = {0, 0, 1};
-        }
-        if (b % 11 == 0)
-            directions[0] *= 100.0;
-        if (b % 13 == 0)
-            bundle.origin = soup.vertices[b % soup.vertices.size()];
-        std::vector<Struck> struck(n);
-        std::vector<std::uint32_t> counts(n);
-        bvh.closest_bundle(bundle, struck);
-        bvh.count_bundle(bundle, counts);
-        for (std::size_t k = 0; k < n; ++k) {
-            closest_differ += !same(bvh.closest(bundle.ray(k)), struck[k]);
-            count_differ += bvh.count(bundle.ray(k)) != counts[k];
-        }
-    }
-    CHECK(closest_differ == 0);
-    CHECK(count_differ == 0);
-}
-
 void check_soup(const Soup& soup, std::size_t rays, bool hierarchy = true) {
     const BruteForce referee(soup.view());
     for (const wide::Kernels* kernels : wide::available_kernels()) {
@@ -174,7 +137,6 @@ void check_soup(const Soup& soup, std::size_t rays, bool hierarchy = true) {
         CAPTURE(kernels->name, soup.facets.size());
         check_answers(wide_bvh, referee, rays_for(soup, rays, 99));
         check_streams(wide_bvh, rays_for(soup, rays / 2, 98));
-        check_bundles(wide_bvh, soup, rays / 20);
     }
 }
 
@@ -185,7 +147,7 @@ TEST_CASE("The wide tree answers as brute force does") {
         check_soup(test::random_soup(facets, facets), 2000);
 }
 
-TEST_CASE("Trees too large for the cache, where rays leave their packets, answer the same") {
+TEST_CASE("Trees too large for the cache answer the same") {
     const Soup soup = test::random_soup(20'000, 3);
     const BruteForce referee(soup.view());
     for (const wide::Kernels* kernels : wide::available_kernels()) {
@@ -193,7 +155,6 @@ TEST_CASE("Trees too large for the cache, where rays leave their packets, answer
         REQUIRE(wide_bvh.quality().bytes > 1 << 20);
         CAPTURE(kernels->name);
         check_streams(wide_bvh, rays_for(soup, 2000, 98));
-        check_bundles(wide_bvh, soup, 300);
         check_answers(wide_bvh, referee, rays_for(soup, 100, 97));
     }
 }

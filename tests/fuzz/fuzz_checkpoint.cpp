@@ -5,10 +5,10 @@
 #include "bvh/brute_force.h"
 #include "io/files/error.h"
 #include "io/results/checkpoint.h"
-#include "io/results/checksum.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solver.h"
+#include "sealed.h"
 
 #include <cstdlib>
 #include <memory>
@@ -17,6 +17,7 @@
 namespace {
 
 using namespace hemilux;
+using fuzz::sealed;
 
 Scene one_triangle() {
     Scene scene;
@@ -25,16 +26,6 @@ Scene one_triangle() {
     scene.groups = {"default"};
     scene.facets = {{{0, 1, 2, 2}, 0, 0, 0}};
     return scene;
-}
-
-std::string sealed(std::string_view content) {
-    StateWriter length, sum;
-    length.add(std::uint64_t{content.size()});
-    std::string bytes = "hemilux checkpoint, format 5\n" + length.bytes() + std::string(content);
-    Checksum checksum;
-    checksum.add(bytes);
-    sum.add(checksum.value());
-    return bytes + sum.bytes();
 }
 
 /// A solver of each kind. They are made once: a state replaces all of the one before.

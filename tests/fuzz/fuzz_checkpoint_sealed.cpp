@@ -4,11 +4,11 @@
 #include "bvh/brute_force.h"
 #include "io/files/error.h"
 #include "io/results/checkpoint.h"
-#include "io/results/checksum.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/solver.h"
+#include "sealed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,7 @@
 namespace {
 
 using namespace hemilux;
+using fuzz::sealed;
 
 /// That of corpus/obj/facing.obj, with everything emitting.
 Scene facing_triangles() {
@@ -27,16 +28,6 @@ Scene facing_triangles() {
     scene.facets = {{{0, 1, 2, 2}, 0, 0, 0}, {{3, 4, 5, 5}, 1, 0, 0}};
     scene.faces = 2;
     return scene;
-}
-
-std::string sealed(std::string_view content) {
-    StateWriter length, sum;
-    length.add(std::uint64_t{content.size()});
-    std::string bytes = "hemilux checkpoint, format 5\n" + length.bytes() + std::string(content);
-    Checksum checksum;
-    checksum.add(bytes);
-    sum.add(checksum.value());
-    return bytes + sum.bytes();
 }
 
 /// The content of a whole file, however wrong its length and checksum are.

@@ -5,6 +5,7 @@
 #include "geometry/frame.h"
 #include "geometry/projected_polygon.h"
 #include "support/catch.h"
+#include "support/closed_forms.h"
 #include "support/directions.h"
 #include "support/statistics.h"
 

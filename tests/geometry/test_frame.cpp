@@ -44,7 +44,6 @@ TEST_CASE("frames of all normals are right-handed and orthonormal") {
 TEST_CASE("numerical helpers") {
     CHECK(safe_sqrt(-1e-17) == 0);
     CHECK(std::isnan(safe_sqrt(std::numeric_limits<double>::quiet_NaN())));
-    CHECK(safe_acos(1 + 1e-15) == 0);
     // (1 + e)(1 - e) - 1 = -e^2 is lost without the fused error term.
     const double e = 0x1p-30;
     CHECK(difference_of_products(1 + e, 1 - e, 1, 1) == -e * e);

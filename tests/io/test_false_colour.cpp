@@ -95,6 +95,12 @@ TEST_CASE("the picture has each difference's colour, and a bar below it") {
     check(image.at(0, 0), diverging_colour(-1));
     check(image.at(1, 1), diverging_colour(DifferenceScale{0.1, 0.1}.place(0.05)));
     check(image.at(30, 10), {255, 255, 255});
+    int letters = 0; // black pixels where the numbers stand
+    for (int y = 44; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            letters += shown(image.at(x, y)) == glm::ivec3(0);
+    CHECK(letters > 20);
+    CHECK(letters < 800);
     const glm::ivec3 left = shown(image.at(5, 30)), right = shown(image.at(54, 30));
     CHECK(left.b > left.r);
     CHECK(right.r > right.b);

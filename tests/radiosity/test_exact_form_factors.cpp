@@ -6,11 +6,13 @@
 #include "radiosity/linear/gmres.h"
 #include "radiosity/sampling/rng.h"
 #include "support/catch.h"
+#include "support/closed_forms.h"
 #include "support/directions.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
 using namespace hemilux;
+using test::perpendicular_rectangles;
 
 namespace {
 

@@ -7,6 +7,8 @@
 #include "radiosity/sampling/sampling_kernels.h"
 #include "radiosity/sampling/sobol.h"
 #include "support/catch.h"
+#include "support/sobol.h"
+
 
 #include <algorithm>
 #include <array>
@@ -16,6 +18,7 @@
 #include <vector>
 
 using namespace hemilux;
+using test::sobol4;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
 #include "support/catch.h"
+#include "support/sobol.h"
 #include "support/statistics.h"
 
 #include <algorithm>

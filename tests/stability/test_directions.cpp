@@ -86,21 +86,6 @@ std::vector<Told> ask_stream(const Tracer& tracer, const std::vector<Ray>& rays)
     return told;
 }
 
-std::vector<Told> ask_bundle(const Tracer& tracer, const std::vector<Ray>& rays) {
-    std::vector<Vec3> directions;
-    for (const Ray& ray : rays)
-        directions.push_back(ray.direction);
-    const Bundle bundle{rays[0].origin, rays[0].from, directions};
-    std::vector<Struck> struck(rays.size());
-    std::vector<std::uint32_t> count(rays.size());
-    tracer.closest_bundle(bundle, struck);
-    tracer.count_bundle(bundle, count);
-    std::vector<Told> told;
-    for (std::size_t k = 0; k < rays.size(); ++k)
-        told.push_back({struck[k].facet, count[k], struck[k].front, struck[k].facet != none});
-    return told;
-}
-
 /// All answers to rays from one origin, which are the same whoever is asked and how.
 std::vector<Told> ask_all(const Closed& room, const std::vector<Ray>& rays) {
     std::vector<Told> right;
@@ -112,7 +97,6 @@ std::vector<Told> ask_all(const Closed& room, const std::vector<Ray>& rays) {
             single.push_back(ask_one(*tracer, ray));
         CHECK((single == right));
         CHECK((ask_stream(*tracer, rays) == right));
-        CHECK((ask_bundle(*tracer, rays) == right));
     }
     return right;
 }
@@ -129,7 +113,7 @@ void check_inside(const Closed& room, const std::vector<Ray>& rays) {
     CHECK(wrong_counts == 0);
 }
 
-/// As they are, and of unit length, which bundles take another way with.
+/// As they are, or of unit length.
 std::vector<Ray> aimed(const Vec3& origin, const std::vector<Vec3>& points, bool unit,
                        std::uint32_t from = none) {
     std::vector<Ray> rays;
@@ -261,11 +245,8 @@ TEST_CASE("Rays that are none strike nothing") {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (const Vec3& bad : {Vec3(0.0), Vec3(nan, 0, 1), Vec3(0, infinity, 1), Vec3(nan)}) {
         const std::vector<Ray> rays(3, Ray{Vec3(0.0), bad});
-        for (const Tracer* const tracer : box().tracers()) {
+        for (const Tracer* const tracer : box().tracers())
             for (const Told& told : ask_stream(*tracer, rays))
                 CHECK((told == Told{none, 0, false, false}));
-            for (const Told& told : ask_bundle(*tracer, rays))
-                CHECK((told == Told{none, 0, false, false}));
-        }
     }
 }

@@ -2,6 +2,7 @@
 // made of, what must hold for all of them, and walks from patch to patch that know nothing of it.
 #include "geometry/form_factor.h"
 #include "support/catch.h"
+#include "support/closed_forms.h"
 #include "support/families/builders.h"
 #include "support/families/gauss_rule.h"
 #include "support/families/reliability.h"

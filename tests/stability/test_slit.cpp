@@ -5,6 +5,7 @@
 #include "radiosity/sampling/sobol.h"
 #include "support/catch.h"
 #include "support/scenes.h"
+#include "support/sobol.h"
 #include "support/solve.h"
 
 #include <numbers>
@@ -12,6 +13,7 @@
 using namespace hemilux;
 using test::add_quad;
 using test::Model;
+using test::sobol4;
 
 namespace {
 

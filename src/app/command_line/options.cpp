@@ -363,7 +363,7 @@ Command add_compare_command(Arguments& program, CompareSettings& settings) {
     command
         .add_text(
             "-o,--output", "DIR", settings.folder,
-            "folder, made where it is not there: error.csv, error.svg, error.png, reference.csv, "
+            "folder, made where it is not there: error.csv, error.svg, reference.csv, "
             "reference.png and two pictures per method")
         .required()
         .group(output_group);

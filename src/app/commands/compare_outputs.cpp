@@ -56,12 +56,10 @@ Chart chart_of(const Contest& contest, std::span<const MethodSummary> summaries)
     return chart;
 }
 
-void write_charts(const Contest& contest, std::span<const MethodSummary> summaries,
-                  WriteReport& report) {
-    const Chart chart = chart_of(contest, summaries);
-    const std::string svg = path_in(contest, "error.svg"), png = path_in(contest, "error.png");
-    report.attempt(svg, [&] { write_atomically(svg, chart_svg(chart)); });
-    report.attempt(png, [&] { write_png(png, chart_image(chart), 1); });
+void write_chart(const Contest& contest, std::span<const MethodSummary> summaries,
+                 WriteReport& report) {
+    const std::string path = path_in(contest, "error.svg");
+    report.attempt(path, [&] { write_atomically(path, chart_svg(chart_of(contest, summaries))); });
 }
 
 void write_pictures(const Contest& contest, std::span<const MethodRuns> results,
@@ -108,7 +106,7 @@ void make_folder(const std::string& folder) {
 }
 
 RunFiles check_files(const CompareSettings& settings) {
-    std::vector<std::string> names{"error.csv", "error.svg", "error.png", "reference.png"};
+    std::vector<std::string> names{"error.csv", "error.svg", "reference.png"};
     for (const Entrant& entrant : settings.entrants)
         for (const char* const end : {".png", "_difference.png"})
             names.push_back(entrant.name + end);
@@ -129,7 +127,7 @@ WriteReport write_comparison(const Contest& contest, std::span<const MethodRuns>
     WriteReport report;
     const std::string log = path_in(contest, "error.csv");
     report.attempt(log, [&] { write_steps_log(log, all_rows(results)); });
-    write_charts(contest, summaries, report);
+    write_chart(contest, summaries, report);
     try {
         write_pictures(contest, results, report);
     } catch (const Interrupted&) {

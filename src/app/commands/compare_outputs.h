@@ -18,7 +18,7 @@ void make_folder(const std::string& folder);
 /// where a file cannot be made, InputError where one cannot be read.
 [[nodiscard]] RunFiles check_files(const CompareSettings& settings);
 
-/// error.csv, error.svg, error.png, reference.png, and METHOD.png with METHOD_difference.png from
+/// error.csv, error.svg, reference.png, and METHOD.png with METHOD_difference.png from
 /// the first run of each method. All pictures have one camera and one exposure, all differences one
 /// scale.
 [[nodiscard]] WriteReport write_comparison(const Contest& contest,

@@ -221,8 +221,10 @@ int solve(const SolveSettings& settings) {
     WriteReport of_run = step_pictures.report();
     of_run.add(checkpointer.report());
     const bool interrupted = !completed && !fault;
+    SolveSettings shown = settings; // the last picture has the view of those before
+    shown.view.camera = step_pictures.camera();
     const int code =
-        finish(settings, {mesh, *tracer, solver->solution(), statistics, rows, monitor.interrupted},
+        finish(shown, {mesh, *tracer, solver->solution(), statistics, rows, monitor.interrupted},
                of_run, reference, notes, interrupted);
     if (interrupted)
         end_at_once(code);

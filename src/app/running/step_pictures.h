@@ -27,6 +27,8 @@ class StepPictures {
     /// Nothing more after the first failure, or once a picture was interrupted.
     void write(std::span<const Vec3> radiosity, std::uint32_t step);
 
+    /// That of all steps, once it is known.
+    [[nodiscard]] const std::optional<Camera>& camera() const { return view_.camera; }
     /// What was written and what failed.
     [[nodiscard]] const WriteReport& report() const { return report_; }
 

@@ -17,20 +17,15 @@ using wide::flag;
 using wide::FloatRay;
 using wide::Nearest;
 
-/// What the judge needs to decide in doubles: rays of a stream, or of a bundle from `first` on.
+/// What the judge needs to decide in doubles.
 struct Query {
     const FacetSoup& soup;
     std::span<const Ray> rays;
-    std::span<const FloatRay> scaled; ///< of a bundle: one for all
-    const Bundle* bundle = nullptr;
-    std::size_t first = 0;
-
-    [[nodiscard]] Ray ray(unsigned k) const { return bundle ? bundle->ray(first + k) : rays[k]; }
-    [[nodiscard]] const FloatRay& scale(unsigned k) const { return scaled[bundle ? 0 : k]; }
+    std::span<const FloatRay> scaled;
 
     template <EdgeRule rule>
     bool hit(unsigned k, std::uint32_t facet, double t_max, Hit& hit) const {
-        const Ray ray = this->ray(k);
+        const Ray& ray = rays[k];
         const ShearedRay sheared(ray.origin, ray.direction);
         hit.facet = facet;
         return hit_facet<rule>(soup.vertices, soup.facets[facet], sheared, ray.t_min, t_max, hit);
@@ -40,7 +35,7 @@ struct Query {
 /// The nearest so far is worked out again too: this happens so seldom that keeping it costs more.
 void closer(void* context, unsigned k, std::uint32_t slot, Nearest& nearest) {
     const Query& query = *static_cast<const Query*>(context);
-    Hit best{none, query.ray(k).t_max, 0, 0, false, false}, hit{};
+    Hit best{none, query.rays[k].t_max, 0, 0, false, false}, hit{};
     if (nearest.slot != wide::no_facet &&
         query.hit<EdgeRule::inclusive>(k, nearest.slot & ~flag, best.t, hit))
         best = hit;
@@ -48,21 +43,21 @@ void closer(void* context, unsigned k, std::uint32_t slot, Nearest& nearest) {
         comes_before(hit.t, hit.facet, best))
         best = hit;
     if (best.facet != none)
-        nearest = {below(query.scale(k), best.t), above(query.scale(k), best.t), best.facet,
+        nearest = {below(query.scaled[k], best.t), above(query.scaled[k], best.t), best.facet,
                    best.front};
 }
 
 bool struck(void* context, unsigned k, std::uint32_t slot) {
     const Query& query = *static_cast<const Query*>(context);
     Hit hit{};
-    return query.hit<EdgeRule::inclusive>(k, slot & ~flag, query.ray(k).t_max, hit);
+    return query.hit<EdgeRule::inclusive>(k, slot & ~flag, query.rays[k].t_max, hit);
 }
 
 /// The second half of a quad counts only where the first does not: then the quad counts once.
 bool counts(void* context, unsigned k, std::uint32_t slot) {
     const Query& query = *static_cast<const Query*>(context);
     Hit hit{};
-    return query.hit<EdgeRule::half_open>(k, slot & ~flag, query.ray(k).t_max, hit) &&
+    return query.hit<EdgeRule::half_open>(k, slot & ~flag, query.rays[k].t_max, hit) &&
            hit.second_half == ((slot & flag) != 0);
 }
 
@@ -70,26 +65,6 @@ Struck struck_at(const Nearest& nearest) {
     if (nearest.slot == wide::no_facet)
         return {};
     return {nearest.slot & ~flag, nearest.front != 0};
-}
-
-/// The first sixteen of the directions. Empty lanes repeat the first.
-void fill_packet(const FloatRay& shared, std::span<const Vec3> directions, const Nearest& start,
-                 wide::Packet& packet) {
-    const std::size_t n = std::min<std::size_t>(directions.size(), wide::packet_size);
-    std::copy_n(shared.origin, 3, packet.origin);
-    packet.t_min_low = shared.t_min_low;
-    packet.t_min_high = shared.t_min_high;
-    packet.from = shared.from;
-    packet.lanes = (1u << n) - 1;
-    for (std::size_t lane = 0; lane < wide::packet_size; ++lane) {
-        const Vec3& direction = directions[lane < n ? lane : 0];
-        for (unsigned i = 0; i < 3; ++i)
-            packet.direction[i][lane] = static_cast<float>(direction[static_cast<int>(i)]);
-        packet.low[lane] = start.low;
-        packet.high[lane] = start.high;
-        packet.slot[lane] = start.slot;
-        packet.front[lane] = start.front;
-    }
 }
 
 wide::Judge judge(Query& query) { return {&query, closer, struck, counts}; }
@@ -150,12 +125,10 @@ Hit WideBvh::locate(const Ray& ray, std::uint32_t facet) const {
     return hit;
 }
 
-/// The limits were found by measurement (hemilux_bench).
 wide::Tree WideBvh::tree() const {
-    constexpr std::size_t small = 1 << 19, cache = 1 << 21;
-    const std::size_t bytes = built_.quality.bytes;
+    constexpr std::size_t cache = 1 << 21;
     return {built_.nodes.data(), built_.leaves.data(), built_.nodes.size() == 0 ? flag : 0u,
-            bytes < small ? 0u : 5u, bytes > cache};
+            built_.quality.bytes > cache};
 }
 
 Fit WideBvh::fit_ray(const Ray& ray, FloatRay& scaled) const {
@@ -222,50 +195,6 @@ void WideBvh::occluded_stream(std::span<const Ray> rays, std::span<const std::ui
             if (block.fit[k] == Fit::too_far)
                 out[begin + k] = occluded(now[k], targets[begin + k]);
     }
-}
-
-/// Asks the kernels about a bundle, bundle_size rays at a time; false if they cannot take it.
-template <class Done>
-bool WideBvh::for_packets(const Bundle& bundle, BundleKernel kernel, const Nearest& start,
-                          const Done& done) const {
-    FloatRay shared;
-    if (bundle.directions.empty() || fit_ray(bundle.ray(0), shared) != Fit::good ||
-        shared.skipped != 0)
-        return false;
-    shared.per_unit = 1 / space_.size;
-    std::array<wide::Packet, wide::bundle_size / wide::packet_size> packets;
-    Query query{soup_, {}, {&shared, 1}, &bundle, 0};
-    for (std::size_t& first = query.first; first < bundle.directions.size();
-         first += wide::bundle_size) {
-        const auto rays = bundle.directions.subspan(
-            first, std::min<std::size_t>(bundle.directions.size() - first, wide::bundle_size));
-        for (std::size_t k = 0; k < rays.size(); k += wide::packet_size)
-            fill_packet(shared, rays.subspan(k), start, packets[k / wide::packet_size]);
-        if (!kernel(tree(), packets.data(), static_cast<unsigned>(rays.size()), judge(query)))
-            return false;
-        for (std::size_t k = 0; k < rays.size(); ++k)
-            done(first + k, packets[k / wide::packet_size], k % wide::packet_size);
-    }
-    return true;
-}
-
-void WideBvh::closest_bundle(const Bundle& bundle, std::span<Struck> out) const {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    const auto done = [&](std::size_t k, const wide::Packet& packet, std::size_t lane) {
-        out[k] = struck_at({0, 0, packet.slot[lane], packet.front[lane]});
-    };
-    if (!for_packets(bundle, kernels_->closest_bundle, {infinity, infinity, wide::no_facet, 0},
-                     done))
-        Tracer::closest_bundle(bundle, out);
-}
-
-void WideBvh::count_bundle(const Bundle& bundle, std::span<std::uint32_t> out) const {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    const auto done = [&](std::size_t k, const wide::Packet& packet, std::size_t lane) {
-        out[k] = packet.slot[lane];
-    };
-    if (!for_packets(bundle, kernels_->count_bundle, {infinity, infinity, 0, 0}, done))
-        Tracer::count_bundle(bundle, out);
 }
 
 } // namespace hemilux

@@ -25,8 +25,6 @@ class WideBvh final : public Tracer {
     [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override;
     [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target = none) const override;
     [[nodiscard]] std::uint32_t count(const Ray& ray) const override;
-    void closest_bundle(const Bundle& bundle, std::span<Struck> out) const override;
-    void count_bundle(const Bundle& bundle, std::span<std::uint32_t> out) const override;
     void closest_stream(std::span<const Ray> rays, std::span<Struck> out) const override;
     void occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
                          std::span<std::uint8_t> out) const override;
@@ -38,10 +36,6 @@ class WideBvh final : public Tracer {
 
   private:
     struct Block;
-    using BundleKernel = bool (*)(const wide::Tree&, wide::Packet*, unsigned, const wide::Judge&);
-    template <class Done>
-    bool for_packets(const Bundle& bundle, BundleKernel kernel, const wide::Nearest& start,
-                     const Done& done) const;
     [[nodiscard]] wide::Fit fit_ray(const Ray& ray, wide::FloatRay& scaled) const;
     [[nodiscard]] wide::Tree tree() const;
 

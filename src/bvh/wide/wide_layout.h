@@ -40,16 +40,12 @@ struct Tree {
     const Node* nodes;
     const Leaf* leaves;
     std::uint32_t root; ///< 0, a node; or the only leaf
-    /// So many rays of a packet go on alone. In a small tree they have too little to do for that.
-    unsigned few;
     bool large; ///< does not fit the cache of a core, so what is needed next is fetched ahead
 };
 
 /// The deepest tree that the builder makes, and what a depth-first walk through it can pile up.
 inline constexpr unsigned max_depth = 40;
 inline constexpr unsigned stack_size = (width - 1) * max_depth + 1;
-/// Subtrees with which a single ray may begin.
-inline constexpr unsigned most_errands = 24;
 
 /// A ray as the kernels see it: |component of direction| <= 1 and the largest at least 1/2. It
 /// fills a line of the cache.
@@ -66,21 +62,6 @@ struct Nearest {
     float low, high;
     std::uint32_t slot;
     std::uint32_t front;
-};
-
-inline constexpr unsigned packet_size = 16, bundle_size = 256;
-
-/// Rays that share their origin.
-struct alignas(64) Packet {
-    float direction[3][packet_size];
-    float inverse[3][packet_size],
-        offset[3][packet_size]; ///< a plane p is met at p * inverse + offset; set by the kernels
-    float low[packet_size], high[packet_size];           ///< bounds of the nearest distance so far
-    std::uint32_t slot[packet_size], front[packet_size]; ///< of the nearest; slot: also the count
-    float origin[3];
-    float t_min_low, t_min_high;
-    std::uint32_t from;
-    std::uint32_t lanes; ///< those that are rays, a bit each; the others repeat one of them
 };
 
 /// Decides in doubles what the kernels are unsure of. `ray` counts within the query.
@@ -106,10 +87,6 @@ struct Kernels {
     /// t[k] bounds the farthest distance of ray k; blocked[k] becomes 0 or 1.
     void (*occluded_stream)(const Tree&, const FloatRay* rays, unsigned count, const Nearest* t,
                             const std::uint32_t* targets, std::uint8_t* blocked, const Judge&);
-    /// Up to bundle_size rays in packets; the last may have empty lanes. False, and nothing done,
-    /// if a direction is not of about unit length.
-    bool (*closest_bundle)(const Tree&, Packet*, unsigned rays, const Judge&);
-    bool (*count_bundle)(const Tree&, Packet*, unsigned rays, const Judge&);
 };
 
 } // namespace hemilux::wide

@@ -1,9 +1,8 @@
 #pragma once
-// What drawings are made of: filled polygons, lines and text, on SVG or on pixels. Coordinates are
-// pixels from the top left.
+// What drawings are made of: filled polygons, lines and text. Coordinates are pixels from the top
+// left.
 
 #include "geometry/vector.h"
-#include "io/pictures/image.h"
 
 #include <cstdint>
 #include <span>
@@ -54,25 +53,6 @@ class SvgCanvas final : public Canvas {
 
   private:
     std::string body_;
-};
-
-/// Smooth edges come from several samples a pixel. Text is in plain letters; others become `?`.
-class PixelCanvas final : public Canvas {
-  public:
-    /// White.
-    PixelCanvas(int width, int height);
-    void polygon(std::span<const Vec2> corners, Colour fill, double opacity) override;
-    void line(std::span<const Vec2> points, const Stroke& stroke) override;
-    void text(const Vec2& at, std::string_view text, const TextStyle& style) override;
-    /// Linear light, so that write_png with exposure 1 gives the colours that were drawn.
-    [[nodiscard]] Image image() const;
-
-  private:
-    void segment(const Vec2& a, const Vec2& b, const Stroke& stroke);
-    void disc(const Vec2& centre, double radius, Colour fill);
-
-    int width_, height_;          ///< of the picture
-    std::vector<Colour> samples_; ///< row by row
 };
 
 /// A rectangle with the sides of the axes.

@@ -11,10 +11,10 @@ namespace hemilux {
 namespace {
 
 constexpr double text_size = 12;
-constexpr double most_ticks = 8;
 
-/// 1, 2 or 5 times a power of ten, so that at most `most_ticks` steps fit.
+/// 1, 2 or 5 times a power of ten, so that at most eight steps fit.
 double tick_step(double most) {
+    constexpr double most_ticks = 8;
     const double least = most / most_ticks;
     const double decade = std::pow(10.0, std::floor(std::log10(least)));
     for (const double digit : {1.0, 2.0, 5.0})
@@ -24,6 +24,17 @@ double tick_step(double most) {
 }
 
 } // namespace
+
+std::vector<BarMark> round_marks(double most) {
+    if (!(most > 0))
+        return {{0, tick_text(0)}};
+    std::vector<BarMark> marks;
+    const double step = tick_step(most);
+    constexpr double rounding = 1 + 1e-9;
+    for (int i = 0; i * step <= most * rounding; ++i)
+        marks.push_back({i * step / most, tick_text(i * step)});
+    return marks;
+}
 
 Colour heat_colour(double t) {
     static constexpr std::array<Vec3, 5> stops{
@@ -45,13 +56,10 @@ void draw_colour_bar(const ColourBar& bar, Canvas& canvas) {
         fill_box(canvas, {bar.low.x + width * i / cells, bar.low.y}, bar.high,
                  heat_colour((i + 0.5) / cells));
     }
-    const double step = bar.most > 0 ? tick_step(bar.most) : 1;
-    constexpr double rounding = 1 + 1e-9;
-    for (int i = 0; i * step <= bar.most * rounding; ++i) {
-        const double x = bar.low.x + (bar.most > 0 ? width * i * step / bar.most : 0.0);
+    for (const BarMark& mark : round_marks(bar.most)) {
+        const double x = bar.low.x + width * mark.place;
         canvas.line(std::array{Vec2(x, bar.high.y), Vec2(x, bar.high.y + 4)}, {});
-        canvas.text({x, bar.high.y + 16}, tick_text(i * step),
-                    {.anchor = Anchor::middle, .size = text_size});
+        canvas.text({x, bar.high.y + 16}, mark.text, {.anchor = Anchor::middle, .size = text_size});
     }
     canvas.text({(bar.low.x + bar.high.x) / 2, bar.high.y + 33}, bar.caption,
                 {.anchor = Anchor::middle, .size = text_size});

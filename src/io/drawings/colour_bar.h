@@ -10,6 +10,15 @@ namespace hemilux {
 /// From 0 (pale) to 1 (dark), lightness falling all the way; beyond stays at the ends; NaN is grey.
 [[nodiscard]] Colour heat_colour(double t);
 
+/// A number on a bar; place 0 is its left end, 1 its right one.
+struct BarMark {
+    double place;
+    std::string text;
+};
+
+/// 0 and its multiples of 1, 2 or 5 times a power of ten up to `most`, the number at the right end.
+[[nodiscard]] std::vector<BarMark> round_marks(double most);
+
 struct ColourBar {
     Vec2 low, high; ///< corners: top left, bottom right
     double most;    ///< the number at the right end; 0 is at the left

@@ -1,30 +1,10 @@
 #include "io/drawings/density_picture.h"
 
-#include "io/drawings/colour_bar.h"
+#include "io/drawings/picture_bar.h"
 
 #include <algorithm>
 
 namespace hemilux {
-
-namespace {
-
-constexpr int bar_strip = 56; ///< height of what is below the picture
-
-glm::vec3 linear(Colour colour) {
-    const auto channel = [](std::uint8_t byte) {
-        return linear_from_srgb(static_cast<float>(byte) / 255.0f);
-    };
-    return {channel(colour.r), channel(colour.g), channel(colour.b)};
-}
-
-Image bar_picture(int width, double most, const std::string& caption) {
-    PixelCanvas canvas(width, bar_strip);
-    const double half = std::min(0.45 * width, 200.0), middle = width / 2.0;
-    draw_colour_bar({{middle - half, 6}, {middle + half, 18}, most, caption}, canvas);
-    return canvas.image();
-}
-
-} // namespace
 
 Image density_picture(const Mesh& mesh, const Tracer& tracer, std::span<const double> numbers,
                       const std::string& caption, const Camera& camera,
@@ -37,16 +17,13 @@ Image density_picture(const Mesh& mesh, const Tracer& tracer, std::span<const do
     RenderOptions flat = options;
     flat.smooth = false;
     const Image seen = render(mesh, tracer, channels, camera, flat);
-    Image image(options.width, options.height + bar_strip);
+    Image image(options.width, options.height);
     for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
         const float covered = seen.pixels[i].g;
         const double t = covered > 0 ? double(seen.pixels[i].r / covered) : 0;
         image.pixels[i] = glm::mix(glm::vec3(1), linear(heat_colour(t)), covered);
     }
-    const Image bar = bar_picture(options.width, most, caption);
-    std::ranges::copy(bar.pixels,
-                      image.pixels.begin() + static_cast<std::ptrdiff_t>(seen.pixels.size()));
-    return image;
+    return with_bar(image, heat_colour, round_marks(most), caption);
 }
 
 } // namespace hemilux

@@ -1,6 +1,7 @@
 #include "io/drawings/false_colour.h"
 
 #include "io/drawings/log_axis.h"
+#include "io/drawings/picture_bar.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +12,6 @@ namespace hemilux {
 
 namespace {
 
-constexpr int bar_strip = 52; ///< height of what is below the picture
 constexpr double within_scale = 0.99;
 constexpr double least_scale = 1e-6; ///< where pictures do not differ
 
@@ -24,12 +24,6 @@ glm::vec3 along(const Stops& stops, double t) {
     const double place = t * double(stops.size() - 1);
     const auto first = std::min(static_cast<std::size_t>(place), stops.size() - 2);
     return glm::mix(stops[first], stops[first + 1], static_cast<float>(place - double(first)));
-}
-
-glm::vec3 linear(Colour colour) {
-    return {linear_from_srgb(static_cast<float>(colour.r) / 255.0f),
-            linear_from_srgb(static_cast<float>(colour.g) / 255.0f),
-            linear_from_srgb(static_cast<float>(colour.b) / 255.0f)};
 }
 
 /// The smallest 1, 2 or 5 times a power of ten that is not below x.
@@ -55,13 +49,6 @@ double scale_of(const std::vector<float>& difference) {
     return std::max(least_scale, double(sizes[static_cast<std::size_t>(rank)]));
 }
 
-void draw_bar(Canvas& canvas, const Vec2& low, const Vec2& high) {
-    const int cells = static_cast<int>(high.x - low.x);
-    for (int i = 0; i < cells; ++i)
-        fill_box(canvas, {low.x + i, low.y}, {low.x + i + 1, high.y},
-                 diverging_colour(2 * (i + 0.5) / cells - 1));
-}
-
 /// Positive differences to mark on the bar: both ends of the logarithmic part and its middle.
 std::vector<double> marks(const DifferenceScale& scale) {
     if (scale.most < 4 * scale.typical)
@@ -73,26 +60,6 @@ std::vector<double> marks(const DifferenceScale& scale) {
     if (scale.place(scale.typical) > too_near_to_0)
         values.push_back(scale.typical);
     return values;
-}
-
-/// The colour bar with its numbers, in per cent of white.
-Image bar_picture(int width, const DifferenceScale& scale) {
-    PixelCanvas canvas(width, bar_strip);
-    const double half = std::min(0.45 * width, 200.0), middle = width / 2.0;
-    draw_bar(canvas, {middle - half, 6}, {middle + half, 18});
-    const auto mark = [&](double difference, const char* sign) {
-        const std::string text = sign + tick_text(100 * std::abs(difference)) + " %";
-        canvas.text({middle + half * scale.place(difference), 32}, text,
-                    {.anchor = Anchor::middle, .size = 12});
-    };
-    mark(0, "");
-    for (const double difference : marks(scale)) {
-        mark(difference, "+");
-        mark(-difference, "-");
-    }
-    canvas.text({middle, 47}, "luminance minus that of the reference, in per cent of white",
-                {.anchor = Anchor::middle, .size = 12});
-    return canvas.image();
 }
 
 } // namespace
@@ -133,13 +100,19 @@ DifferenceScale common_scale(std::span<const std::vector<float>> differences) {
 
 Image false_colour(const std::vector<float>& difference, int width, int height,
                    const DifferenceScale& scale) {
-    Image image(width, height + bar_strip);
+    Image image(width, height);
     for (std::size_t i = 0; i < difference.size(); ++i)
         image.pixels[i] = linear(diverging_colour(scale.place(double(difference[i]))));
-    const Image bar = bar_picture(width, scale);
-    std::ranges::copy(bar.pixels,
-                      image.pixels.begin() + static_cast<std::ptrdiff_t>(difference.size()));
-    return image;
+    std::vector<BarMark> bar{{0.5, "0 %"}};
+    for (const double d : marks(scale)) {
+        const double offset = scale.place(d) / 2;
+        const std::string number = tick_text(100 * d) + " %";
+        bar.push_back({0.5 + offset, "+" + number});
+        bar.push_back({0.5 - offset, "-" + number});
+    }
+    return with_bar(
+        image, [](double place) { return diverging_colour(2 * place - 1); }, bar,
+        "luminance minus that of the reference, in per cent of white");
 }
 
 } // namespace hemilux

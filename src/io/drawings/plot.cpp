@@ -160,12 +160,10 @@ Colour curve_colour(std::size_t index) {
     return colours[index % colours.size()];
 }
 
-ChartSize chart_size(const Chart& chart) {
-    return {static_cast<int>(panel_left(chart.panels.size()) - between_panels + legend_width),
-            static_cast<int>(top + panel_height + bottom)};
-}
-
-void draw(const Chart& chart, Canvas& canvas) {
+std::string chart_svg(const Chart& chart) {
+    const double panels_end = panel_left(chart.panels.size()) - between_panels;
+    SvgCanvas canvas(static_cast<int>(panels_end + legend_width),
+                     static_cast<int>(top + panel_height + bottom));
     canvas.text({left, 26}, chart.title, {.size = title_text, .colour = ink});
     const LogAxis errors = y_axis(chart);
     for (std::size_t i = 0; i < chart.panels.size(); ++i) {
@@ -174,21 +172,8 @@ void draw(const Chart& chart, Canvas& canvas) {
                    {x_axis(chart.panels[i]), errors, low, low + Vec2(panel_width, panel_height)},
                    canvas);
     }
-    draw_legend(chart, {panel_left(chart.panels.size()) - between_panels + 24, top}, canvas);
-}
-
-std::string chart_svg(const Chart& chart) {
-    const auto [width, height] = chart_size(chart);
-    SvgCanvas canvas(width, height);
-    draw(chart, canvas);
+    draw_legend(chart, {panels_end + 24, top}, canvas);
     return canvas.document();
-}
-
-Image chart_image(const Chart& chart) {
-    const auto [width, height] = chart_size(chart);
-    PixelCanvas canvas(width, height);
-    draw(chart, canvas);
-    return canvas.image();
 }
 
 } // namespace hemilux

@@ -1,6 +1,5 @@
 #pragma once
 // Charts of error against cost: panels side by side with logarithmic axes, the same curves in each.
-// One description gives the drawing on any canvas.
 
 #include "io/drawings/canvas.h"
 #include "io/drawings/error_curves.h"
@@ -25,20 +24,11 @@ struct Chart {
     std::string guide_name = "slope -1/2";
 };
 
-/// Pixels that the chart needs.
-struct ChartSize {
-    int width, height;
-};
-[[nodiscard]] ChartSize chart_size(const Chart& chart);
-
-/// Curves with the range of their runs as a light band, ticks, labels, legend.
-void draw(const Chart& chart, Canvas& canvas);
-
 /// The colour of a curve by its place among the names.
 [[nodiscard]] Colour curve_colour(std::size_t index);
 
-/// Both forms as a file: text of .svg, or a picture for write_png with exposure 1.
+/// The text of an .svg file: curves with the range of their runs as a light band, ticks, labels,
+/// legend.
 [[nodiscard]] std::string chart_svg(const Chart& chart);
-[[nodiscard]] Image chart_image(const Chart& chart);
 
 } // namespace hemilux

@@ -3,6 +3,7 @@
 #include "io/drawings/canvas.h"
 #include "io/files/printable.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -88,6 +89,10 @@ void SvgCanvas::text(const Vec2& at, std::string_view text, const TextStyle& sty
     body_ += "<text" + attribute("x", number(at.x)) + attribute("y", number(at.y)) +
              attribute("font-size", number(style.size)) + attribute("text-anchor", anchor) +
              attribute("fill", hexadecimal(style.colour)) + ">" + escaped(text) + "</text>\n";
+}
+
+void fill_box(Canvas& canvas, const Vec2& low, const Vec2& high, Colour fill, double opacity) {
+    canvas.polygon(std::array{low, Vec2(high.x, low.y), high, Vec2(low.x, high.y)}, fill, opacity);
 }
 
 } // namespace hemilux

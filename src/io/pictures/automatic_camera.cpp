@@ -1,7 +1,6 @@
 #include "io/pictures/automatic_camera.h"
 
 #include "geometry/box.h"
-#include "io/pictures/view_judge.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 
@@ -15,36 +14,9 @@ namespace {
 
 constexpr double outside_fov = 40, inside_fov = 60; // vertical [degrees]
 
-/// A camera in the local frame and what it is worth.
-struct Candidate {
-    Camera camera;
-    double score = 0;
-};
-
-/// The box of the scene, local frame, and which way is up.
-struct Place {
-    Box box;
-    int up; ///< axis
-
-    /// A unit vector by its azimuth and elevation [rad].
-    Vec3 direction(double azimuth, double elevation) const {
-        Vec3 result;
-        result[up] = std::sin(elevation);
-        result[(up + 1) % 3] = std::cos(elevation) * std::sin(azimuth);
-        result[(up + 2) % 3] = std::cos(elevation) * std::cos(azimuth);
-        return result;
-    }
-    Vec3 up_vector() const {
-        Vec3 result(0.0);
-        result[up] = 1;
-        return result;
-    }
-};
-
 /// Lamps shine down, floors and ceilings are wider than walls, rooms wider than high. y unless most
 /// of that speaks for z.
-int guess_up(const Mesh& mesh, const Box& box) {
-    constexpr double enough = 0.7;
+int guess_up(const Mesh& mesh, const Vec3& extent) {
     Vec3 down(1e-9), facing(1e-9);
     for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
         const Patch& patch = mesh.patches()[i];
@@ -52,124 +24,127 @@ int guess_up(const Mesh& mesh, const Box& box) {
         down += patch.area * (e.x + e.y + e.z) * glm::max(-patch.normal, Vec3(0.0));
         facing += patch.area * glm::abs(patch.normal);
     }
-    const Vec3 extent = glm::max(box.extent(), Vec3(1e-9));
     const auto for_z = [](double y, double z) { return std::clamp(std::log(z / y), -1.0, 1.0); };
     const double evidence =
         for_z(down.y, down.z) + for_z(facing.y, facing.z) + 0.5 * for_z(extent.z, extent.y);
-    return evidence > enough ? 2 : 1;
+    return evidence > 0.7 ? 2 : 1;
+}
+
+/// A unit vector by its azimuth and elevation [degrees].
+Vec3 direction(int up, double azimuth, double elevation) {
+    const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
+    Vec3 result;
+    result[up] = std::sin(e);
+    result[(up + 1) % 3] = std::cos(e) * std::sin(a);
+    result[(up + 2) % 3] = std::cos(e) * std::cos(a);
+    return result;
 }
 
 /// From outside, as near as the whole box fits into the picture.
-Camera outside_camera(const Place& place, const Vec3& toward_eye, double aspect) {
+Camera outside_camera(const Box& box, const Vec3& up, const Vec3& toward_eye, double aspect) {
     const double tan_y = std::tan(outside_fov * std::numbers::pi / 360), tan_x = aspect * tan_y;
-    const Vec3 right = glm::normalize(glm::cross(place.up_vector(), toward_eye));
-    const Vec3 upward = glm::cross(toward_eye, right);
-    const Vec3 half = 0.5 * place.box.extent();
+    const Vec3 right = glm::normalize(glm::cross(up, toward_eye));
+    const Vec3 upward = glm::cross(toward_eye, right), centre = box.centre();
     double distance = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 q(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y,
-                     corner & 4 ? half.z : -half.z);
-        const double needed =
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const Vec3 q = 0.51 * box.extent() *
+                       Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const double across =
             std::max(std::abs(glm::dot(q, right)) / tan_x, std::abs(glm::dot(q, upward)) / tan_y);
-        distance = std::max(distance, needed + glm::dot(q, toward_eye));
+        distance = std::max(distance, across + glm::dot(q, toward_eye));
     }
-    constexpr double margin = 1.02;
-    const Vec3 centre = place.box.centre();
-    return {centre + margin * distance * toward_eye, centre, place.up_vector(), outside_fov};
+    return {centre + distance * toward_eye, centre, up, outside_fov};
 }
 
-std::vector<Camera> outside_cameras(const Place& place, double aspect) {
-    constexpr int azimuths = 16;
+/// Views from outside, and from the middles of about 500 cells of the box. Local frame.
+std::vector<Camera> candidates(const Box& box, int up_axis, double aspect) {
+    Vec3 up(0.0);
+    up[up_axis] = 1;
     std::vector<Camera> cameras;
-    for (const double degrees : {0.0, 15.0, 35.0, 55.0, 75.0})
-        for (int i = 0; i < azimuths; ++i)
-            cameras.push_back(outside_camera(place,
-                                             place.direction(2 * std::numbers::pi * i / azimuths,
-                                                             degrees * std::numbers::pi / 180),
-                                             aspect));
-    return cameras;
-}
-
-/// The middles of about `wanted` nearly cubic cells that fill the box.
-std::vector<Vec3> grid_in(const Box& box, double wanted) {
-    constexpr double thinnest = 0.01, most = 64;
-    const Vec3 extent = glm::max(box.extent(), Vec3(thinnest));
-    const double cell = std::cbrt(extent.x * extent.y * extent.z / wanted);
-    const Vec3 n = glm::clamp(glm::round(extent / cell), 1.0, most);
-    std::vector<Vec3> points;
+    for (const double elevation : {0.0, 15.0, 30.0, 50.0})
+        for (double azimuth = 0; azimuth < 360; azimuth += 22.5)
+            cameras.push_back(
+                outside_camera(box, up, direction(up_axis, azimuth, elevation), aspect));
+    const Vec3 extent = glm::max(box.extent(), Vec3(0.01));
+    const Vec3 n =
+        glm::clamp(glm::round(extent / std::cbrt(extent.x * extent.y * extent.z / 500)), 1.0, 64.0);
     for (double x = 0.5; x < n.x; ++x)
         for (double y = 0.5; y < n.y; ++y)
             for (double z = 0.5; z < n.z; ++z)
-                points.push_back(box.low + box.extent() * Vec3(x, y, z) / n);
-    return points;
+                for (double azimuth = 22.5; azimuth < 360; azimuth += 45) {
+                    const Vec3 eye = box.low + box.extent() * Vec3(x, y, z) / n;
+                    cameras.push_back(
+                        {eye, eye + direction(up_axis, azimuth, -10), up, inside_fov});
+                }
+    return cameras;
 }
 
-Camera to_world(const Camera& camera, const LocalFrame& frame) {
-    return {frame.to_world(camera.eye), frame.to_world(camera.target), camera.up,
-            camera.vertical_fov_degrees};
+/// Lit is what has more than a tenth of the mean; all of a dark scene.
+std::vector<bool> lit_patches(const Mesh& mesh, std::span<const Vec3> radiosity) {
+    const auto light = [&](std::size_t i) { return glm::dot(radiosity[i], Vec3(1)); };
+    double power = 0, area = 0;
+    for (std::size_t i = 0; i < radiosity.size(); ++i) {
+        const Vec3 emission = mesh.material(static_cast<std::uint32_t>(i)).emission;
+        power += mesh.patches()[i].area * (light(i) - glm::dot(emission, Vec3(1)));
+        area += mesh.patches()[i].area;
+    }
+    std::vector<bool> lit;
+    for (std::size_t i = 0; i < radiosity.size(); ++i)
+        lit.push_back(!(power > 0) || light(i) > 0.1 * power / area);
+    return lit;
 }
 
-/// The best view from a point inside, by few rays; score 0 where it is not inside.
-Candidate inside_candidate(const ViewJudge& judge, const Place& place, const Vec3& eye,
-                           double aspect, const LocalFrame& frame) {
-    constexpr int azimuths = 8;
-    Candidate best;
-    if (!judge.is_inside(eye))
-        return best;
-    for (const double degrees : {-5.0, -20.0})
-        for (int i = 0; i < azimuths; ++i) {
-            const Vec3 forward = place.direction(2 * std::numbers::pi * (i + 0.5) / azimuths,
-                                                 degrees * std::numbers::pi / 180);
-            const Camera camera =
-                to_world({eye, eye + forward, place.up_vector(), inside_fov}, frame);
-            const double score = judge.score(camera, aspect, 8, 6);
-            if (score > best.score)
-                best = {camera, score};
+/// Surfaces that look alike: of one material and turned to one side.
+std::uint64_t kind_of(const Patch& patch) {
+    const int axis = largest_axis(patch.normal), side = 2 * axis + (patch.normal[axis] > 0);
+    return std::uint64_t{patch.material} * 6 + static_cast<std::uint64_t>(side);
+}
+
+/// How much of the picture shows lit fronts, how many kinds of them, and how far the near ones are.
+double score_of(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
+                const std::vector<bool>& lit, double aspect) {
+    constexpr int columns = 16, rows = 12;
+    const CameraRays rays(camera, mesh, aspect);
+    std::vector<std::uint64_t> seen;
+    std::vector<double> depths;
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < columns; ++x) {
+            const auto first = look(mesh, tracer, rays.ray((x + 0.5) / columns, (y + 0.5) / rows));
+            if (first && first->backs == 0 && lit[first->patch]) {
+                seen.push_back(kind_of(mesh.patches()[first->patch]));
+                depths.push_back(first->hit.t);
+            }
         }
-    return best;
-}
-
-/// The views from inside that look best at first sight.
-std::vector<Candidate> inside_candidates(const ViewJudge& judge, const Place& place, double aspect,
-                                         const LocalFrame& frame) {
-    constexpr double places = 1000; // more: better views of large maps, proportionally slower
-    constexpr std::size_t most = 32;
-    const std::vector<Vec3> eyes = grid_in(place.box, places);
-    std::vector<Candidate> candidates(eyes.size());
-    Workers(0).for_chunks(eyes.size(), 4, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            candidates[i] = inside_candidate(judge, place, eyes[i], aspect, frame);
-    });
-    std::erase_if(candidates, [](const Candidate& c) { return !(c.score > 0); });
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-    candidates.resize(std::min(candidates.size(), most));
-    return candidates;
+    if (seen.empty())
+        return 0;
+    const auto pixels = static_cast<double>(seen.size());
+    std::ranges::sort(seen);
+    const auto kinds = std::ranges::unique(seen).begin() - seen.begin();
+    std::ranges::sort(depths);
+    // An open box is meant to be looked into.
+    const double favour = camera.vertical_fov_degrees == outside_fov ? 1.3 : 1;
+    return favour * pixels * std::sqrt(double(kinds)) * std::sqrt(depths[depths.size() / 4]);
 }
 
 } // namespace
 
 Camera automatic_camera(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
                         double aspect) {
-    Place place{.box = {}, .up = 1};
-    for (const Patch& patch : mesh.patches())
-        for (const Vec3& corner : patch.shape.corner)
-            place.box.include(corner);
-    place.up = guess_up(mesh, place.box);
-
-    // The best views from inside and all from outside are judged by more rays.
-    const ViewJudge judge(mesh, tracer, radiosity);
-    std::vector<Candidate> candidates = inside_candidates(judge, place, aspect, mesh.frame());
-    const std::size_t inside = candidates.size();
-    for (const Camera& camera : outside_cameras(place, aspect))
-        candidates.push_back({to_world(camera, mesh.frame()), 0});
-    Workers(0).for_chunks(candidates.size(), 1, [&](std::size_t i, std::size_t) {
-        constexpr double favour = 1.3; // an open box is meant to be looked into
-        candidates[i].score =
-            (i < inside ? 1 : favour) * judge.score(candidates[i].camera, aspect, 32, 24);
+    Box box;
+    for (const Vec3& vertex : mesh.vertices())
+        box.include(vertex);
+    const int up = guess_up(mesh, glm::max(box.extent(), Vec3(1e-9)));
+    std::vector<Camera> cameras = candidates(box, up, aspect);
+    std::vector<double> score(cameras.size());
+    const std::vector<bool> lit = lit_patches(mesh, radiosity);
+    Workers(0).for_chunks(cameras.size(), 8, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            cameras[i].eye = mesh.frame().to_world(cameras[i].eye);
+            cameras[i].target = mesh.frame().to_world(cameras[i].target);
+            score[i] = score_of(cameras[i], mesh, tracer, lit, aspect);
+        }
     });
-    const auto worse = [](const Candidate& a, const Candidate& b) { return a.score < b.score; };
-    return std::max_element(candidates.begin(), candidates.end(), worse)->camera;
+    return cameras[static_cast<std::size_t>(std::ranges::max_element(score) - score.begin())];
 }
 
 } // namespace hemilux

@@ -33,13 +33,6 @@ bool overlap(const Box& a, const Box& b) {
     return true;
 }
 
-Polygon shape_of(const FacetSoup& soup, std::size_t facet) {
-    Polygon shape;
-    for (std::size_t c = 0; c < 4; ++c)
-        shape.corner[c] = soup.vertices[soup.facets[facet][c]];
-    return shape;
-}
-
 /// Lowest and highest point of outlines along a direction.
 Vec2 range_along(const Vec3& direction, std::initializer_list<const Outline*> outlines) {
     Vec2 range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
@@ -82,7 +75,7 @@ bool nothing_between(const Mesh& mesh, std::span<const Box> facet_boxes, const F
     for (std::size_t f = 0; f < facet_boxes.size(); ++f) {
         if (f == from.facet || f == to.facet || !overlap(facet_boxes[f], box))
             continue;
-        const Polygon shape = shape_of(mesh.soup(), f);
+        const Polygon shape = polygon_of(mesh.soup().vertices, mesh.soup().facets[f]);
         const Outline part =
             in_front(in_front(outline_of(shape), first, plane_rounding), second, plane_rounding);
         if (!part.empty() && overlap(box_of(part), box) && !separated(part, shape.normal(), pair))
@@ -97,7 +90,8 @@ ExactFormFactors::ExactFormFactors(const Mesh& mesh, const Workers& workers, con
     : mesh_(mesh), rows_(mesh.patches().size()) {
     std::vector<Box> boxes;
     for (std::size_t f = 0; f < mesh.soup().facets.size(); ++f)
-        boxes.push_back(box_of(outline_of(shape_of(mesh.soup(), f))));
+        boxes.push_back(
+            box_of(outline_of(polygon_of(mesh.soup().vertices, mesh.soup().facets[f]))));
     workers.for_chunks(rows_.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
             find_row(static_cast<std::uint32_t>(i), boxes);

@@ -136,10 +136,11 @@ DensityMap::DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere&
             const std::size_t start = block.counts.size();
             const std::vector<std::uint8_t> counted =
                 count_surfaces(hemisphere, counted_above, [&](const auto& vertices, auto& counts) {
-                    std::vector<Vec3> towards;
-                    for (const std::uint16_t v : vertices)
-                        towards.push_back(frame.to_world(directions[v]));
-                    tracer.count_bundle({patch.centre, patch.facet, towards}, counts);
+                    for (std::size_t k = 0; k < vertices.size(); ++k)
+                        counts[k] =
+                            tracer.count({.origin = patch.centre,
+                                          .direction = frame.to_world(directions[vertices[k]]),
+                                          .from = patch.facet});
                 });
             const auto count_at = [&](std::uint16_t v) {
                 block.counts.push_back(counted[v]);

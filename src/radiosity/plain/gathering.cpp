@@ -88,9 +88,8 @@ class Gathering final : public Solver {
             const Frame frame = Frame::from_normal(patch.normal);
             Rng random(hash_words({input_.options.seed, set, i, solution_.steps}));
             for (auto left = static_cast<std::uint64_t>(rays); left > 0 && patch.area > 0; --left) {
-                Ray ray{sample_uniform(points, random), frame.to_world(sample_cosine(random))};
-                ray.from = patch.facet;
-                const std::optional<Hit> hit = input_.tracer.closest(ray);
+                const std::optional<Hit> hit =
+                    input_.tracer.closest(cosine_ray(patch, points, frame, random));
                 const std::uint32_t j = hit ? input_.mesh.patch_at(*hit) : none;
                 for (Counts* const to : {&counts_[set], &counts_[sets]})
                     ++(!hit ? to->escaped[i] : j == none ? to->absorbed[i] : to->c[i * n_ + j]);

@@ -55,8 +55,7 @@ class MonteCarlo final : public StepMean {
             for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(rays); ++k) {
                 if (k % rays_per_stream == 0)
                     random = Rng(hash_words({stream, k / rays_per_stream}));
-                Ray ray{sample_uniform(points, random), frame.to_world(sample_cosine(random))};
-                ray.from = its.facet;
+                const Ray ray = cosine_ray(its, points, frame, random);
                 const std::uint32_t i = result.receive(input_.tracer.closest(ray), Phi_ray);
                 if (i == none)
                     continue;

@@ -63,4 +63,12 @@ namespace hemilux {
     return polygon.sample({u, v});
 }
 
+/// A ray from anywhere on a patch, by Lambert's law. `frame` is one of its hemisphere.
+[[nodiscard]] inline Ray cosine_ray(const Patch& from, const PolygonSampler& points,
+                                    const Frame& frame, Rng& rng) {
+    Ray ray{sample_uniform(points, rng), frame.to_world(sample_cosine(rng))};
+    ray.from = from.facet;
+    return ray;
+}
+
 } // namespace hemilux

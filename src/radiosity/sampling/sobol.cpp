@@ -99,8 +99,4 @@ void SobolBlocks<n>::move_to(std::uint32_t index) {
 template class SobolBlocks<4>;
 template class SobolBlocks<5>;
 
-std::array<double, 4> sobol4(std::uint32_t index, std::uint64_t seed) {
-    return SobolBlocks<4>(seed).at(index);
-}
-
 } // namespace hemilux

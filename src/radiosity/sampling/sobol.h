@@ -15,10 +15,8 @@
 
 namespace hemilux {
 
-/// Point `index` of the sequence of a seed; each coordinate is uniform in (0,1) over the seeds.
-[[nodiscard]] std::array<double, 4> sobol4(std::uint32_t index, std::uint64_t seed);
-
-/// The sequence of a seed, sixteen points at a time, in n <= 5 dimensions.
+/// The sequence of a seed, sixteen points at a time, in n <= 5 dimensions; each coordinate is
+/// uniform in (0,1) over the seeds.
 template <std::size_t n>
 class SobolBlocks {
   public:

@@ -1,5 +1,6 @@
 #include "radiosity/scene/coplanar_overlaps.h"
 
+#include "geometry/box.h"
 #include "geometry/flat_polygon.h"
 #include "geometry/polygon.h"
 #include "geometry/rectangle_pairs.h"
@@ -20,27 +21,12 @@ constexpr double narrowest = 0x1p-21;
 /// Of the smaller one's area: to have less in common is to be neighbours.
 constexpr double least_share = 0x1p-13;
 
-Polygon shape_of(const Facet& facet, std::span<const Vec3> vertices) {
-    Polygon shape;
-    for (std::size_t i = 0; i < 4; ++i)
-        shape.corner[i] = vertices[facet.vertex[i]];
-    return shape;
+Box box_of(const Polygon& shape) {
+    Box box;
+    for (const Vec3& corner : shape.corner)
+        box.include(corner);
+    return box;
 }
-
-int largest_axis(const Vec3& v) {
-    const Vec3 size = glm::abs(v);
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-}
-
-struct Bounds {
-    Vec3 low, high;
-    explicit Bounds(const Polygon& shape) : low(shape.corner[0]), high(low) {
-        for (const Vec3& corner : shape.corner) {
-            low = glm::min(low, corner);
-            high = glm::max(high, corner);
-        }
-    }
-};
 
 /// Planes are told apart by their points nearest to a place through which hardly any plane goes:
 /// three numbers that do not depend on which side is the front. They are put into cells, and where
@@ -49,7 +35,7 @@ class PlaneCells {
   public:
     /// None for what is too narrow.
     explicit PlaneCells(const Polygon& shape) {
-        const Bounds bounds(shape);
+        const Box bounds = box_of(shape);
         const Vec3 size = bounds.high - bounds.low, normal = shape.area_vector();
         const double square = glm::dot(normal, normal);
         const double per_width = std::sqrt(glm::dot(size, size) / square);
@@ -138,7 +124,7 @@ bool lie_in_one_place(const Polygon& a, const Polygon& b) {
 
 /// The corners in an order that does not depend on where a facet begins or which way it faces.
 std::array<Vec3, 4> sorted_corners(const Facet& facet, std::span<const Vec3> vertices) {
-    std::array<Vec3, 4> corners = shape_of(facet, vertices).corner;
+    std::array<Vec3, 4> corners = polygon_of(vertices, facet.vertex).corner;
     std::sort(corners.begin(), corners.end() - (facet.is_triangle() ? 1 : 0),
               [](const Vec3& a, const Vec3& b) {
                   return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
@@ -183,7 +169,7 @@ struct Alike {
 
     Alike(const Scene& scene, std::span<const Vec3> vertices, std::uint32_t f)
         : corners(sorted_corners(scene.facets[f], vertices)), facet(f) {
-        const Vec3 normal = shape_of(scene.facets[f], vertices).area_vector();
+        const Vec3 normal = polygon_of(vertices, scene.facets[f].vertex).area_vector();
         turned = normal[largest_axis(normal)] < 0;
         const Vec3& e = scene.materials[scene.facets[f].material].emission;
         glow = e.x + e.y + e.z;
@@ -251,7 +237,7 @@ class Finder {
     };
 
     [[nodiscard]] Polygon shape(std::uint32_t facet) const {
-        return shape_of(scene_.facets[facet], vertices_);
+        return polygon_of(vertices_, scene_.facets[facet].vertex);
     }
 
     /// Facets of one cell beside each other, without most of those that are alone in theirs.
@@ -293,10 +279,10 @@ class Finder {
             return search_many(entries);
         for (std::size_t i = 1; i < entries.size(); ++i) {
             const Polygon b = shape(entries[i].facet);
-            const Bounds bounds_b(b);
+            const Box bounds_b = box_of(b);
             for (std::size_t j = 0; j < i; ++j) {
                 const Polygon a = shape(entries[j].facet);
-                const Bounds bounds_a(a);
+                const Box bounds_a = box_of(a);
                 if (glm::all(glm::lessThanEqual(bounds_a.low, bounds_b.high + 2 * rounding)) &&
                     glm::all(glm::lessThanEqual(bounds_b.low, bounds_a.high + 2 * rounding)))
                     compare(entries[j].facet, entries[i].facet);
@@ -313,7 +299,7 @@ class Finder {
             entries.size());
         for (const Entry& entry : entries) {
             const Polygon polygon = shape(entry.facet);
-            const Bounds bounds(polygon);
+            const Box bounds = box_of(polygon);
             const Vec3 normal = polygon.normal();
             for (int axis = 0; axis < 3; ++axis)
                 if (std::abs(normal[axis]) > steep)
@@ -331,7 +317,7 @@ class Finder {
     }
 
     /// Smaller by what may be rounding, so that most neighbours are apart.
-    [[nodiscard]] Rectangle rectangle(const Bounds& bounds, std::uint32_t f, int axis) const {
+    [[nodiscard]] Rectangle rectangle(const Box& bounds, std::uint32_t f, int axis) const {
         const int x = (axis + 1) % 3, y = (axis + 2) % 3;
         return {Vec2(bounds.low[x], bounds.low[y]) + rounding,
                 Vec2(bounds.high[x], bounds.high[y]) - rounding, f, scene_.facets[f].face};

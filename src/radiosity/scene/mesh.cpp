@@ -142,15 +142,8 @@ FacetSoup Mesh::soup_to_trace() const {
     return {vertices_, corners_to_trace_.empty() ? corners_ : corners_to_trace_};
 }
 
-Polygon Mesh::shape_of(std::uint32_t facet) const {
-    Polygon shape;
-    for (std::size_t i = 0; i < 4; ++i)
-        shape.corner[i] = vertices_[corners_[facet][i]];
-    return shape;
-}
-
 Patch Mesh::whole_side(std::uint32_t facet, bool back) const {
-    return patch_from(shape_of(facet), facet, back);
+    return patch_from(polygon_of(vertices_, corners_[facet]), facet, back);
 }
 
 Patch Mesh::patch_from(const Polygon& shape, std::uint32_t facet, bool back) const {
@@ -158,7 +151,7 @@ Patch Mesh::patch_from(const Polygon& shape, std::uint32_t facet, bool back) con
     Vec3 normal(0, 0, 1);
     if (area > 0)
         normal = shape.normal();
-    else if (const Polygon whole = shape_of(facet); whole.area() > 0)
+    else if (const Polygon whole = polygon_of(vertices_, corners_[facet]); whole.area() > 0)
         normal = whole.normal();
     return {back ? shape.flipped() : shape,
             shape.centre(),
@@ -173,7 +166,7 @@ void Mesh::lay_apart() {
     constexpr double step = 0x1p-28; // larger than what is taken for rounding elsewhere
     const Stacks stacks = find_stacks(scene_, vertices_);
     for (std::uint32_t f = 0; f < stacks.lift.size(); ++f) {
-        const Polygon shape = shape_of(f);
+        const Polygon shape = polygon_of(vertices_, corners_[f]);
         if (stacks.lift[f] == 0 || !(shape.area() > 0))
             continue;
         const bool triangle = shape.is_triangle();
@@ -191,7 +184,7 @@ void Mesh::lay_apart() {
 }
 
 void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
-    const Polygon shape = shape_of(f);
+    const Polygon shape = polygon_of(vertices_, corners_[f]);
     const double max_edge = options.max_edge > 0 ? options.max_edge * frame_.scale
                                                  : std::numeric_limits<double>::infinity();
     Division division{};

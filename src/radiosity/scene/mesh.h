@@ -119,7 +119,6 @@ class Mesh {
     };
     struct Refinement;
 
-    [[nodiscard]] Polygon shape_of(std::uint32_t facet) const;
     [[nodiscard]] Patch patch_from(const Polygon& shape, std::uint32_t facet, bool back) const;
     void lay_apart();
     void divide(std::uint32_t facet, const MeshOptions& options);

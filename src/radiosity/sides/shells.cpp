@@ -9,21 +9,14 @@
 namespace hemilux {
 namespace {
 
-Polygon shape_of(const Scene& scene, std::uint32_t f) {
-    Polygon shape;
-    for (std::size_t i = 0; i < 4; ++i)
-        shape.corner[i] = scene.vertices[scene.facets[f].vertex[i]];
-    return shape;
-}
-
 /// Two facets that run along their common edge in the same direction, and face the same way: one
 /// lies on the other, as a face does that is there twice.
 bool are_layers(const Scene& scene, const Edge& a, const Edge& b) {
     constexpr double parallel = 0.999; // cosine
     if (a.forward != b.forward)
         return false;
-    const Vec3 n = shape_of(scene, a.facet).area_vector();
-    const Vec3 m = shape_of(scene, b.facet).area_vector();
+    const Vec3 n = polygon_of(scene.vertices, scene.facets[a.facet].vertex).area_vector();
+    const Vec3 m = polygon_of(scene.vertices, scene.facets[b.facet].vertex).area_vector();
     return glm::dot(n, m) > parallel * glm::length(n) * glm::length(m);
 }
 
@@ -93,10 +86,11 @@ Shell fill_from(std::uint32_t start, const Neighbours& neighbours, std::vector<b
 /// The side of the larger area stays; of two equal ones that of the first facet.
 void measure(const Scene& scene, Shell& shell, Shells& shells) {
     constexpr double flat = 1e-6;
-    const Vec3 origin = shape_of(scene, shells.facets[shell.begin]).centre();
+    const Vec3 origin =
+        polygon_of(scene.vertices, scene.facets[shells.facets[shell.begin]].vertex).centre();
     double turned = 0, kept = 0, volume = 0;
     for (const std::uint32_t f : shells.facets_of(shell)) {
-        const Polygon shape = shape_of(scene, f);
+        const Polygon shape = polygon_of(scene.vertices, scene.facets[f].vertex);
         const Vec3 area = shape.area_vector();
         const double cone = glm::dot(shape.centre() - origin, area) / 3;
         (shells.against[f] ? turned : kept) += glm::length(area);

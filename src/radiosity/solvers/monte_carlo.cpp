@@ -115,17 +115,10 @@ class MonteCarloSolver final : public StepwiseSolver {
             std::vector<Ray> drawn;
             std::vector<std::uint32_t> struck;
             for (std::size_t k = begin; k < end; ++k)
-                drawn.push_back(draw(from, origins, frame, rng));
+                drawn.push_back(cosine_ray(from, origins, frame, rng));
             find_receivers(drawn, input_.mesh, input_.tracer, struck);
             std::ranges::copy(struck, receivers.begin() + static_cast<std::ptrdiff_t>(begin));
         });
-    }
-
-    [[nodiscard]] static Ray draw(const Patch& from, const PolygonSampler& origins,
-                                  const Frame& frame, Rng& rng) {
-        Ray ray{sample_uniform(origins, rng), frame.to_world(sample_cosine(rng))};
-        ray.from = from.facet;
-        return ray;
     }
 
     /// Radiosity from all power that each patch received.

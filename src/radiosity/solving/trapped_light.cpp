@@ -104,10 +104,8 @@ class Search {
         const PolygonSampler origins(from.shape);
         const Frame frame = Frame::from_normal(from.normal);
         std::vector<Ray> drawn;
-        for (std::size_t k = 0; k < rays; ++k) {
-            drawn.push_back({sample_uniform(origins, rng), frame.to_world(sample_cosine(rng))});
-            drawn.back().from = from.facet;
-        }
+        for (std::size_t k = 0; k < rays; ++k)
+            drawn.push_back(cosine_ray(from, origins, frame, rng));
         std::vector<std::uint32_t> receivers;
         find_receivers(drawn, mesh_, tracer_, receivers);
         return receivers;

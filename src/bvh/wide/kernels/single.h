@@ -38,16 +38,15 @@ inline void visit_node(const Node& node, const SlabRay& ray, float t_max, Stack&
     stack.push<rays>(node, ray.octant, enter, leave * F8::splat(slab_slack));
 }
 
-/// Depth-first from `root`; leaf(const Leaf&) returns true to stop; t_max may shrink meanwhile,
+/// Depth-first; leaf(const Leaf&) returns true to stop; t_max may shrink meanwhile,
 /// where rays are stopped.
 template <Rays rays, class OnLeaf>
-inline void walk(const Tree& tree, std::uint32_t root, const FloatRay& ray, const float& t_max,
-                 OnLeaf&& on_leaf) {
+inline void walk(const Tree& tree, const FloatRay& ray, const float& t_max, OnLeaf&& on_leaf) {
     SlabRay slabs;
     slabs.set(ray);
     Stack stack;
     stack.clear();
-    for (std::uint32_t now = root; now != no_facet;) {
+    for (std::uint32_t now = tree.root; now != no_facet;) {
         if ((now & flag) == 0) {
             visit_node<rays>(tree.nodes[now], slabs, t_max, stack);
             now = stack.pop();
@@ -59,26 +58,26 @@ inline void walk(const Tree& tree, std::uint32_t root, const FloatRay& ray, cons
     }
 }
 
-inline V3<F8> load3(const float (&p)[3][width]) {
+inline V3 load3(const float (&p)[3][width]) {
     return {F8::load(p[0]), F8::load(p[1]), F8::load(p[2])};
 }
 
 /// A leaf's triangles against one ray.
 struct LeafTest {
-    V3<F8> a, e1, e2;
+    V3 a, e1, e2;
     F8 e;
-    Sifted<F8> sifted;
+    Sifted sifted;
 
     LeafTest(const Leaf& leaf, const FloatRay& ray)
-        : a(load3(leaf.corner) - V3<F8>::splat(ray.origin)), e1(load3(leaf.edge1)),
+        : a(load3(leaf.corner) - V3::splat(ray.origin)), e1(load3(leaf.edge1)),
           e2(load3(leaf.edge2)), e(max(max_abs(e1), max_abs(e2))), sifted(sift(ray)) {}
 
-    [[nodiscard]] Interval<F8> interval() const { return {sifted, dot(a, cross(e1, e2)), e}; }
+    [[nodiscard]] Interval interval() const { return {sifted, dot(a, cross(e1, e2)), e}; }
 
   private:
-    [[nodiscard]] Sifted<F8> sift(const FloatRay& ray) const {
-        const V3<F8> d = V3<F8>::splat(ray.direction);
-        const V3<F8> q = cross(a, d); // U = e2.(A x d), W = -e1.(A x d)
+    [[nodiscard]] Sifted sift(const FloatRay& ray) const {
+        const V3 d = V3::splat(ray.direction);
+        const V3 q = cross(a, d); // U = e2.(A x d), W = -e1.(A x d)
         return {dot(e2, q), F8::splat(0) - dot(e1, q), dot(d, cross(e1, e2)), error_bound(a, e)};
     }
 };
@@ -88,7 +87,7 @@ struct LeafTest {
 struct Verdict {
     Bits sure, unsure;
 
-    Verdict(const Leaf& leaf, const Sifted<F8>& sifted, const Interval<F8>& t, const FloatRay& ray,
+    Verdict(const Leaf& leaf, const Sifted& sifted, const Interval& t, const FloatRay& ray,
             float low, float high) {
         const Bits out =
             t.known & (less(F8::splat(high), t.low) | less(t.high, F8::splat(ray.t_min_low)));
@@ -105,8 +104,7 @@ struct Candidates {
     alignas(64) std::uint32_t slot[2 * width];
     Bits front;
 
-    Candidates(const Leaf& leaf, const Sifted<F8>& sifted, const Interval<F8>& t,
-               const Nearest& otherwise)
+    Candidates(const Leaf& leaf, const Sifted& sifted, const Interval& t, const Nearest& otherwise)
         : front(sifted.front() | otherwise.front << width) {
         t.low.store(low);
         t.high.store(high);
@@ -135,36 +133,26 @@ inline void consider(const Verdict& verdict, const Candidates& candidates, Bits 
     }
 }
 
-/// A tested leaf against the nearest so far. Nearly always one slot is nearer or none, and surely
-/// so: that is seen to without a branch, which the processor could not foresee.
-[[gnu::always_inline]] inline void settle(const Leaf& leaf, const Sifted<F8>& sifted,
-                                          const Interval<F8>& t, const FloatRay& ray,
-                                          unsigned index, Nearest& nearest, const Judge& judge) {
-    const Verdict verdict(leaf, sifted, t, ray, nearest.low, nearest.high);
-    const Candidates candidates(leaf, sifted, t, nearest);
+/// A leaf against the nearest so far. Nearly always one slot is nearer or none, and surely so: that
+/// is seen to without a branch, which the processor could not foresee.
+[[gnu::always_inline]] inline void closest_in(const Leaf& leaf, const FloatRay& ray, unsigned index,
+                                              Nearest& nearest, const Judge& judge) {
+    const LeafTest test(leaf, ray);
+    const Interval t = test.interval();
+    const Verdict verdict(leaf, test.sifted, t, ray, nearest.low, nearest.high);
+    const Candidates candidates(leaf, test.sifted, t, nearest);
     if (verdict.unsure | (verdict.sure & (verdict.sure - 1))) [[unlikely]]
         consider(verdict, candidates, t.known, index, nearest, judge);
     else
         nearest = candidates[first_of(verdict.sure | Bits{1} << width)];
 }
 
-[[gnu::always_inline]] inline void closest_in(const Leaf& leaf, const FloatRay& ray, unsigned index,
-                                              Nearest& nearest, const Judge& judge) {
-    const LeafTest test(leaf, ray);
-    settle(leaf, test.sifted, test.interval(), ray, index, nearest, judge);
-}
-
-inline void closest_from(const Tree& tree, std::uint32_t root, const FloatRay& ray, unsigned index,
-                         Nearest& nearest, const Judge& judge) {
-    walk<Rays::stop>(tree, root, ray, nearest.high, [&](const Leaf& leaf) {
+inline void closest(const Tree& tree, const FloatRay& ray, unsigned index, Nearest& nearest,
+                    const Judge& judge) {
+    walk<Rays::stop>(tree, ray, nearest.high, [&](const Leaf& leaf) {
         closest_in(leaf, ray, index, nearest, judge);
         return false;
     });
-}
-
-inline void closest(const Tree& tree, const FloatRay& ray, unsigned index, Nearest& nearest,
-                    const Judge& judge) {
-    closest_from(tree, tree.root, ray, index, nearest, judge);
 }
 
 /// Whether anything in a leaf but `target` is struck before t.
@@ -184,42 +172,32 @@ inline bool blocks(const Leaf& leaf, const FloatRay& ray, unsigned index, float 
 inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
                      float t_high, std::uint32_t target, const Judge& judge) {
     bool blocked = false;
-    walk<Rays::pierce>(tree, tree.root, ray, t_high, [&](const Leaf& leaf) {
+    walk<Rays::pierce>(tree, ray, t_high, [&](const Leaf& leaf) {
         blocked = blocks(leaf, ray, index, t_low, t_high, target, judge);
         return blocked;
     });
     return blocked;
 }
 
-/// How many facets are pierced.
-inline std::uint32_t count_of(const Verdict& verdict, const Leaf& leaf, unsigned index,
-                              const Judge& judge) {
+/// How many facets of a leaf are pierced.
+inline std::uint32_t count_in(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low,
+                              float t_high, const Judge& judge) {
+    const LeafTest test(leaf, ray);
+    const Verdict verdict(leaf, test.sifted, test.interval(), ray, t_low, t_high);
     std::uint32_t pierced = count_bits(verdict.sure);
     for (Bits left = verdict.unsure; left; left &= left - 1)
         pierced += judge.counts(judge.query, index, leaf.slot[first_of(left)]);
     return pierced;
 }
 
-inline std::uint32_t count_in(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low,
-                              float t_high, const Judge& judge) {
-    const LeafTest test(leaf, ray);
-    return count_of(Verdict(leaf, test.sifted, test.interval(), ray, t_low, t_high), leaf, index,
-                    judge);
-}
-
-inline std::uint32_t count_from(const Tree& tree, std::uint32_t root, const FloatRay& ray,
-                                unsigned index, float t_low, float t_high, const Judge& judge) {
+inline std::uint32_t count(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
+                           float t_high, const Judge& judge) {
     std::uint32_t pierced = 0;
-    walk<Rays::pierce>(tree, root, ray, t_high, [&](const Leaf& leaf) {
+    walk<Rays::pierce>(tree, ray, t_high, [&](const Leaf& leaf) {
         pierced += count_in(leaf, ray, index, t_low, t_high, judge);
         return false;
     });
     return pierced;
-}
-
-inline std::uint32_t count(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
-                           float t_high, const Judge& judge) {
-    return count_from(tree, tree.root, ray, index, t_low, t_high, judge);
 }
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

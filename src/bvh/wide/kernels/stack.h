@@ -98,21 +98,17 @@ enum class Rays { stop, pierce };
 
 /// What remains to be visited, the nearest on top. At the bottom lies an entry that says so.
 struct Stack {
-    static constexpr unsigned room = (stack_size + most_errands + width) / F16::lanes + 1;
+    static constexpr unsigned at_once = 2 * width; ///< entries that are compared together
+    static constexpr unsigned room = (stack_size + width) / at_once + 1;
 
     unsigned top;
-    alignas(64) std::uint32_t child[room * F16::lanes];
-    alignas(64) float enter[room * F16::lanes]; ///< where rays are stopped
+    alignas(64) std::uint32_t child[room * at_once];
+    alignas(64) float enter[room * at_once]; ///< where rays are stopped
 
     void clear() {
         child[0] = no_facet;
         enter[0] = -__builtin_inff();
         top = 1;
-    }
-    void push_if(bool wanted, std::uint32_t c, float at) {
-        child[top] = c;
-        enter[top] = at;
-        top += wanted;
     }
     template <Rays rays>
     void push(const Node& node, unsigned octant, F8 from, F8 to) {
@@ -132,18 +128,20 @@ struct Stack {
     std::uint32_t pop_before(float limit) {
         if constexpr (rays == Rays::pierce)
             return pop();
-        unsigned first = (top - 1) / F16::lanes * F16::lanes;
+        unsigned first = (top - 1) / at_once * at_once;
         Bits before = entered(first, limit) & ((Bits{1} << (top - first)) - 1);
         for (; before == 0; before = entered(first, limit))
-            first -= F16::lanes;
+            first -= at_once;
         top = first + last_of(before);
         return child[top];
     }
 
   private:
-    /// Which of sixteen entries lie before the limit.
+    /// Which of `at_once` entries lie before the limit.
     [[nodiscard]] Bits entered(unsigned first, float limit) const {
-        return less_equal(F16::load(enter + first), F16::splat(limit));
+        const F8 end = F8::splat(limit);
+        return less_equal(F8::load(enter + first), end) |
+               less_equal(F8::load(enter + first + width), end) << width;
     }
 };
 

@@ -11,20 +11,10 @@
 
 #include "bvh/wide/kernels/wave.h"
 
-#include "bvh/wide/kernels/pyramid.h"
-
-#include "bvh/wide/kernels/packet.h"
-
-#include "bvh/wide/kernels/shared_leaf.h"
-
-#include "bvh/wide/kernels/errands.h"
-
-#include "bvh/wide/kernels/bundle.h"
-
 namespace hemilux::wide::HEMILUX_KERNELS {
 
 extern const Kernels kernels;
-const Kernels kernels{HEMILUX_KERNELS_NAME, closest,         occluded,       count,
-                      closest_stream,       occluded_stream, closest_bundle, count_bundle};
+const Kernels kernels{HEMILUX_KERNELS_NAME, closest,        occluded, count,
+                      closest_stream,       occluded_stream};
 
 } // namespace hemilux::wide::HEMILUX_KERNELS
