@@ -45,14 +45,43 @@ void check_finite(const Solution& solution) {
             std::abort();
 }
 
+/// A checkpoint may ask for a step of very many rays: it is then interrupted, as a user would.
+class PatientTracer final : public Tracer {
+  public:
+    PatientTracer(const FacetSoup& soup, Monitor& monitor) : tracer_(soup), monitor_(monitor) {}
+    [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override {
+        count_ray();
+        return tracer_.closest(ray);
+    }
+    [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target) const override {
+        count_ray();
+        return tracer_.occluded(ray, target);
+    }
+    [[nodiscard]] std::uint32_t count(const Ray& ray) const override {
+        count_ray();
+        return tracer_.count(ray);
+    }
+
+  private:
+    void count_ray() const {
+        constexpr int patience = 20'000;
+        if (++rays_ > patience)
+            monitor_.interrupted = true;
+    }
+
+    BruteForce tracer_;
+    Monitor& monitor_;
+    mutable int rays_ = 0;
+};
+
 void go_on(const std::string& state) {
     static const Mesh mesh(facing_triangles());
-    static const BruteForce tracer(mesh.soup());
     static const SolveOptions options{.rays = 4, .threads = 1};
-    static Monitor monitor;
     for (const Method* const method : methods()) {
         if (!method->can_resume())
             continue;
+        Monitor monitor;
+        const PatientTracer tracer(mesh.soup(), monitor);
         const auto solver = method->make({mesh, tracer, options, monitor, everything_needed});
         try {
             StateReader reader(state);

@@ -9,7 +9,6 @@
 #include "support/catch.h"
 #include "support/sobol.h"
 
-
 #include <algorithm>
 #include <array>
 #include <cmath>

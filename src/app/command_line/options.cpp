@@ -361,10 +361,9 @@ Command add_compare_command(Arguments& program, CompareSettings& settings) {
     add_budget_options(command, settings);
     add_reference_options(command, settings);
     command
-        .add_text(
-            "-o,--output", "DIR", settings.folder,
-            "folder, made where it is not there: error.csv, error.svg, reference.csv, "
-            "reference.png and two pictures per method")
+        .add_text("-o,--output", "DIR", settings.folder,
+                  "folder, made where it is not there: error.csv, error.svg, reference.csv, "
+                  "reference.png and two pictures per method")
         .required()
         .group(output_group);
     add_view_options(command, settings.view);
