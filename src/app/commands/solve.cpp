@@ -155,7 +155,6 @@ int solve(const SolveSettings& settings) {
     Prepared prepared = prepare(loaded, settings.options);
     const auto& [tracer, tree] = prepared.made;
     statistics.seconds_bvh = prepared.seconds;
-    guard.watch(monitor.interrupted);
     say(settings.talk, Talk::verbose, tracer_text(tree, statistics.seconds_bvh));
     if (divide_as_asked(settings, loaded.mesh, *tracer, monitor, statistics) &&
         !settings.options.keep_all)
@@ -166,6 +165,7 @@ int solve(const SolveSettings& settings) {
     std::optional<Reference> reference;
     if (!settings.reference.empty())
         reference = read_reference(settings.reference, mesh, std::move(detail));
+    guard.watch(monitor.interrupted);
     Progress progress(monitor, share_of(stop, *settings.method),
                       settings.talk != Talk::quiet && stderr_is_terminal());
     const Stopwatch solving;

@@ -32,8 +32,6 @@
 namespace hemilux::plain {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 constexpr std::size_t sets = 4;
 constexpr int scalings = 20;
 
@@ -177,9 +175,7 @@ class Gathering final : public Solver {
             solution_.standard_error[i] = glm::sqrt(variance[i]);
         solution_.radiosity = B[sets];
         solution_.variance = sum;
-        // Four sets in which a common error happens to be small show many: as few as ever.
-        solution_.error_parts =
-            std::min(error_parts(products, sets), solution_.error_parts.value_or(infinity));
+        solution_.error_parts = believed_parts(solution_.error_parts, error_parts(products, sets));
         // As all rows are closed, what does not escape is absorbed.
         EnergyBalance& energy = solution_.energy;
         energy.escaped = input_.mesh.frame().area_to_world(1.0) * escaped.value();

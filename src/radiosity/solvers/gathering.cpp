@@ -47,8 +47,6 @@ namespace hemilux {
 namespace {
 
 constexpr unsigned sets = 4;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 constexpr std::size_t patches_per_chunk = 512;
 
 /// Bytes that are needed to put counts together, for each byte of them.
@@ -245,9 +243,8 @@ class GatheringSolver final : public Solver {
         solution_.variance_of_level = errors.of_losses;
         solution_.unseen = errors.unseen + errors.unseen_by_shadow_rays;
         solution_.error_samples = sets;
-        // Four sets in which a common error happens to be small show many: as few as ever.
         solution_.error_parts =
-            std::min(error_parts(spread.products, sets), solution_.error_parts.value_or(infinity));
+            believed_parts(solution_.error_parts, error_parts(spread.products, sets));
         solution_.unlit = 0;
         for (std::uint32_t i = 0; i < n; ++i)
             solution_.unlit += !errors.lit[i] && input_.needs.power(i);

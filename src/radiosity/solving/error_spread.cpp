@@ -81,4 +81,8 @@ double error_parts(std::span<const double> products, std::size_t samples) {
     return trace > 0 && parts >= 0 ? std::max(parts, 1.0) : std::numeric_limits<double>::infinity();
 }
 
+double believed_parts(std::optional<double> before, double now) {
+    return std::min(now, before.value_or(now));
+}
+
 } // namespace hemilux

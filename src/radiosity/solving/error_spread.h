@@ -7,6 +7,7 @@
 // sums over the parts, so both scatter by 1 / sqrt(parts): one error in a few parts may well be
 // twice what was told.
 
+#include <optional>
 #include <span>
 
 namespace hemilux {
@@ -43,5 +44,9 @@ struct ErrorSpread {
 /// parts, tr G^2 / (tr G)^2 is about (1 + (n + 1) / P) / (n + 2 / P) (moments of the Wishart
 /// distribution).
 [[nodiscard]] double error_parts(std::span<const double> products, std::size_t samples);
+
+/// The same after a step: as few as any step before has shown, since a few samples in which a common
+/// error happens to be small show many parts.
+[[nodiscard]] double believed_parts(std::optional<double> before, double now);
 
 } // namespace hemilux
