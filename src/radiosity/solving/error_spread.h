@@ -45,8 +45,8 @@ struct ErrorSpread {
 /// distribution).
 [[nodiscard]] double error_parts(std::span<const double> products, std::size_t samples);
 
-/// The same after a step: as few as any step before has shown, since a few samples in which a common
-/// error happens to be small show many parts.
+/// The same after a step: as few as any step before has shown, since a few samples in which a
+/// common error happens to be small show many parts.
 [[nodiscard]] double believed_parts(std::optional<double> before, double now);
 
 } // namespace hemilux
