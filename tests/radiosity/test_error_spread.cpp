@@ -4,6 +4,7 @@
 #include "support/scenes.h"
 #include "support/solve.h"
 
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -86,4 +87,10 @@ TEST_CASE("Reported errors differ between seeds about as much as they say", "[sl
         CHECK(reported > spread / 2.5);
         CHECK(reported < spread * 2.5);
     }
+}
+
+TEST_CASE("A step that happens to show many parts of an error does not undo what others showed") {
+    CHECK(believed_parts(std::nullopt, 40) == 40);
+    CHECK(believed_parts(3.0, 40) == 3);
+    CHECK(believed_parts(3.0, 2) == 2);
 }
