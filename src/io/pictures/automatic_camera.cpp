@@ -119,7 +119,7 @@ double score_of(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
         return 0;
     const auto pixels = static_cast<double>(seen.size());
     std::ranges::sort(seen);
-    const auto kinds = std::ranges::unique(seen).begin() - seen.begin();
+    const auto kinds = std::unique(seen.begin(), seen.end()) - seen.begin();
     std::ranges::sort(depths);
     // An open box is meant to be looked into.
     const double favour = camera.vertical_fov_degrees == outside_fov ? 1.3 : 1;
