@@ -29,7 +29,7 @@ std::string uncertainty_text(const Statistics& s) {
 
 /// The estimated error, of what, and what the other part of it is.
 std::string errors_text(const Statistics& s) {
-    const std::string error = "estimated error " + percent(s.estimated_error) + uncertainty_text(s);
+    std::string error = "estimated error " + percent(s.estimated_error) + uncertainty_text(s);
     if (!std::isfinite(s.error_division))
         return error;
     const std::string division =
