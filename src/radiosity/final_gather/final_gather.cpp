@@ -9,29 +9,10 @@
 #include "radiosity/sampling/workers.h"
 #include "radiosity/solving/stop_flag.h"
 
-#include <array>
-#include <utility>
-
 namespace hemilux {
 namespace {
 
 constexpr std::size_t points_per_chunk = 16;
-
-/// An emitter is near to points within so many of its radii, from its centre.
-constexpr double near_radii = 4;
-
-/// The facets of these patches, whole: how finely an emitter is divided is nothing to a point that
-/// it lights.
-std::vector<Patch> whole_sides(const Mesh& mesh, std::span<const std::uint32_t> patches) {
-    std::vector<Patch> sides;
-    std::array<std::uint32_t, 2> last{none, none};
-    for (const std::uint32_t i : patches) {
-        const Patch& patch = mesh.patches()[i];
-        if (std::exchange(last[patch.back ? 1 : 0], patch.facet) != patch.facet)
-            sides.push_back(mesh.whole_side(patch.facet, patch.back));
-    }
-    return sides;
-}
 
 } // namespace
 
@@ -56,8 +37,8 @@ FinalGather::FinalGather(const Mesh& mesh, const Tracer& tracer, std::span<const
 FinalGather::FinalGather(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
                          const std::vector<std::uint32_t>& emitters)
     : mesh_(mesh), tracer_(tracer), radiosity_(radiosity),
-      without_emitters_(radiosity.begin(), radiosity.end()), sides_(whole_sides(mesh, emitters)),
-      choice_(mesh, sides_) {
+      without_emitters_(radiosity.begin(), radiosity.end()),
+      sides_(whole_sides(mesh, one_of_each_side(mesh, emitters))), choice_(mesh, sides_) {
     for (const std::uint32_t i : emitters)
         without_emitters_[i] -= mesh.material(i).emission;
     for (const Patch& side : sides_)

@@ -2,6 +2,7 @@
 
 #include "radiosity/form_factors/pair_factor.h"
 #include "radiosity/form_factors/point_to_patch.h"
+#include "radiosity/gathering/small_emitters.h"
 #include "radiosity/rays/receivers.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
@@ -21,30 +22,6 @@ namespace hemilux {
 namespace {
 
 constexpr std::size_t patches_per_chunk = 8;
-
-/// An emitter is near to points within so many of its radii, from its centre.
-constexpr double near_radii = 4;
-
-/// One patch of each emitter as it was before facets were divided: how finely the light is to be
-/// known is nothing to those who only receive it.
-std::vector<std::uint32_t> one_of_each_side(const Mesh& mesh,
-                                            std::span<const std::uint32_t> emitters) {
-    std::vector<std::uint32_t> patches;
-    std::array<std::uint32_t, 2> last{none, none};
-    for (const std::uint32_t e : emitters) {
-        const Patch& patch = mesh.patches()[e];
-        if (std::exchange(last[patch.back ? 1 : 0], patch.facet) != patch.facet)
-            patches.push_back(e);
-    }
-    return patches;
-}
-
-std::vector<Patch> whole_sides(const Mesh& mesh, std::span<const std::uint32_t> patches) {
-    std::vector<Patch> sides;
-    for (const std::uint32_t p : patches)
-        sides.push_back(mesh.whole_side(mesh.patches()[p].facet, mesh.patches()[p].back));
-    return sides;
-}
 
 } // namespace
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -158,6 +159,25 @@ std::vector<std::uint32_t> small_emitters(const Mesh& mesh) {
     }
     std::ranges::sort(small);
     return small;
+}
+
+std::vector<std::uint32_t> one_of_each_side(const Mesh& mesh,
+                                            std::span<const std::uint32_t> emitters) {
+    std::vector<std::uint32_t> patches;
+    std::array<std::uint32_t, 2> last{none, none};
+    for (const std::uint32_t e : emitters) {
+        const Patch& patch = mesh.patches()[e];
+        if (std::exchange(last[patch.back ? 1 : 0], patch.facet) != patch.facet)
+            patches.push_back(e);
+    }
+    return patches;
+}
+
+std::vector<Patch> whole_sides(const Mesh& mesh, std::span<const std::uint32_t> patches) {
+    std::vector<Patch> sides;
+    for (const std::uint32_t p : patches)
+        sides.push_back(mesh.whole_side(mesh.patches()[p].facet, mesh.patches()[p].back));
+    return sides;
 }
 
 } // namespace hemilux

@@ -2,11 +2,13 @@
 // Which emitters are reached by shadow rays, and which are left to rays at random.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hemilux {
 
 class Mesh;
+struct Patch;
 
 /// Patches that emit and are better reached by shadow rays: those that fill little of what other
 /// patches see, so that rays at random would find them by luck. The brightest are taken first, as
@@ -14,5 +16,16 @@ class Mesh;
 /// reflect. In a closed room a share of the view is about a share of the area; a large and distant
 /// sun has much area and fills little. A facet's patches are all among them or none.
 [[nodiscard]] std::vector<std::uint32_t> small_emitters(const Mesh& mesh);
+
+/// One patch of each emitter as it was before facets were divided: how finely the light is to be
+/// known is nothing to those who only receive it.
+[[nodiscard]] std::vector<std::uint32_t> one_of_each_side(const Mesh& mesh,
+                                                          std::span<const std::uint32_t> emitters);
+/// The sides of facets that these patches are of.
+[[nodiscard]] std::vector<Patch> whole_sides(const Mesh& mesh,
+                                             std::span<const std::uint32_t> patches);
+
+/// An emitter is near to points within so many of its radii, from its centre.
+inline constexpr double near_radii = 4;
 
 } // namespace hemilux
