@@ -1,5 +1,6 @@
 #include "bvh/bvh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
