@@ -193,6 +193,21 @@ void add_output_options(Command command, SolveSettings& settings) {
     add_view_options(command, settings.view);
 }
 
+void add_point_options(Command command, SolveSettings& settings) {
+    command
+        .add_text("--points", "FILE", settings.points.path,
+                  "points where the light is to be known: rows x,y,z,nx,ny,nz")
+        .group(output_group);
+    command
+        .add_text("--points-output", "FILE", settings.points.output,
+                  "CSV table of --points: irradiance, radiosity, standard error")
+        .group(output_group);
+    add_whole<unsigned>(command, "--gather", settings.gather, 1, SolveSettings::most_gather,
+                        "rays that gather light at a point of a picture; at one of --points 256 "
+                        "times as many [16]")
+        .group(output_group);
+}
+
 void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
     const std::string group = "Checkpoints";
     command
@@ -343,6 +358,7 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_own_options(command, settings.options);
     add_stop_options(command, settings.stop);
     add_output_options(command, settings);
+    add_point_options(command, settings);
     add_checkpoint_options(command, settings.checkpoint);
     add_comparison_options(command, settings);
     add_talk_options(command, settings.talk);

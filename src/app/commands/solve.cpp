@@ -6,6 +6,7 @@
 #include "app/loading/sides.h"
 #include "app/running/checkpointing.h"
 #include "app/running/division.h"
+#include "app/running/point_table.h"
 #include "app/running/results.h"
 #include "app/running/run_notes.h"
 #include "app/running/signals.h"
@@ -143,11 +144,14 @@ int solve(const SolveSettings& settings) {
 
     Workers(settings.options.threads).start();
     const std::optional<Checkpoint> resumed = read_resumed(settings);
+    const std::vector<NamedPoint> points = points_of(settings);
     LoadedMesh loaded = load_mesh(settings.scene, files, settings.options, methods, settings.talk,
-                                  std::ranges::any_of(settings.outputs, is_picture, &Output::kind)
-                                      ? bytes_of_picture(settings.view.size)
-                                      : 0);
+                                  (std::ranges::any_of(settings.outputs, is_picture, &Output::kind)
+                                       ? bytes_of_picture(settings.view.size)
+                                       : 0) +
+                                      bytes_of_points(points.size(), settings.gather));
     const Mesh& mesh = loaded.mesh;
+    check_distances(settings, points, mesh);
     check_camera(settings.view, mesh);
     check_exact(settings.options, mesh.patches().size());
     check_plain(settings, mesh.patches().size());
@@ -223,9 +227,9 @@ int solve(const SolveSettings& settings) {
     const bool interrupted = !completed && !fault;
     SolveSettings shown = settings; // the last picture has the view of those before
     shown.view.camera = step_pictures.camera();
-    const int code =
-        finish(shown, {mesh, *tracer, solver->solution(), statistics, rows, monitor.interrupted},
-               of_run, reference, notes, interrupted);
+    const int code = finish(
+        shown, {mesh, *tracer, solver->solution(), statistics, rows, points, monitor.interrupted},
+        of_run, reference, notes, interrupted);
     if (interrupted)
         end_at_once(code);
     if (!fault || code != exit_done)

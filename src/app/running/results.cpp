@@ -1,5 +1,6 @@
 #include "app/running/results.h"
 
+#include "app/running/point_table.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/view.h"
 #include "io/files/error.h"
@@ -51,7 +52,7 @@ class Picture {
 
   private:
     [[nodiscard]] Image render() const {
-        const auto& [mesh, tracer, solution, statistics, steps, interrupted] = results_;
+        const auto& [mesh, tracer, solution, statistics, steps, points, interrupted] = results_;
         const Camera camera = camera_of(view_, mesh, tracer, solution.radiosity);
         return render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads,
                            time_, &classes_.get());
@@ -87,10 +88,16 @@ RunFiles check_files(const SolveSettings& settings) {
     std::vector<std::pair<std::string, std::string>> written;
     for (const Output& output : settings.outputs)
         written.emplace_back("output", output.path);
-    for (const auto& [role, path] : {std::pair("file of --stats", settings.statistics),
+    for (const auto& [role, path] : {std::pair("file of --points-output", settings.points.output),
+                                     std::pair("file of --stats", settings.statistics),
                                      std::pair("file of --steps-log", settings.steps_log)})
         if (!path.empty())
             written.emplace_back(role, path);
+    if (settings.points.path.empty() != settings.points.output.empty())
+        throw UsageError(settings.points.path.empty()
+                             ? "--points-output is the table of --points; add --points FILE"
+                             : "--points needs a file for its table; add --points-output "
+                               "light.csv (or /dev/stdout)");
     if (written.empty())
         throw UsageError("nothing would be written; add an output such as -o picture.png");
     if (settings.every_step && std::ranges::none_of(settings.outputs, is_picture, &Output::kind))
@@ -107,20 +114,29 @@ RunFiles check_files(const SolveSettings& settings) {
     files.read("scene", settings.scene.path);
     if (!settings.reference.empty())
         files.read("reference", settings.reference);
+    if (!settings.points.path.empty())
+        files.read("file of --points", settings.points.path);
     // A run may renew the checkpoint that it goes on from.
     if (!resumed.empty() && resumed != checkpoint &&
         identity_of(resumed) != identity_of(checkpoint))
         files.read("file of --resume", resumed);
     for (const auto& [role, path] : written)
         check_writable(path);
-    if (!settings.reference.empty())
-        check_input(settings.reference, InputKind::stream);
+    for (const std::string& path : {settings.reference, settings.points.path})
+        if (!path.empty())
+            check_input(path, InputKind::stream);
+    if (is_same_stream(settings.reference, settings.points.path))
+        throw UsageError("--reference and --points: '" + settings.points.path +
+                         "' is a pipe, which can be read once");
     return files;
 }
 
 WriteReport write_results(const SolveSettings& settings, const Results& results) {
     SharedClasses classes(results.mesh);
     Picture picture(settings.view, results, classes);
+    WriteReport report;
+    if (!settings.points.output.empty())
+        report.attempt(settings.points.output, [&] { write_points(settings, results); });
     std::vector<WriteReport> reports(settings.outputs.size());
     const auto write = [&](std::size_t k) {
         const Output& output = settings.outputs[k];
@@ -140,7 +156,6 @@ WriteReport write_results(const SolveSettings& settings, const Results& results)
     workers.for_chunks(jobs.size(), 1, [&](std::size_t job, std::size_t) {
         std::ranges::for_each(jobs[job], write);
     });
-    WriteReport report;
     for (const WriteReport& of_output : reports)
         report.add(of_output);
     if (!settings.statistics.empty())

@@ -3,6 +3,7 @@
 
 #include "app/running/write_report.h"
 #include "app/settings/settings.h"
+#include "io/results/points.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
 
@@ -20,6 +21,7 @@ struct Results {
     const Solution& solution;
     const Statistics& statistics;
     std::span<const StepRow> steps;
+    std::span<const NamedPoint> points;
     const std::atomic<bool>& interrupted; ///< pictures are then left out where they take long
 };
 

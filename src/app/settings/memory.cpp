@@ -145,6 +145,14 @@ double bytes_of_picture(PixelSize size) {
     return bytes_per_pixel * static_cast<double>(size.width) * size.height;
 }
 
+double bytes_of_points(std::size_t points, unsigned gather) {
+    constexpr double bytes_per_point = 256, bytes_per_ray = 16, rays_per_block = 1 << 20;
+    const double rays_per_point = double(gather) * PointSettings::rays_per_gather_ray;
+    const auto count = static_cast<double>(points);
+    return bytes_per_point * count +
+           bytes_per_ray * std::min(rays_per_block + rays_per_point, count * rays_per_point);
+}
+
 double bytes_of_compared_pictures(PixelSize size) {
     return bytes_per_compared_pixel * static_cast<double>(size.width) * size.height;
 }
