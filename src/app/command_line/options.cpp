@@ -206,6 +206,12 @@ void add_point_options(Command command, SolveSettings& settings) {
                         "rays that gather light at a point of a picture; at one of --points 256 "
                         "times as many [16]")
         .group(output_group);
+    command
+        .add_action(
+            "--no-gather", [&settings] { settings.gather_pictures = false; },
+            "pictures interpolate the light of the patches: sooner done, shadows as patches have "
+            "them")
+        .group(output_group);
 }
 
 void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {

@@ -36,8 +36,9 @@ class SharedClasses {
 /// Renders when the first picture is asked for, and once only.
 class Picture {
   public:
-    Picture(const ViewSettings& view, const Results& results, SharedClasses& classes)
-        : view_(view), results_(results), classes_(classes), time_(results.interrupted) {}
+    Picture(const SolveSettings& settings, const Results& results, SharedClasses& classes)
+        : view_(settings.view), gather_(settings.gather_pictures ? settings.gather : 0),
+          results_(results), classes_(classes), time_(results.interrupted) {}
 
     void write(const Output& output) {
         if (!image_)
@@ -55,10 +56,11 @@ class Picture {
         const auto& [mesh, tracer, solution, statistics, steps, points, interrupted] = results_;
         const Camera camera = camera_of(view_, mesh, tracer, solution.radiosity);
         return render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads,
-                           time_, &classes_.get());
+                           time_, gather_ > 0 ? nullptr : &classes_.get(), gather_);
     }
 
     const ViewSettings& view_;
+    unsigned gather_; ///< rays at a point; 0: pictures interpolate
     const Results& results_;
     SharedClasses& classes_;
     PictureTime time_;
@@ -133,7 +135,7 @@ RunFiles check_files(const SolveSettings& settings) {
 
 WriteReport write_results(const SolveSettings& settings, const Results& results) {
     SharedClasses classes(results.mesh);
-    Picture picture(settings.view, results, classes);
+    Picture picture(settings, results, classes);
     WriteReport report;
     if (!settings.points.output.empty())
         report.attempt(settings.points.output, [&] { write_points(settings, results); });

@@ -73,6 +73,7 @@ struct SolveSettings {
     PointSettings points;
     unsigned gather = default_gather; ///< rays at a point of a surface that a picture shows
     static constexpr unsigned default_gather = 16, most_gather = 1024;
+    bool gather_pictures = true; ///< else they interpolate the light of the patches
     Talk talk = Talk::normal;
 };
 

@@ -17,6 +17,10 @@ namespace {
 
 constexpr std::size_t points_per_chunk = 16, rays_per_batch = 4096;
 
+/// Points on one facet whose samples are of one block of so many use the same chances of emitters:
+/// they lie near each other.
+constexpr std::uint32_t shared_weights = 64;
+
 } // namespace
 
 /// Rays that are not traced yet, of some points.
@@ -32,6 +36,12 @@ struct FinalGather::Batch {
     std::vector<std::uint8_t> blocked;
     std::vector<bool> sees_emission; ///< of random rays: emitters are left to them
     EmitterChoice::Cut cut;
+
+    void clear_shadow_rays() {
+        shadow.clear();
+        targets.clear();
+        to_emitter.clear();
+    }
 };
 
 FinalGather::FinalGather(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity)
@@ -124,8 +134,20 @@ void FinalGather::add_shadow_rays(const SurfacePoint& point, const SobolBlocks<5
     }
 }
 
+/// Calls add(place, light) for what arrives.
+template <class Add>
+void FinalGather::send_shadow_rays(Batch& batch, const Add& add) const {
+    batch.blocked.resize(batch.shadow.size());
+    tracer_.occluded_stream(batch.shadow, batch.targets, batch.blocked);
+    for (std::size_t k = 0; k < batch.shadow.size(); ++k)
+        if (!batch.blocked[k])
+            add(batch.to_emitter[k].place, batch.to_emitter[k].light);
+    rays_ += batch.shadow.size();
+    batch.clear_shadow_rays();
+}
+
 void FinalGather::send(Batch& batch, std::span<Vec3> found) {
-    send_shadow_rays(batch, found);
+    send_shadow_rays(batch, [&](std::uint32_t place, const Vec3& light) { found[place] += light; });
     batch.receivers.clear();
     find_receivers(batch.random, mesh_, tracer_, batch.receivers);
     for (std::size_t k = 0; k < batch.random.size(); ++k) {
@@ -141,27 +163,23 @@ void FinalGather::send(Batch& batch, std::span<Vec3> found) {
     batch.sees_emission.clear();
 }
 
-void FinalGather::send_shadow_rays(Batch& batch, std::span<Vec3> found) const {
-    batch.blocked.resize(batch.shadow.size());
-    tracer_.occluded_stream(batch.shadow, batch.targets, batch.blocked);
-    for (std::size_t k = 0; k < batch.shadow.size(); ++k)
-        if (!batch.blocked[k])
-            found[batch.to_emitter[k].place] += batch.to_emitter[k].light;
-    rays_ += batch.shadow.size();
-    batch.shadow.clear();
-    batch.targets.clear();
-    batch.to_emitter.clear();
-}
-
-std::vector<Vec3> FinalGather::direct(std::span<const SurfacePoint> points,
-                                      std::span<const GatherSamples> samples) const {
-    std::vector<Vec3> found(points.size(), Vec3(0.0));
+std::vector<DirectLight> FinalGather::direct(std::span<const SurfacePoint> points,
+                                             std::span<const GatherSamples> samples,
+                                             Shadows shadows) const {
+    std::vector<DirectLight> found(points.size());
     Batch batch;
+    const auto arrive = [&](std::uint32_t place, const Vec3& light) {
+        found[place].arriving += light;
+    };
     for (std::uint32_t k = 0; k < points.size() && !emitters_.empty(); ++k) {
         const auto& [seed, first, count] = samples[k];
-        choice_.weigh(points[k].position, points[k].normal, batch.cut);
+        const bool alike = k > 0 && points[k].facet == points[k - 1].facet &&
+                           first / shared_weights == samples[k - 1].first / shared_weights;
+        if (!alike)
+            choice_.weigh(points[k].position, points[k].normal, batch.cut);
         if (batch.cut.dark())
             continue;
+        const std::size_t before = batch.to_emitter.size();
         SobolBlocks<5> numbers(seed);
         for (std::uint32_t next = first, end = first + count; next < end;) {
             const std::uint32_t in_block = next % samples_per_block;
@@ -171,10 +189,14 @@ std::vector<Vec3> FinalGather::direct(std::span<const SurfacePoint> points,
             add_shadow_rays(points[k], numbers, in_block, n, count, k, batch);
             next += n;
         }
-        if (batch.shadow.size() >= rays_per_batch)
-            send_shadow_rays(batch, found);
+        for (std::size_t ray = before; ray < batch.to_emitter.size(); ++ray)
+            found[k].unshadowed += batch.to_emitter[ray].light;
+        if (shadows == Shadows::left_out)
+            batch.clear_shadow_rays();
+        else if (batch.shadow.size() >= rays_per_batch)
+            send_shadow_rays(batch, arrive);
     }
-    send_shadow_rays(batch, found);
+    send_shadow_rays(batch, arrive);
     return found;
 }
 

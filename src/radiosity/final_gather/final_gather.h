@@ -30,6 +30,14 @@ struct GatherSamples {
     std::uint32_t first, count;
 };
 
+/// Light straight from small emitters [W/m2]. What varies from sample to sample varies in both
+/// alike, but for shadows.
+struct DirectLight {
+    Vec3 arriving{0.0};
+    Vec3 unshadowed{0.0}; ///< what would arrive if nothing stood between
+};
+enum class Shadows { traced, left_out };
+
 struct IndirectLight {
     Vec3 irradiance{0.0}; ///< [W/m2]
     double nearness = 0;  ///< mean inverse distance of what the rays met; local frame
@@ -53,9 +61,10 @@ class FinalGather {
                                                const StopFlag& interrupted);
     /// The irradiance in two parts, at each point by its own samples. Straight from small emitters,
     /// by a shadow ray for each sample; and all other, by a cosine-distributed ray for each. On the
-    /// calling thread.
-    [[nodiscard]] std::vector<Vec3> direct(std::span<const SurfacePoint> points,
-                                           std::span<const GatherSamples> samples) const;
+    /// calling thread. Where shadows are left out no ray is traced, and nothing arrives.
+    [[nodiscard]] std::vector<DirectLight> direct(std::span<const SurfacePoint> points,
+                                                  std::span<const GatherSamples> samples,
+                                                  Shadows shadows) const;
     [[nodiscard]] std::vector<IndirectLight> indirect(std::span<const SurfacePoint> points,
                                                       std::span<const GatherSamples> samples) const;
     /// Rounds of which an estimate is the mean, 1 at first. Their points are those of one sequence,
@@ -84,7 +93,8 @@ class FinalGather {
                          std::uint32_t first, std::uint32_t count, std::uint32_t of,
                          std::uint32_t place, Batch& batch) const;
     void send(Batch& batch, std::span<Vec3> found);
-    void send_shadow_rays(Batch& batch, std::span<Vec3> found) const;
+    template <class Add>
+    void send_shadow_rays(Batch& batch, const Add& add) const;
     void send_random_rays(Batch& batch, std::span<IndirectLight> found) const;
 
     const Mesh& mesh_;
