@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 #include <optional>
 
 namespace hemilux {
@@ -40,6 +41,9 @@ class Picture {
         : view_(settings.view), gather_(settings.gather_pictures ? settings.gather : 0),
           results_(results), classes_(classes), time_(results.interrupted) {}
 
+    /// Of rendering, where the light is gathered.
+    [[nodiscard]] double seconds_gather() const { return seconds_gather_; }
+
     void write(const Output& output) {
         if (!image_)
             image_ = render();
@@ -52,11 +56,16 @@ class Picture {
     }
 
   private:
-    [[nodiscard]] Image render() const {
+    [[nodiscard]] Image render() {
         const auto& [mesh, tracer, solution, statistics, steps, points, interrupted] = results_;
         const Camera camera = camera_of(view_, mesh, tracer, solution.radiosity);
-        return render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads,
-                           time_, gather_ > 0 ? nullptr : &classes_.get(), gather_);
+        const Stopwatch watch;
+        Image image =
+            render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads, time_,
+                        gather_ > 0 ? nullptr : &classes_.get(), gather_);
+        if (gather_ > 0)
+            seconds_gather_ = watch.seconds();
+        return image;
     }
 
     const ViewSettings& view_;
@@ -64,6 +73,7 @@ class Picture {
     const Results& results_;
     SharedClasses& classes_;
     PictureTime time_;
+    double seconds_gather_ = 0;
     std::optional<Image> image_;
 };
 
@@ -133,12 +143,16 @@ RunFiles check_files(const SolveSettings& settings) {
     return files;
 }
 
-WriteReport write_results(const SolveSettings& settings, const Results& results) {
+WriteReport write_results(const SolveSettings& settings, const Results& results,
+                          const Stopwatch& started) {
+    Statistics& statistics = results.statistics;
+    const Stopwatch writing;
     SharedClasses classes(results.mesh);
     Picture picture(settings, results, classes);
     WriteReport report;
     if (!settings.points.output.empty())
         report.attempt(settings.points.output, [&] { write_points(settings, results); });
+    const double seconds_points = writing.seconds();
     std::vector<WriteReport> reports(settings.outputs.size());
     const auto write = [&](std::size_t k) {
         const Output& output = settings.outputs[k];
@@ -150,14 +164,28 @@ WriteReport write_results(const SolveSettings& settings, const Results& results)
     for (std::size_t k = 0; k < settings.outputs.size(); ++k)
         if (is_picture(settings.outputs[k].kind))
             jobs[0].push_back(k);
-        else
+        else if (settings.outputs[k].kind != OutputKind::json)
             jobs.push_back({k});
+    std::vector<double> seconds(jobs.size());
     const Workers workers(settings.options.threads);
-    if (workers.threads() == 1)
-        std::ranges::reverse(jobs);
-    workers.for_chunks(jobs.size(), 1, [&](std::size_t job, std::size_t) {
+    const bool reversed = workers.threads() == 1;
+    workers.for_chunks(jobs.size(), 1, [&](std::size_t turn, std::size_t) {
+        const std::size_t job = reversed ? jobs.size() - 1 - turn : turn;
+        const Stopwatch watch;
         std::ranges::for_each(jobs[job], write);
+        seconds[job] = watch.seconds();
     });
+    // What is done side by side shares the time.
+    const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+    const double share = sum > 0 ? (writing.seconds() - seconds_points) / sum : 0;
+    statistics.seconds_gather = seconds_points + share * picture.seconds_gather();
+    statistics.seconds_picture = share * (seconds[0] - picture.seconds_gather());
+    statistics.seconds_write = share * (sum - seconds[0]);
+    statistics.bytes_peak = peak_memory_bytes();
+    statistics.seconds_total = started.seconds();
+    for (std::size_t k = 0; k < settings.outputs.size(); ++k)
+        if (settings.outputs[k].kind == OutputKind::json)
+            write(k);
     for (const WriteReport& of_output : reports)
         report.add(of_output);
     if (!settings.statistics.empty())

@@ -37,6 +37,9 @@ constexpr double bytes_of_analysis = 350;
 /// Per pixel: the picture, its bytes, the rows that are compressed, and the file. For `compare`
 /// there are the reference, the method and their difference.
 constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
+/// The light of a pixel in its parts, of more surfaces at edges, and of a quarter of a point at
+/// which indirect light is gathered.
+constexpr double bytes_per_gathered_pixel = 150;
 /// Rays that wait to be summed.
 constexpr double bytes_of_volleys = 32e6;
 
@@ -141,8 +144,9 @@ SolveOptions with_memory(SolveOptions options, const SceneSettings& scene) {
     return options;
 }
 
-double bytes_of_picture(PixelSize size) {
-    return bytes_per_pixel * static_cast<double>(size.width) * size.height;
+double bytes_of_picture(PixelSize size, bool gathered) {
+    return (bytes_per_pixel + (gathered ? bytes_per_gathered_pixel : 0)) *
+           static_cast<double>(size.width) * size.height;
 }
 
 double bytes_of_points(std::size_t points, unsigned gather) {

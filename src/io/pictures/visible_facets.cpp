@@ -26,7 +26,7 @@ VisibleFacets::VisibleFacets(const Mesh& mesh, const CameraRays& camera, const S
       column_(camera.direction(grid.column_width, 0) - origin_),
       row_(camera.direction(0, grid.row_height) - origin_) {
     struct Bands {
-        int first = 0, end = 0;
+        std::uint16_t first = 0, end = 0; // of at most 16384 rows
     };
     for (const Vec2& offset : offsets)
         centre_ += offset / double(offsets.size());
@@ -36,7 +36,8 @@ VisibleFacets::VisibleFacets(const Mesh& mesh, const CameraRays& camera, const S
         for (std::size_t half = begin; half < end; ++half) {
             int first = 0, last = 0;
             if (rows_of(static_cast<std::uint32_t>(half), first, last))
-                bands[half] = {first / rows_per_band, last / rows_per_band + 1};
+                bands[half] = {static_cast<std::uint16_t>(first / rows_per_band),
+                               static_cast<std::uint16_t>(last / rows_per_band + 1)};
         }
     });
     first_.assign(static_cast<std::size_t>(bands_) + 1, 0);
