@@ -39,7 +39,7 @@ constexpr double bytes_of_analysis = 350;
 constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
 /// The light of a pixel in its parts, of more surfaces at edges, and of a quarter of a point at
 /// which indirect light is gathered.
-constexpr double bytes_per_gathered_pixel = 150;
+constexpr double bytes_per_gathered_pixel = 130;
 /// Rays that wait to be summed.
 constexpr double bytes_of_volleys = 32e6;
 

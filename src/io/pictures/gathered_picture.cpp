@@ -82,8 +82,8 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first) {
     for (std::size_t k = 0; k < parts.size(); ++k) {
         parts[k].direct = glm::vec3(lights[k].direct.arriving);
         parts[k].unshadowed = glm::vec3(lights[k].direct.unshadowed);
-        parts[k].smooth_unshadowed = glm::vec3(lights[k].unshadowed);
-        parts[k].indirect = glm::vec3(lights[k].indirect);
+        parts[k].smooth_unshadowed = glm::vec3(lights[k].slow.unshadowed);
+        parts[k].indirect = glm::vec3(lights[k].slow.indirect);
         if (places[k].count == offsets_.size())
             whole_[static_cast<std::size_t>(rows[k]) * static_cast<std::size_t>(width_) +
                    static_cast<std::size_t>(parts[k].x)] = parts[k];

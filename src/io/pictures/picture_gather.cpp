@@ -184,7 +184,7 @@ double PictureGather::spacing(int x, int y) const {
     return largest;
 }
 
-void PictureGather::add(Light& sum, const Light& light, double weight) {
+void PictureGather::add(SlowLight& sum, const SlowLight& light, double weight) {
     sum.unshadowed += weight * light.unshadowed;
     sum.indirect += weight * light.indirect;
 }
@@ -192,7 +192,7 @@ void PictureGather::add(Light& sum, const Light& light, double weight) {
 /// Over points that are `stride` apart. What was smoothed with stride 1 has little detail between
 /// such points (the algorithme a trous: Dammertz et al. 2010).
 void PictureGather::smooth_light(int stride, const Workers& workers) {
-    std::vector<Light> smoothed(records_.size());
+    std::vector<SlowLight> smoothed(records_.size());
     workers.for_chunks(static_cast<std::size_t>(rows_), 8, [&](std::size_t begin, std::size_t end) {
         give_up_if_asked();
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
@@ -200,7 +200,7 @@ void PictureGather::smooth_light(int stride, const Workers& workers) {
                 const Record* const here = record(x, y);
                 if (!here)
                     continue;
-                Light sum{};
+                SlowLight sum;
                 double weights = 0;
                 const double most = 1 / (least_steps * spacing(x, y));
                 for (int dy = -reach_points; dy <= reach_points; ++dy)
@@ -219,7 +219,7 @@ void PictureGather::smooth_light(int stride, const Workers& workers) {
                         weights += weight;
                     }
                 smoothed[static_cast<std::size_t>(here - records_.data())] = {
-                    {}, sum.unshadowed / weights, sum.indirect / weights};
+                    sum.unshadowed / weights, sum.indirect / weights};
             }
     });
     for (std::size_t k = 0; k < records_.size(); ++k)
@@ -227,12 +227,12 @@ void PictureGather::smooth_light(int stride, const Workers& workers) {
 }
 
 /// From the four points around, as far as they are of the same surface. False where none is.
-bool PictureGather::interpolate(const Place& place, Light& light) const {
+bool PictureGather::interpolate(const Place& place, SlowLight& light) const {
     const double x = place.pixel.x / step - pixel_centre.x,
                  y = place.pixel.y / step - pixel_centre.y;
     const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
     constexpr double least = 1e-3; // on an edge of the square of points both sides count
-    Light sum{};
+    SlowLight sum;
     double weights = 0;
     for (int dy = 0; dy <= 1; ++dy)
         for (int dx = 0; dx <= 1; ++dx) {
@@ -267,7 +267,7 @@ std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Plac
         samples.push_back(samples_of(x, y, of_pixel));
         samples.back().first += each * place.sample;
         samples.back().count = each * place.count;
-        if (interpolate(place, found[k]))
+        if (interpolate(place, found[k].slow))
             continue;
         places_alone.push_back(k);
         alone.push_back(place.at);
@@ -276,8 +276,8 @@ std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Plac
     const std::vector<DirectLight> direct = final_gather_.direct(points, samples, Shadows::traced);
     const std::vector<IndirectLight> lights = final_gather_.indirect(alone, samples_alone);
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        found[places_alone[i]].indirect = lights[i].irradiance;
-        found[places_alone[i]].unshadowed = direct[places_alone[i]].unshadowed;
+        found[places_alone[i]].slow.indirect = lights[i].irradiance;
+        found[places_alone[i]].slow.unshadowed = direct[places_alone[i]].unshadowed;
     }
     for (std::size_t k = 0; k < found.size(); ++k)
         found[k].direct = direct[k];

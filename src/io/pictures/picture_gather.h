@@ -47,11 +47,16 @@ class PictureGather {
         Vec2 pixel; ///< in pixels
         unsigned sample, count;
     };
-    /// The irradiance [W/m2]. Direct light is `unshadowed` times the share of it that arrives: the
-    /// ratio of sums over `direct` of places around, as few rays of one place tell it badly.
+    /// Irradiance that varies slowly [W/m2].
+    struct SlowLight {
+        Vec3 unshadowed{0.0}; ///< straight from small emitters if nothing stood between
+        Vec3 indirect{0.0};
+    };
+    /// Direct light is slow.unshadowed times the share of it that arrives: the ratio of sums over
+    /// `direct` of places around, as the few rays of one place tell it badly.
     struct Light {
         DirectLight direct;
-        Vec3 unshadowed, indirect;
+        SlowLight slow;
     };
     /// At each place. May be called by several threads.
     [[nodiscard]] std::vector<Light> irradiance(std::span<const Place> places) const;
@@ -63,7 +68,7 @@ class PictureGather {
     /// Of a sample of the grid. Without a surface there: facet none.
     struct Record {
         SurfacePoint at;
-        Light light{};       ///< without `direct`
+        SlowLight light;
         double nearness = 0; ///< mean inverse distance of what the rays met
 
         [[nodiscard]] bool is_of_surface(const SurfacePoint& point) const {
@@ -74,11 +79,11 @@ class PictureGather {
     [[nodiscard]] const Record* record(int x, int y) const;
     void find_points(const Mesh& mesh, const CameraRays& camera, const Workers& workers);
     void gather(const Workers& workers);
-    static void add(Light& sum, const Light& light, double weight);
+    static void add(SlowLight& sum, const SlowLight& light, double weight);
     [[nodiscard]] double spacing(int x, int y) const;
     void smooth_nearness(const Workers& workers);
     void smooth_light(int stride, const Workers& workers);
-    [[nodiscard]] bool interpolate(const Place& place, Light& light) const;
+    [[nodiscard]] bool interpolate(const Place& place, SlowLight& light) const;
     void give_up_if_asked() const;
 
     PictureGatherOptions options_;
