@@ -53,9 +53,9 @@ TEST_CASE("-q is silent and -v tells of every step") {
     const Workplace place;
     place.write_room();
     CHECK(place.hemilux("solve room.obj --steps 2 -q -o a.csv").err.empty());
-    const std::string talk = place.hemilux("solve room.obj --steps 2 -v -o a.csv").err;
+    const std::string printed = place.hemilux("solve room.obj --steps 2 -v -o a.csv").err;
     for (const char* text : {"24 patches", "BVH:", "step 1: ", "step 2: ", "memory:"})
-        CHECK_THAT(talk, Contains(text));
+        CHECK_THAT(printed, Contains(text));
 }
 
 TEST_CASE("the same seed gives the same bytes whatever the number of threads") {

@@ -102,7 +102,7 @@ TEST_CASE("the standard error of a point's light is how far runs scatter", "[slo
                                     model.mesh.patches()[i].normal));
     constexpr int runs = 40;
     for (const char* method : {"gathering", "hemisphere"}) {
-        std::vector<Vec3> sum(sensors.size()), squares(sensors.size()), told(sensors.size());
+        std::vector<Vec3> sum(sensors.size()), squares(sensors.size()), reported(sensors.size());
         for (unsigned run = 0; run < runs; ++run) {
             const Solution solution = test::solve(model, *find_method(method),
                                                   {.rays = 256, .seed = run}, test::steps(8));
@@ -112,16 +112,16 @@ TEST_CASE("the standard error of a point's light is how far runs scatter", "[slo
             for (std::size_t k = 0; k < sensors.size(); ++k) {
                 sum[k] += lights[k].irradiance;
                 squares[k] += lights[k].irradiance * lights[k].irradiance;
-                told[k] += lights[k].standard_error * lights[k].standard_error / double(runs);
+                reported[k] += lights[k].standard_error * lights[k].standard_error / double(runs);
             }
         }
         for (std::size_t k = 0; k < sensors.size(); ++k) {
             const double mean = sum[k].x / runs;
             const double variance = (squares[k].x / runs - mean * mean) * runs / (runs - 1);
-            CAPTURE(method, k, mean, variance, told[k].x);
+            CAPTURE(method, k, mean, variance, reported[k].x);
             // Of forty runs the square scatters by a quarter.
-            CHECK(variance < 2.5 * told[k].x);
-            CHECK(variance > told[k].x / 4);
+            CHECK(variance < 2.5 * reported[k].x);
+            CHECK(variance > reported[k].x / 4);
         }
     }
 }

@@ -54,7 +54,7 @@ MethodSummary summarise(const MethodRuns& result, bool literal) {
     const std::vector<const MethodRun*> runs = runs_that_count(result);
     MethodSummary summary;
     summary.label =
-        result.entrant.name + (literal && result.entrant.method->has_literal ? " (literal)" : "");
+        result.variant.name + (literal && result.variant.method->has_literal ? " (literal)" : "");
     summary.rays = mean(runs, rays_of);
     summary.seconds = mean(runs, seconds_of);
     summary.error = {geometric_mean(runs, [](const StepRow& row) { return row.error->all; }),
@@ -129,7 +129,7 @@ std::vector<MethodSummary> summarise(std::span<const MethodRuns> results, bool l
     for (const MethodRuns& result : results)
         summaries.push_back(summarise(result, literal));
     const auto base = std::ranges::find(results, method_of(Role::baseline).name,
-                                        [](const MethodRuns& r) { return r.entrant.name; });
+                                        [](const MethodRuns& r) { return r.variant.name; });
     if (base == results.end())
         return summaries;
     const MethodSummary yardstick = summaries[static_cast<std::size_t>(base - results.begin())];

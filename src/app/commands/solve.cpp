@@ -17,10 +17,10 @@
 #include "app/settings/method_options.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
+#include "app/terminal/log.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
-#include "app/terminal/talk.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/solving/error_spread.h"
@@ -113,27 +113,29 @@ int finish(const SolveSettings& settings, const Results& results, const WriteRep
         std::max(0.0, started.seconds() + seconds_before - seconds_of_stages(results.statistics));
     WriteReport report = write_results(settings, results, started);
     report.add(of_steps);
-    say(settings.talk, Talk::normal, run_text(results.statistics));
+    log_line(settings.verbosity, Verbosity::normal, run_text(results.statistics));
     for (const std::string& note : notes.texts(results.statistics.error_sampling, interrupted))
-        say(settings.talk, Talk::normal, "warning: " + note);
+        log_line(settings.verbosity, Verbosity::normal, "warning: " + note);
     if (!lost_light.empty())
-        say(settings.talk, Talk::normal, "warning: " + lost_light);
+        log_line(settings.verbosity, Verbosity::normal, "warning: " + lost_light);
     if (results.solution.steps == 0 && !interrupted)
-        say(settings.talk, Talk::quiet,
+        log_line(
+            settings.verbosity, Verbosity::quiet,
             "warning: the time ended before the first step was done; the outputs hold emission "
             "alone; a longer --time or fewer --rays give a solution");
-    say(settings.talk, Talk::verbose, memory_text(results.statistics));
+    log_line(settings.verbosity, Verbosity::verbose, memory_text(results.statistics));
     if (reference) {
         const Solution& solution = results.solution;
-        say(settings.talk, Talk::normal,
-            error_text(reference->error(results.mesh, solution.radiosity)));
-        say(settings.talk, Talk::normal,
-            z_scores_text(
-                z_scores(results.mesh, solution, reference->radiosity, reference->standard_error)));
+        log_line(settings.verbosity, Verbosity::normal,
+                 error_text(reference->error(results.mesh, solution.radiosity)));
+        log_line(settings.verbosity, Verbosity::normal,
+                 z_scores_text(z_scores(results.mesh, solution, reference->radiosity,
+                                        reference->standard_error)));
     }
-    report.say(settings.talk);
+    report.log(settings.verbosity);
     if (interrupted)
-        say(settings.talk, Talk::quiet,
+        log_line(
+            settings.verbosity, Verbosity::quiet,
             results.solution.steps > 0
                 ? "interrupted; the outputs hold " +
                       counted(results.solution.steps, "step", "steps")
@@ -158,7 +160,7 @@ int solve(const SolveSettings& settings) {
     const std::optional<Checkpoint> resumed = read_resumed(settings);
     const std::vector<NamedPoint> points = points_of(settings);
     LoadedMesh loaded =
-        load_mesh(settings.scene, files, settings.options, methods, settings.talk,
+        load_mesh(settings.scene, files, settings.options, methods, settings.verbosity,
                   (std::ranges::any_of(settings.outputs, is_picture, &Output::kind)
                        ? bytes_of_picture(settings.view.size, settings.gather_pictures)
                        : 0) +
@@ -172,7 +174,7 @@ int solve(const SolveSettings& settings) {
     Prepared prepared = prepare(loaded, settings.options);
     const auto& [tracer, tree] = prepared.made;
     statistics.seconds_bvh = prepared.seconds;
-    say(settings.talk, Talk::verbose, tracer_text(tree, statistics.seconds_bvh));
+    log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, statistics.seconds_bvh));
     if (divide_as_asked(settings, loaded.mesh, *tracer, monitor, statistics) &&
         !settings.options.keep_all)
         prepared.needs = find_needs(mesh);
@@ -184,12 +186,12 @@ int solve(const SolveSettings& settings) {
         reference = read_reference(settings.reference, mesh, std::move(detail));
     guard.watch(monitor.interrupted);
     Progress progress(monitor, share_of(stop, *settings.method),
-                      settings.talk != Talk::quiet && stderr_is_terminal());
+                      settings.verbosity != Verbosity::quiet && stderr_is_terminal());
     const Stopwatch solving;
     SolveOptions options = with_memory(settings.options, settings.scene);
     options.rays =
         rays_of_step(options.rays, settings.stop.seconds, *settings.method, mesh.patches().size());
-    say_rays_of_step(settings.talk, settings.options.rays, options.rays);
+    log_rays_of_step(settings.verbosity, settings.options.rays, options.rays);
     options.growing_steps = !stop.steps;
     options.aim = stop.error.value_or(0);
     options.expected_steps = expected_steps(stop);
@@ -212,8 +214,8 @@ int solve(const SolveSettings& settings) {
         progress.step_done(record);
         if (settings.every_step)
             step_pictures.write(solution.radiosity, record.step);
-        if (settings.talk == Talk::verbose)
-            progress.say(step_text(rows.back()));
+        if (settings.verbosity == Verbosity::verbose)
+            progress.log(step_text(rows.back()));
         checkpointer.step_done(rows, record.seconds);
     };
     bool completed = false;
@@ -247,9 +249,9 @@ int solve(const SolveSettings& settings) {
         end_at_once(code);
     if (!fault || code != exit_done)
         return code;
-    say(settings.talk, Talk::quiet,
-        std::string("hemilux: ") + fault->what() + "\nthe outputs hold " +
-            counted(solver->solution().steps, "step", "steps") + " before that");
+    log_line(settings.verbosity, Verbosity::quiet,
+             std::string("hemilux: ") + fault->what() + "\nthe outputs hold " +
+                 counted(solver->solution().steps, "step", "steps") + " before that");
     return exit_input;
 }
 

@@ -1,8 +1,8 @@
 #include "app/running/division.h"
 
 #include "app/settings/text.h"
+#include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
-#include "app/terminal/talk.h"
 #include "radiosity/division/adaptive_division.h"
 #include "radiosity/final_gather/division_error.h"
 #include "radiosity/sampling/rng.h"
@@ -52,7 +52,7 @@ bool divide_as_asked(const SolveSettings& settings, Mesh& mesh, const Tracer& tr
         division.seconds = share_of_time * *settings.stop.seconds;
     divide_where_light_changes(mesh, tracer, division, monitor, [&](const DivisionRound& round) {
         statistics.rays_divide += round.rays;
-        say(settings.talk, Talk::verbose, round_text(round));
+        log_line(settings.verbosity, Verbosity::verbose, round_text(round));
     });
     statistics.seconds_divide = watch.seconds();
     return mesh.patches().size() != before;

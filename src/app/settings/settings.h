@@ -33,7 +33,7 @@ struct SceneSettings {
 inline constexpr std::array<const char*, 3> guide_names = {"density", "visible", "learned"};
 
 /// How much is said on stderr.
-enum class Talk { quiet, normal, verbose };
+enum class Verbosity { quiet, normal, verbose };
 
 /// The view of a picture.
 struct ViewSettings {
@@ -74,7 +74,7 @@ struct SolveSettings {
     unsigned gather = default_gather; ///< rays at a point of a surface that a picture shows
     static constexpr unsigned default_gather = 16, most_gather = 1024;
     bool gather_pictures = true; ///< else they interpolate the light of the patches
-    Talk talk = Talk::normal;
+    Verbosity verbosity = Verbosity::normal;
 };
 
 /// What each run of each method may use: one of the two.
@@ -86,7 +86,7 @@ struct Budget {
 
 /// A method as `compare` names it: `hemisphere-visible` and `hemisphere-learned` are hemisphere
 /// with another guide.
-struct Entrant {
+struct MethodVariant {
     std::string name;
     const Method* method = nullptr;
     std::optional<Guide> guide; ///< empty: as --guide says
@@ -94,7 +94,7 @@ struct Entrant {
 
 struct CompareSettings {
     SceneSettings scene;
-    std::vector<Entrant> entrants;
+    std::vector<MethodVariant> variants;
     SolveOptions options; ///< run r has the seed plus r; `literal` is for methods that have it
     Budget budget;
     std::uint32_t runs = 3;
@@ -103,12 +103,12 @@ struct CompareSettings {
     ViewSettings view;
     std::string folder;
     std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
-    Talk talk = Talk::normal;
+    Verbosity verbosity = Verbosity::normal;
 };
 
 struct InfoSettings {
     SceneSettings scene;
-    Talk talk = Talk::normal;
+    Verbosity verbosity = Verbosity::normal;
 };
 
 } // namespace hemilux

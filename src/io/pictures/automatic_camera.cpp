@@ -107,17 +107,17 @@ double score_of(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
     constexpr int columns = 16, rows = 12;
     const CameraRays view(camera, mesh, aspect);
     std::array<Ray, std::size_t{columns} * rows> rays;
-    std::array<Struck, rays.size()> struck;
+    std::array<FacetHit, rays.size()> hits;
     for (std::size_t k = 0; k < rays.size(); ++k)
         rays[k] =
             view.ray((double(k % columns) + 0.5) / columns, (double(k / columns) + 0.5) / rows);
-    tracer.closest_stream(rays, struck);
+    tracer.closest_stream(rays, hits);
     std::vector<std::uint64_t> seen;
     std::vector<double> depths;
     for (std::size_t k = 0; k < rays.size(); ++k) {
-        if (struck[k].facet == none)
+        if (hits[k].facet == none)
             continue;
-        const Hit hit = tracer.locate(rays[k], struck[k].facet);
+        const Hit hit = tracer.locate(rays[k], hits[k].facet);
         const std::uint32_t patch = mesh.patch_at(hit);
         if (patch != none && lit[patch]) {
             seen.push_back(kind_of(mesh.patches()[patch]));

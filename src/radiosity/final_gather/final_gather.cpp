@@ -202,15 +202,15 @@ std::vector<DirectLight> FinalGather::direct(std::span<const SurfacePoint> point
 
 /// Each ray's light is its share of what it meets.
 void FinalGather::send_random_rays(Batch& batch, std::span<IndirectLight> found) const {
-    std::array<Struck, rays_at_a_time> struck;
-    for (std::size_t begin = 0; begin < batch.random.size(); begin += struck.size()) {
-        const std::size_t n = std::min(struck.size(), batch.random.size() - begin);
+    std::array<FacetHit, rays_at_a_time> hits;
+    for (std::size_t begin = 0; begin < batch.random.size(); begin += hits.size()) {
+        const std::size_t n = std::min(hits.size(), batch.random.size() - begin);
         const auto rays = std::span(batch.random).subspan(begin, n);
-        tracer_.closest_stream(rays, std::span(struck).first(n));
+        tracer_.closest_stream(rays, std::span(hits).first(n));
         for (std::size_t k = 0; k < n; ++k) {
-            if (struck[k].facet == none)
+            if (hits[k].facet == none)
                 continue;
-            const Hit hit = tracer_.locate(rays[k], struck[k].facet);
+            const Hit hit = tracer_.locate(rays[k], hits[k].facet);
             const auto& [place, share] = batch.from_patch[begin + k];
             constexpr double touching = 1e-6;
             found[place].nearness += share.x / std::max(hit.t, touching);

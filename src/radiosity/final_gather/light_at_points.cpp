@@ -22,8 +22,8 @@ constexpr unsigned gathers = 8;
 constexpr std::size_t rays_per_block = 1 << 20;
 
 /// The variance of the light that the rays of a point read, by the standard errors of the patches.
-/// Patches err each for itself, but for one part in `parts`, by which all err together.
-Vec3 variance_of_patches(std::span<std::uint32_t> met, const Solution& solution, double parts) {
+/// Patches err each for itself, but for a share of 1 / freedom, by which all err together.
+Vec3 variance_of_patches(std::span<std::uint32_t> met, const Solution& solution, double freedom) {
     std::ranges::sort(met);
     Vec3 together(0.0), alone(0.0);
     for (std::size_t begin = 0, end = 0; begin < met.size(); begin = end) {
@@ -36,7 +36,7 @@ Vec3 variance_of_patches(std::span<std::uint32_t> met, const Solution& solution,
         together += sigma;
         alone += sigma * sigma;
     }
-    return glm::mix(alone, together * together, 1 / parts);
+    return glm::mix(alone, together * together, 1 / freedom);
 }
 
 PointLight mean_of(std::span<const Vec3> estimates) {
@@ -71,8 +71,8 @@ std::vector<PointLight> light_at(std::span<const Sensor> sensors, const Mesh& me
                                              (gathers * FinalGather::random_rays));
     const std::size_t rays_of_point = std::size_t{gathers} * FinalGather::random_rays * rounds;
     const std::size_t block = std::max<std::size_t>(1, rays_per_block / rays_of_point);
-    const double known_parts = error_spread(mesh, solution).parts;
-    const double parts = known_parts >= 1 ? known_parts : 1;
+    const double known = error_spread(mesh, solution).freedom;
+    const double freedom = known >= 1 ? known : 1;
     FinalGather gather(mesh, tracer, solution.radiosity);
     std::vector<std::uint32_t> met;
     gather.set_rounds(rounds);
@@ -95,7 +95,7 @@ std::vector<PointLight> light_at(std::span<const Sensor> sensors, const Mesh& me
             for (std::size_t k = first; k < end; ++k) {
                 PointLight light = mean_of(std::span(estimates).subspan(k * gathers, gathers));
                 const Vec3 of_patches = variance_of_patches(
-                    std::span(met).subspan(k * rays_of_point, rays_of_point), solution, parts);
+                    std::span(met).subspan(k * rays_of_point, rays_of_point), solution, freedom);
                 light.standard_error = glm::sqrt(light.standard_error + of_patches);
                 lights[begin + k] = light;
             }
