@@ -43,21 +43,6 @@ TEST_CASE("pictures are gathered, unless --no-gather; those of steps are not") {
     }
 }
 
-TEST_CASE("--memory counts what a gathered picture needs") {
-    const Workplace place;
-    place.write_room();
-    const std::string common =
-        "solve room.obj -q --steps 1 --size 16384x16384 --memory 20G -o a.png ";
-    const auto outcome = place.hemilux(common);
-    CHECK(outcome.code == 3);
-    CHECK_THAT(outcome.err, Contains("pictures 47"));
-    CHECK_THAT(place
-                   .hemilux("solve room.obj -q --steps 1 --size 16384x16384 --memory 2G "
-                            "--no-gather -o a.png")
-                   .err,
-               Contains("pictures 6.98 GB"));
-}
-
 TEST_CASE("a signal ends a gathered picture") {
     const Workplace place;
     place.write_room();

@@ -161,7 +161,8 @@ int solve(const SolveSettings& settings) {
     const std::vector<NamedPoint> points = points_of(settings);
     LoadedMesh loaded =
         load_mesh(settings.scene, files, settings.options, methods, settings.verbosity,
-                  (std::ranges::any_of(settings.outputs, is_picture, &Output::kind)
+                  (std::ranges::any_of(settings.outputs, is_picture, &Output::kind) ||
+                           !settings.error_map.empty()
                        ? bytes_of_picture(settings.view.size, settings.gather_pictures)
                        : 0) +
                       bytes_of_points(points.size(), settings.gather));

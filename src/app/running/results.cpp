@@ -1,5 +1,6 @@
 #include "app/running/results.h"
 
+#include "app/running/error_map.h"
 #include "app/running/point_table.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/view.h"
@@ -101,6 +102,7 @@ RunFiles check_files(const SolveSettings& settings) {
     for (const Output& output : settings.outputs)
         written.emplace_back("output", output.path);
     for (const auto& [role, path] : {std::pair("file of --points-output", settings.points.output),
+                                     std::pair("file of --error-map", settings.error_map),
                                      std::pair("file of --stats", settings.statistics),
                                      std::pair("file of --steps-log", settings.steps_log)})
         if (!path.empty())
@@ -175,11 +177,17 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
         std::ranges::for_each(jobs[job], write);
         seconds[job] = watch.seconds();
     });
+    double seconds_map = 0;
+    if (!settings.error_map.empty()) {
+        const Stopwatch watch;
+        report.attempt(settings.error_map, [&] { write_error_map(settings, results); });
+        seconds_map = watch.seconds();
+    }
     // What is done side by side shares the time.
     const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-    const double share = sum > 0 ? (writing.seconds() - seconds_points) / sum : 0;
+    const double share = sum > 0 ? (writing.seconds() - seconds_points - seconds_map) / sum : 0;
     statistics.seconds_gather = seconds_points + share * picture.seconds_gather();
-    statistics.seconds_picture = share * (seconds[0] - picture.seconds_gather());
+    statistics.seconds_picture = seconds_map + share * (seconds[0] - picture.seconds_gather());
     statistics.seconds_write = share * (sum - seconds[0]);
     statistics.bytes_peak = peak_memory_bytes();
     statistics.seconds_total = started.seconds();

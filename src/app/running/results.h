@@ -7,8 +7,8 @@
 #include "io/results/points.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
+#include "radiosity/solving/stop_flag.h"
 
-#include <atomic>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,7 +23,7 @@ struct Results {
     Statistics& statistics; ///< all but the seconds of outputs
     std::span<const StepRow> steps;
     std::span<const NamedPoint> points;
-    const std::atomic<bool>& interrupted; ///< pictures are then left out where they take long
+    const StopFlag& interrupted; ///< pictures are then left out where they take long
 };
 
 /// The files of the run, as far as they are known before the scene is read. Throws UsageError where

@@ -193,12 +193,12 @@ void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
                   const std::string& path) {
     if (!limit || need.all() <= static_cast<double>(*limit))
         return;
-    throw MemoryError(path + ": needs about " + rounded(need.all()) + " (scene " +
-                      rounded(need.scene) + ", patches " + rounded(need.mesh) + ", tree " +
-                      rounded(need.tree) + ", method " + rounded(need.method) + ", pictures " +
-                      rounded(need.pictures) + "), and --memory is " +
-                      rounded(static_cast<double>(*limit)) +
-                      "; a larger --max-edge, fewer --rays or a smaller --size need less");
+    throw MemoryError(
+        path + ": needs about " + rounded(need.all()) + " (scene " + rounded(need.scene) +
+        ", patches " + rounded(need.mesh) + ", tree " + rounded(need.tree) + ", method " +
+        rounded(need.method) + ", pictures " + rounded(need.pictures) + "), and --memory is " +
+        rounded(static_cast<double>(*limit)) +
+        "; a larger --max-edge, fewer --rays, a smaller --size or --no-gather need less");
 }
 
 } // namespace hemilux

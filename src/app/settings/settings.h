@@ -65,10 +65,11 @@ struct SolveSettings {
     StopRule stop;            ///< as given; the method's own rule stands in for an empty one
     ViewSettings view;
     std::vector<Output> outputs;
-    std::string statistics, steps_log; ///< paths; empty: not asked for
-    bool every_step = false;           ///< pictures also after every step
-    std::string reference;             ///< path of a patch table; empty: none
-    std::vector<std::string> detail;   ///< groups; empty: those that begin with `detail`
+    /// Paths; empty: not asked for.
+    std::string statistics, steps_log, error_map;
+    bool every_step = false;         ///< pictures also after every step
+    std::string reference;           ///< path of a patch table; empty: none
+    std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
     CheckpointSettings checkpoint;
     PointSettings points;
     unsigned gather = default_gather; ///< rays at a point of a surface that a picture shows

@@ -18,6 +18,9 @@ constexpr Vec2 pixel_centre(.5);
 /// Of the harmonic mean distance: as far as that the light is taken to be about the same.
 constexpr double reach_share = .25;
 
+/// Light of a lamp changes as its inverse square or faster, other light more slowly.
+constexpr double of_emitters = 2;
+
 /// Points in each direction over which one averages.
 constexpr int reach_points = 4;
 
@@ -144,7 +147,8 @@ void PictureGather::gather(const Workers& workers) {
             for (std::size_t i = 0; i < lights.size(); ++i) {
                 records_[own.places[i]].light.indirect = lights[i].irradiance;
                 records_[own.places[i]].light.unshadowed = direct[i].unshadowed;
-                records_[own.places[i]].nearness = lights[i].nearness;
+                records_[own.places[i]].nearness =
+                    std::max(lights[i].nearness, of_emitters * direct[i].nearness);
             }
         });
 }
@@ -189,7 +193,18 @@ void PictureGather::add(SlowLight& sum, const SlowLight& light, double weight) {
     sum.indirect += weight * light.indirect;
 }
 
-/// Over points that are `stride` apart. What was smoothed with stride 1 has little detail between
+/// Of a point for the mean around another; 0 where it is too far away or of another surface.
+/// `most`: inverse of a distance within which none is too far.
+double PictureGather::weight_of(const Record& here, const Record* there, double most) {
+    if (!there || !here.is_of_surface(there->at))
+        return 0;
+    const Vec3 way = there->at.position - here.at.position;
+    const double share = std::min(std::max(here.nearness, there->nearness) / reach_share, most);
+    return 1 - share * share * glm::dot(way, way);
+}
+
+/// Over points in opposite pairs, so that light which changes evenly stays as it is up to the edge
+/// of a surface. They are `stride` apart: what was smoothed with stride 1 has little detail between
 /// such points (the algorithme a trous: Dammertz et al. 2010).
 void PictureGather::smooth_light(int stride, const Workers& workers) {
     std::vector<SlowLight> smoothed(records_.size());
@@ -200,23 +215,21 @@ void PictureGather::smooth_light(int stride, const Workers& workers) {
                 const Record* const here = record(x, y);
                 if (!here)
                     continue;
-                SlowLight sum;
-                double weights = 0;
                 const double most = 1 / (least_steps * spacing(x, y));
-                for (int dy = -reach_points; dy <= reach_points; ++dy)
-                    for (int dx = -reach_points; dx <= reach_points; ++dx) {
+                SlowLight sum = here->light;
+                double weights = 1;
+                for (int dy = 0; dy <= reach_points; ++dy)
+                    for (int dx = dy > 0 ? -reach_points : 1; dx <= reach_points; ++dx) {
                         const Record* const there = record(x + stride * dx, y + stride * dy);
-                        if (!there || !here->is_of_surface(there->at))
-                            continue;
-                        const Vec3 way = there->at.position - here->at.position;
-                        const double share =
-                            std::min(std::max(here->nearness, there->nearness) / reach_share, most);
-                        const double weight =
-                            ends(dx) * ends(dy) * (1 - share * share * glm::dot(way, way));
+                        const Record* const opposite = record(x - stride * dx, y - stride * dy);
+                        const double weight = ends(dx) * ends(dy) *
+                                              std::min(weight_of(*here, there, most),
+                                                       weight_of(*here, opposite, most));
                         if (!(weight > 0))
                             continue;
                         add(sum, there->light, weight);
-                        weights += weight;
+                        add(sum, opposite->light, weight);
+                        weights += 2 * weight;
                     }
                 smoothed[static_cast<std::size_t>(here - records_.data())] = {
                     sum.unshadowed / weights, sum.indirect / weights};

@@ -69,7 +69,7 @@ class PictureGather {
     struct Record {
         SurfacePoint at;
         SlowLight light;
-        double nearness = 0; ///< mean inverse distance of what the rays met
+        double nearness = 0; ///< mean inverse distance of what the rays met, or of lamps
 
         [[nodiscard]] bool is_of_surface(const SurfacePoint& point) const {
             return is_same_surface(point.position, point.normal, at.position, at.normal);
@@ -79,6 +79,7 @@ class PictureGather {
     [[nodiscard]] const Record* record(int x, int y) const;
     void find_points(const Mesh& mesh, const CameraRays& camera, const Workers& workers);
     void gather(const Workers& workers);
+    [[nodiscard]] static double weight_of(const Record& here, const Record* there, double most);
     static void add(SlowLight& sum, const SlowLight& light, double weight);
     [[nodiscard]] double spacing(int x, int y) const;
     void smooth_nearness(const Workers& workers);

@@ -189,8 +189,14 @@ std::vector<DirectLight> FinalGather::direct(std::span<const SurfacePoint> point
             add_shadow_rays(points[k], numbers, in_block, n, count, k, batch);
             next += n;
         }
-        for (std::size_t ray = before; ray < batch.to_emitter.size(); ++ray)
-            found[k].unshadowed += batch.to_emitter[ray].light;
+        double by_nearness = 0;
+        for (std::size_t ray = before; ray < batch.to_emitter.size(); ++ray) {
+            const Vec3& light = batch.to_emitter[ray].light;
+            found[k].unshadowed += light;
+            by_nearness += mean_of_channels(light) / batch.shadow[ray].t_max;
+        }
+        if (by_nearness > 0)
+            found[k].nearness = by_nearness / mean_of_channels(found[k].unshadowed);
         if (shadows == Shadows::left_out)
             batch.clear_shadow_rays();
         else if (batch.shadow.size() >= rays_per_batch)

@@ -35,6 +35,7 @@ struct GatherSamples {
 struct DirectLight {
     Vec3 arriving{0.0};
     Vec3 unshadowed{0.0}; ///< what would arrive if nothing stood between
+    double nearness = 0;  ///< mean inverse distance of the emitters, by that light; local frame
 };
 enum class Shadows { traced, left_out };
 
