@@ -91,7 +91,7 @@ void check_same(const Scene& scene, const MeshOptions& options, const Camera& ca
 TEST_CASE("filled rows show what rays see") {
     const std::vector<Camera> cameras{
         {.eye = {.1, .2, .3}, .target = {1, .9, -.4}, .vertical_fov_degrees = 100},
-        {.eye = {3, 2, 1}, .target = {0, 0, 0}, .vertical_fov_degrees = 40},
+        {.eye = {3.3, 2.2, 1}, .target = {.1, .05, .13}, .vertical_fov_degrees = 40},
         {.eye = {.5, .52, .47}, .target = {.45, -7, .6}, .vertical_fov_degrees = 60}};
     for (const Camera& camera : cameras)
         for (const bool two_sided : {false, true})
