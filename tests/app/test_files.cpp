@@ -203,20 +203,20 @@ TEST_CASE("a signal ends a wait for the reader of an output") {
     REQUIRE(mkfifo(place.path("pipe.csv").c_str(), 0600) == 0);
     const int signal = GENERATE(SIGINT, SIGTERM);
     const bool has_reader = GENERATE(false, true); // one that reads nothing, and the pipe fills up
-    const std::string command = GENERATE(
-        "solve room.obj --method stratified --steps 1 --max-edge .02 -o a.json -o pipe.csv",
-        "formfactors room.obj --max-edge .1 --rays 64 -o a.csv -o pipe.csv");
+    const std::string command =
+        GENERATE("solve room.obj --method stratified --steps 1 --max-edge .02 -o a.ply -o pipe.csv",
+                 "formfactors room.obj --max-edge .1 --rays 64 -o a.csv -o pipe.csv");
     CAPTURE(signal, has_reader, command);
     const int reader =
         has_reader ? open(place.path("pipe.csv").c_str(), O_RDONLY | O_NONBLOCK) : -1;
     Running run(place, command, place.path("stderr.txt").c_str());
     const bool solves = command.starts_with("solve");
-    REQUIRE(test::wait_until([&] { return place.has(solves ? "a.json" : "a.csv"); }));
+    REQUIRE(test::wait_until([&] { return place.has(solves ? "a.ply" : "a.csv"); }));
     run.send(signal);
     CHECK(test::wait_until([&] { return run.ended(); }));
     CHECK(run.wait() == 128 + signal);
     CHECK_THAT(place.read("stderr.txt"), Contains("left out pipe.csv"));
-    CHECK(place.has(solves ? "a.json" : "a.csv"));
+    CHECK(place.has(solves ? "a.ply" : "a.csv"));
     if (reader >= 0)
         close(reader);
 }
