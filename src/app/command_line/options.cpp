@@ -68,7 +68,7 @@ void add_method_option(Command command, const Method*& method) {
 }
 
 /// All that --methods may name.
-std::vector<MethodVariant> possible_entrants() {
+std::vector<MethodVariant> possible_variants() {
     std::vector<MethodVariant> list;
     for (const Method* const method : methods()) {
         list.push_back({std::string(method->name), method, {}});
@@ -81,9 +81,9 @@ std::vector<MethodVariant> possible_entrants() {
     return list;
 }
 
-MethodVariant entrant_by_name(std::string_view name) {
+MethodVariant variant_by_name(std::string_view name) {
     std::vector<std::string> names;
-    for (const MethodVariant& variant : possible_entrants()) {
+    for (const MethodVariant& variant : possible_variants()) {
         if (variant.name == name)
             return variant;
         names.push_back(variant.name);
@@ -92,11 +92,11 @@ MethodVariant entrant_by_name(std::string_view name) {
 }
 
 /// Names with commas between them.
-std::vector<MethodVariant> entrants_from(std::string_view text) {
+std::vector<MethodVariant> variants_from(std::string_view text) {
     std::vector<MethodVariant> list;
     for (bool more = true; more;) {
         const std::size_t comma = text.find(',');
-        list.push_back(entrant_by_name(text.substr(0, comma)));
+        list.push_back(variant_by_name(text.substr(0, comma)));
         if (std::ranges::count(list, list.back().name, &MethodVariant::name) > 1)
             throw UsageError("--methods: '" + list.back().name + "' is named twice");
         more = comma != std::string_view::npos;
@@ -108,7 +108,7 @@ std::vector<MethodVariant> entrants_from(std::string_view text) {
 
 void add_methods_option(Command command, std::vector<MethodVariant>& list) {
     std::string with_guides;
-    for (const MethodVariant& variant : possible_entrants())
+    for (const MethodVariant& variant : possible_variants())
         if (variant.guide)
             with_guides += (with_guides.empty() ? "" : ", ") + variant.name;
         else if (variant.method->unbiased || variant.method->role == Role::standard)
@@ -117,7 +117,7 @@ void add_methods_option(Command command, std::vector<MethodVariant>& list) {
         .add_value("--methods", "NAME,NAME,...",
                    "what to compare, see below; also " + with_guides + " [" +
                        std::string(method_of(Role::standard).name) + " and all that are unbiased]",
-                   [&list](const std::string& text) { list = entrants_from(text); })
+                   [&list](const std::string& text) { list = variants_from(text); })
         .group("Method");
 }
 
@@ -291,6 +291,11 @@ void add_reference_options(Command command, CompareSettings& settings) {
         .group(comparison_group);
     add_number(command, "--reference-error", "X", settings.reference_error, positive,
                "estimated relative error of the " + method + " method [.002]")
+        .group(comparison_group);
+    command
+        .add_flag("--total", settings.total,
+                  "curves and gains by the error of the light itself: also that a patch has one "
+                  "value; the table has both errors")
         .group(comparison_group);
     add_detail_option(command, settings.detail);
 }

@@ -79,6 +79,18 @@ std::vector<MethodRuns> run_with_progress(const Comparison& comparison,
     });
 }
 
+/// The light that the reference gives at points of the surfaces; empty where it is not asked for.
+std::optional<KnownLight> find_light(const CompareSettings& settings, const Mesh& mesh,
+                                     const Tracer& tracer, const Reference& reference,
+                                     const StopFlag& interrupted) {
+    constexpr std::size_t points = 1 << 15;
+    if (!settings.total)
+        return std::nullopt;
+    return std::optional<KnownLight>(std::in_place, mesh, tracer, reference.radiosity, points,
+                                     hash_words({settings.options.seed, 0x6c69676874u}),
+                                     Workers(settings.options.threads), interrupted);
+}
+
 /// Methods that were interrupted before their first step have nothing to show.
 void drop_empty(std::vector<MethodRuns>& results) {
     for (MethodRuns& result : results)
@@ -157,7 +169,10 @@ int run_comparison(const CompareSettings& settings, std::vector<std::uint32_t>& 
         return exit_code_of_signal();
     }
     reference->detail = std::move(detail);
-    const Comparison comparison{mesh, *tracer, settings, *reference, monitor, needs};
+    const std::optional<KnownLight> light =
+        find_light(settings, mesh, *tracer, *reference, monitor.interrupted);
+    const Comparison comparison{mesh,    *tracer, settings, *reference, light ? &*light : nullptr,
+                                monitor, needs};
     if (settings.reference.empty()) {
         const WriteReport report = write_reference(comparison);
         report.log(settings.verbosity);

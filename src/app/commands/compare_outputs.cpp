@@ -44,7 +44,7 @@ Chart chart_of(const Comparison& comparison, std::span<const MethodSummary> summ
     chart.title = fs::path(settings.scene.path).filename().string() + ": " +
                   counted(comparison.mesh.patches().size(), "patch", "patches") + ", mean of " +
                   counted(settings.runs, "run", "runs");
-    chart.y_label = "relative error, %";
+    chart.y_label = settings.total ? "relative error of the light itself, %" : "relative error, %";
     Panel by_seconds{"seconds, preprocessing included", {}};
     Panel by_rays{"rays, density rays included", {}};
     for (const MethodSummary& summary : summaries) {

@@ -26,7 +26,7 @@ class Runner {
   public:
     Runner(const Comparison& comparison, const MethodVariant& variant, std::uint32_t run,
            const Budget& budget)
-        : contest_(comparison), entrant_(variant), run_(run), budget_(budget),
+        : comparison_(comparison), variant_(variant), run_(run), budget_(budget),
           options_(with_memory(comparison.settings.options, comparison.settings.scene)) {
         options_.rays = rays_of_step(options_.rays, budget.seconds, *variant.method,
                                      comparison.mesh.patches().size());
@@ -43,9 +43,9 @@ class Runner {
     bool step() {
         const double before = used();
         const Stopwatch stepping;
-        const TimeLimit limit(contest_.monitor.interrupted, seconds_left());
+        const TimeLimit limit(comparison_.monitor.interrupted, seconds_left());
         if (!solver_->step()) {
-            cut_short_ = !contest_.monitor.interrupted.load();
+            cut_short_ = !comparison_.monitor.interrupted.load();
             return false;
         }
         seconds_ += stepping.seconds();
@@ -94,13 +94,15 @@ class Runner {
     [[nodiscard]] StepRow row() const {
         const Solution& solution = solver_->solution();
         const auto step = static_cast<std::uint32_t>(result_.rows.size() + 1);
-        return {entrant_.name, run_,
-                StepRecord{step, rays(), seconds_, estimated_error(contest_.mesh, solution)},
-                contest_.reference.error(contest_.mesh, solution.radiosity)};
+        return {variant_.name, run_,
+                StepRecord{step, rays(), seconds_, estimated_error(comparison_.mesh, solution)},
+                comparison_.reference.error(comparison_.mesh, solution.radiosity),
+                comparison_.light ? std::optional(comparison_.light->error(solution.radiosity))
+                                  : std::nullopt};
     }
 
-    const Comparison& contest_;
-    const MethodVariant& entrant_;
+    const Comparison& comparison_;
+    const MethodVariant& variant_;
     std::uint32_t run_;
     Budget budget_;
     SolveOptions options_;

@@ -5,6 +5,7 @@
 #include "app/loading/reference.h"
 #include "app/settings/settings.h"
 #include "io/results/tables.h"
+#include "radiosity/final_gather/known_light.h"
 #include "radiosity/solving/solve_error.h"
 
 #include <functional>
@@ -32,6 +33,7 @@ struct Comparison {
     const Tracer& tracer;
     const CompareSettings& settings;
     const Reference& reference;
+    const KnownLight* light; ///< none: errors are those on the patches
     Monitor& monitor;
     const Needs& needs;
 };

@@ -101,6 +101,7 @@ struct CompareSettings {
     std::uint32_t runs = 3;
     std::string reference;         ///< path of a patch table; empty: computed by `matrix`
     double reference_error = .002; ///< estimated error at which it is good enough
+    bool total = false;            ///< errors are those of the light itself, division included
     ViewSettings view;
     std::string folder;
     std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`

@@ -22,7 +22,8 @@ constexpr std::string_view patch_header =
     "emission_r,emission_g,emission_b,radiosity_r,radiosity_g,radiosity_b,stderr_r,stderr_g,"
     "stderr_b\n";
 constexpr std::string_view steps_header =
-    "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,true_error_rest\n";
+    "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,true_error_rest,"
+    "total_error\n";
 
 /// Some rows are written to the file while others are put into words: so many at once, about 4 MB.
 constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64;
@@ -126,6 +127,7 @@ void write_steps_log(const std::string& path, std::span<const StepRow> rows) {
         add_if_known(text, error.all);
         add_if_known(text, error.detail);
         add_if_known(text, error.rest);
+        add_if_known(text, row.total_error.value_or(absent));
         text += '\n';
     }
     write_atomically(path, text);
