@@ -203,20 +203,20 @@ TEST_CASE("a signal ends a wait for the reader of an output") {
     REQUIRE(mkfifo(place.path("pipe.csv").c_str(), 0600) == 0);
     const int signal = GENERATE(SIGINT, SIGTERM);
     const bool has_reader = GENERATE(false, true); // one that reads nothing, and the pipe fills up
-    const std::string command = GENERATE(
-        "solve room.obj --method stratified --steps 1 --max-edge .02 -o a.json -o pipe.csv",
-        "formfactors room.obj --max-edge .1 --rays 64 -o a.csv -o pipe.csv");
+    const std::string command =
+        GENERATE("solve room.obj --method stratified --steps 1 --max-edge .02 -o a.ply -o pipe.csv",
+                 "formfactors room.obj --max-edge .1 --rays 64 -o a.csv -o pipe.csv");
     CAPTURE(signal, has_reader, command);
     const int reader =
         has_reader ? open(place.path("pipe.csv").c_str(), O_RDONLY | O_NONBLOCK) : -1;
     Running run(place, command, place.path("stderr.txt").c_str());
     const bool solves = command.starts_with("solve");
-    REQUIRE(test::wait_until([&] { return place.has(solves ? "a.json" : "a.csv"); }));
+    REQUIRE(test::wait_until([&] { return place.has(solves ? "a.ply" : "a.csv"); }));
     run.send(signal);
     CHECK(test::wait_until([&] { return run.ended(); }));
     CHECK(run.wait() == 128 + signal);
     CHECK_THAT(place.read("stderr.txt"), Contains("left out pipe.csv"));
-    CHECK(place.has(solves ? "a.json" : "a.csv"));
+    CHECK(place.has(solves ? "a.ply" : "a.csv"));
     if (reader >= 0)
         close(reader);
 }
@@ -250,13 +250,15 @@ TEST_CASE("a signal ends the rendering of a picture and leaves the other outputs
     place.write_room();
     // One thread writes the table or the drawing first and works on the picture for long.
     const auto [command, other] = GENERATE(
-        std::pair("solve room.obj --method stratified --steps 1 -o huge.png -o a.csv", "a.csv"),
+        std::pair(
+            "solve room.obj --method stratified --steps 1 -o huge.png -o a.csv --size 2048x2048",
+            "a.csv"),
         std::pair("density room.obj -o a.svg -o huge.png", "a.svg"),
         std::pair("compare room.obj -o huge --methods stratified --runs 1 "
-                  "--budget-rays 1e4 --reference-error .1",
+                  "--budget-rays 1e4 --reference-error .1 --size 8192x6144",
                   "huge/error.svg"));
     CAPTURE(command);
-    Running run(place, std::string(command) + " --threads 1 --size 4096x4096 >table.txt",
+    Running run(place, std::string(command) + " --threads 1 >table.txt",
                 place.path("stderr.txt").c_str());
     REQUIRE(test::wait_until([&] { return place.has(other); }));
     run.send(SIGTERM);

@@ -63,9 +63,12 @@ TEST_CASE("--memory counts pictures") {
     const Workplace place;
     place.write_room();
     const std::string run = "solve room.obj --steps 1 --memory 100M ";
-    const auto outcome = place.hemilux(run + "--size 4096x4096 -o a.png");
-    CHECK(outcome.code == 3);
-    CHECK_THAT(outcome.err, Contains("pictures 436 MB") && Contains("a smaller --size"));
+    for (const auto& [options, need] :
+         {std::pair("--no-gather", "pictures 436 MB"), {"--gather 4", "pictures 2.62 GB"}}) {
+        const auto outcome = place.hemilux(run + "--size 4096x4096 -o a.png " + options);
+        CHECK(outcome.code == 3);
+        CHECK_THAT(outcome.err, Contains(need) && Contains("a smaller --size"));
+    }
     CHECK(place.hemilux(run + "--size 4096x4096 -o a.csv").code == 0);
     CHECK(place.hemilux(run + "--size 400x300 -o a.png").code == 0);
     CHECK(place.hemilux("compare room.obj --memory 100M --size 4096x4096 -o b").code == 3);

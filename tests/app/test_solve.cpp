@@ -167,7 +167,8 @@ TEST_CASE("a picture after every step shows one view as it gets brighter") {
     const Workplace place;
     place.write_room();
     const auto outcome = place.hemilux("solve room.obj --method progressive --one-shot --steps 3 "
-                                       "--every-step --size 40x30 -o p.png -o p.hdr -o p.csv");
+                                       "--every-step --no-gather --size 40x30 -o p.png -o p.hdr "
+                                       "-o p.csv");
     REQUIRE(outcome.code == 0);
     for (const char* name : {"p-0001.png", "p-0002.png", "p-0003.png", "p-0003.hdr", "p.png"})
         CHECK(place.has(name));

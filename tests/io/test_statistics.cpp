@@ -85,7 +85,12 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
       "why": "all is \"grey\"",
       "saved": "2/3 of the memory"
     }
-  ]
+  ],
+  "seconds_analysis": null,
+  "seconds_gather": 0.0,
+  "seconds_picture": 0.0,
+  "seconds_write": 0.0,
+  "seconds_total": null
 }
 )";
     CHECK(to_json(example()) == expected);

@@ -136,3 +136,22 @@ TEST_CASE("an error of division is unknown where nothing is lit or the user has 
     now = true;
     CHECK(std::isnan(division_error(model.mesh, model.bvh, solution, {}, Workers(1), now).error));
 }
+
+TEST_CASE("the errors of patches add up to that of the division") {
+    const Model model(lamp_over_ground(.3), {.max_edge = .5});
+    Solution solution = test::solve(model, *find_method("gathering"), {},
+                                    {.steps = {}, .seconds = {}, .error = .002});
+    const double truth = true_error_on_ground(model.mesh, solution.radiosity);
+    const StopFlag never;
+    const std::vector<double> levels =
+        patch_error_levels(model.mesh, model.bvh, solution, 1, Workers(0), never);
+    double sum = 0, area = 0;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        sum += model.mesh.patches()[i].area * levels[i] * levels[i];
+        area += model.mesh.patches()[i].area;
+    }
+    CHECK(std::sqrt(sum / area) == Approx(truth).epsilon(.2));
+    StopFlag interrupted;
+    interrupted = true;
+    CHECK(patch_error_levels(model.mesh, model.bvh, solution, 1, Workers(0), interrupted).empty());
+}

@@ -193,6 +193,40 @@ void add_output_options(Command command, SolveSettings& settings) {
     add_view_options(command, settings.view);
 }
 
+void add_point_options(Command command, SolveSettings& settings) {
+    command
+        .add_text("--points", "FILE", settings.points.path,
+                  "points where the light is to be known: rows x,y,z,nx,ny,nz")
+        .group(output_group);
+    command
+        .add_text("--points-output", "FILE", settings.points.output,
+                  "CSV table of --points: irradiance, radiosity, standard error")
+        .group(output_group);
+    add_whole<unsigned>(command, "--gather", settings.gather, 1, SolveSettings::most_gather,
+                        "rays that gather light at a point of a picture; at one of --points 256 "
+                        "times as many [16]")
+        .group(output_group);
+    command
+        .add_action(
+            "--no-gather", [&settings] { settings.gather_pictures = false; },
+            "pictures interpolate the light of the patches: sooner done, shadows as patches have "
+            "them")
+        .group(output_group);
+}
+
+void add_error_map_option(Command command, SolveSettings& settings) {
+    add_parsed(
+        command, "--error-map", "FILE.png",
+        "picture in false colour of how far the light of each patch is off",
+        "a file name that ends with .png",
+        [](const std::string& path) {
+            const std::optional<Output> output = parse_output(path);
+            return output && output->kind == OutputKind::png ? output : std::nullopt;
+        },
+        [&settings](const Output& value) { settings.error_map = value.path; })
+        .group(output_group);
+}
+
 void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
     const std::string group = "Checkpoints";
     command
@@ -281,6 +315,7 @@ Examples:
   hemilux solve room.obj -o room.png
   hemilux solve room.obj --divide auto --error .03 -o room.png
   hemilux solve room.obj --max-edge .1 --error .01 -o room.hdr -o room.csv
+  hemilux solve room.obj --points desks.txt --points-output desks.csv
   hemilux solve map.obj --emission 'Lava=8,2,.3' --reflectance '*=.6' -o map.ply
   hemilux solve room.obj --method matrix -o reference.csv
   hemilux solve room.obj --reference reference.csv --steps-log steps.csv
@@ -348,6 +383,8 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_own_options(command, settings.options);
     add_stop_options(command, settings.stop);
     add_output_options(command, settings);
+    add_point_options(command, settings);
+    add_error_map_option(command, settings);
     add_checkpoint_options(command, settings.checkpoint);
     add_comparison_options(command, settings);
     add_verbosity_options(command, settings.verbosity);

@@ -6,6 +6,7 @@
 #include "app/loading/sides.h"
 #include "app/running/checkpointing.h"
 #include "app/running/division.h"
+#include "app/running/point_table.h"
 #include "app/running/results.h"
 #include "app/running/run_notes.h"
 #include "app/running/signals.h"
@@ -26,6 +27,7 @@
 #include "radiosity/solving/left_out.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace hemilux {
@@ -88,25 +90,35 @@ std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverI
     }
 }
 
-void log_lost_light(const SolveSettings& settings, const Results& results) {
+std::string lost_light_of(const SolveSettings& settings, const Results& results) {
+    if (results.solution.steps == 0)
+        return "";
     const LightShares light = find_light_shares(results.mesh, results.tracer);
-    const std::string text =
-        lost_light_text(results.mesh, results.solution.radiosity, light, settings.scene.sides);
-    if (!text.empty())
-        log_line(settings.verbosity, Verbosity::normal, "warning: " + text);
+    return lost_light_text(results.mesh, results.solution.radiosity, light, settings.scene.sides);
 }
 
-/// The last words; returns the exit code.
+/// Those of the stages that have a name, before anything is written.
+double seconds_of_stages(const Statistics& s) {
+    const auto known = [](double seconds) { return std::isfinite(seconds) ? seconds : 0; };
+    return known(s.seconds_read) + known(s.seconds_bvh) + s.seconds_divide +
+           known(s.seconds_density) + known(s.seconds_solve) + known(s.seconds_division_error);
+}
+
+/// The last words; returns the exit code. `seconds_before`: of the run that this one goes on with.
 int finish(const SolveSettings& settings, const Results& results, const WriteReport& of_steps,
-           const std::optional<Reference>& reference, const RunNotes& notes, bool interrupted) {
-    WriteReport report = write_results(settings, results);
+           const std::optional<Reference>& reference, const RunNotes& notes, bool interrupted,
+           const Stopwatch& started, double seconds_before) {
+    const std::string lost_light = lost_light_of(settings, results);
+    results.statistics.seconds_analysis =
+        std::max(0.0, started.seconds() + seconds_before - seconds_of_stages(results.statistics));
+    WriteReport report = write_results(settings, results, started);
     report.add(of_steps);
     log_line(settings.verbosity, Verbosity::normal, run_text(results.statistics));
     for (const std::string& note : notes.texts(results.statistics.error_sampling, interrupted))
         log_line(settings.verbosity, Verbosity::normal, "warning: " + note);
-    if (results.solution.steps > 0)
-        log_lost_light(settings, results);
-    else if (!interrupted)
+    if (!lost_light.empty())
+        log_line(settings.verbosity, Verbosity::normal, "warning: " + lost_light);
+    if (results.solution.steps == 0 && !interrupted)
         log_line(
             settings.verbosity, Verbosity::quiet,
             "warning: the time ended before the first step was done; the outputs hold emission "
@@ -134,6 +146,7 @@ int finish(const SolveSettings& settings, const Results& results, const WriteRep
 } // namespace
 
 int solve(const SolveSettings& settings) {
+    const Stopwatch started;
     const RunFiles files = check_files(settings);
     const std::span methods(&settings.method, 1);
     check_own_options(settings.options, methods);
@@ -145,12 +158,16 @@ int solve(const SolveSettings& settings) {
 
     Workers(settings.options.threads).start();
     const std::optional<Checkpoint> resumed = read_resumed(settings);
+    const std::vector<NamedPoint> points = points_of(settings);
     LoadedMesh loaded =
         load_mesh(settings.scene, files, settings.options, methods, settings.verbosity,
-                  std::ranges::any_of(settings.outputs, is_picture, &Output::kind)
-                      ? bytes_of_picture(settings.view.size)
-                      : 0);
+                  (std::ranges::any_of(settings.outputs, is_picture, &Output::kind) ||
+                           !settings.error_map.empty()
+                       ? bytes_of_picture(settings.view.size, settings.gather_pictures)
+                       : 0) +
+                      bytes_of_points(points.size(), settings.gather));
     const Mesh& mesh = loaded.mesh;
+    check_distances(settings, points, mesh);
     check_camera(settings.view, mesh);
     check_exact(settings.options, mesh.patches().size());
     check_plain(settings, mesh.patches().size());
@@ -226,9 +243,9 @@ int solve(const SolveSettings& settings) {
     const bool interrupted = !completed && !fault;
     SolveSettings shown = settings; // the last picture has the view of those before
     shown.view.camera = step_pictures.camera();
-    const int code =
-        finish(shown, {mesh, *tracer, solver->solution(), statistics, rows, monitor.interrupted},
-               of_run, reference, notes, interrupted);
+    const int code = finish(
+        shown, {mesh, *tracer, solver->solution(), statistics, rows, points, monitor.interrupted},
+        of_run, reference, notes, interrupted, started, resumed ? resumed->seconds : 0);
     if (interrupted)
         end_at_once(code);
     if (!fault || code != exit_done)

@@ -1,5 +1,7 @@
 #include "app/running/results.h"
 
+#include "app/running/error_map.h"
+#include "app/running/point_table.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/view.h"
 #include "io/files/error.h"
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 #include <optional>
 
 namespace hemilux {
@@ -35,8 +38,12 @@ class SharedClasses {
 /// Renders when the first picture is asked for, and once only.
 class Picture {
   public:
-    Picture(const ViewSettings& view, const Results& results, SharedClasses& classes)
-        : view_(view), results_(results), classes_(classes), time_(results.interrupted) {}
+    Picture(const SolveSettings& settings, const Results& results, SharedClasses& classes)
+        : view_(settings.view), gather_(settings.gather_pictures ? settings.gather : 0),
+          results_(results), classes_(classes), time_(results.interrupted) {}
+
+    /// Of rendering, where the light is gathered.
+    [[nodiscard]] double seconds_gather() const { return seconds_gather_; }
 
     void write(const Output& output) {
         if (!image_)
@@ -50,17 +57,24 @@ class Picture {
     }
 
   private:
-    [[nodiscard]] Image render() const {
-        const auto& [mesh, tracer, solution, statistics, steps, interrupted] = results_;
+    [[nodiscard]] Image render() {
+        const auto& [mesh, tracer, solution, statistics, steps, points, interrupted] = results_;
         const Camera camera = camera_of(view_, mesh, tracer, solution.radiosity);
-        return render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads,
-                           time_, &classes_.get());
+        const Stopwatch watch;
+        Image image =
+            render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads, time_,
+                        gather_ > 0 ? nullptr : &classes_.get(), gather_);
+        if (gather_ > 0)
+            seconds_gather_ = watch.seconds();
+        return image;
     }
 
     const ViewSettings& view_;
+    unsigned gather_; ///< rays at a point; 0: pictures interpolate
     const Results& results_;
     SharedClasses& classes_;
     PictureTime time_;
+    double seconds_gather_ = 0;
     std::optional<Image> image_;
 };
 
@@ -87,10 +101,17 @@ RunFiles check_files(const SolveSettings& settings) {
     std::vector<std::pair<std::string, std::string>> written;
     for (const Output& output : settings.outputs)
         written.emplace_back("output", output.path);
-    for (const auto& [role, path] : {std::pair("file of --stats", settings.statistics),
+    for (const auto& [role, path] : {std::pair("file of --points-output", settings.points.output),
+                                     std::pair("file of --error-map", settings.error_map),
+                                     std::pair("file of --stats", settings.statistics),
                                      std::pair("file of --steps-log", settings.steps_log)})
         if (!path.empty())
             written.emplace_back(role, path);
+    if (settings.points.path.empty() != settings.points.output.empty())
+        throw UsageError(settings.points.path.empty()
+                             ? "--points-output is the table of --points; add --points FILE"
+                             : "--points needs a file for its table; add --points-output "
+                               "light.csv (or /dev/stdout)");
     if (written.empty())
         throw UsageError("nothing would be written; add an output such as -o picture.png");
     if (settings.every_step && std::ranges::none_of(settings.outputs, is_picture, &Output::kind))
@@ -107,20 +128,33 @@ RunFiles check_files(const SolveSettings& settings) {
     files.read("scene", settings.scene.path);
     if (!settings.reference.empty())
         files.read("reference", settings.reference);
+    if (!settings.points.path.empty())
+        files.read("file of --points", settings.points.path);
     // A run may renew the checkpoint that it goes on from.
     if (!resumed.empty() && resumed != checkpoint &&
         identity_of(resumed) != identity_of(checkpoint))
         files.read("file of --resume", resumed);
     for (const auto& [role, path] : written)
         check_writable(path);
-    if (!settings.reference.empty())
-        check_input(settings.reference, InputKind::stream);
+    for (const std::string& path : {settings.reference, settings.points.path})
+        if (!path.empty())
+            check_input(path, InputKind::stream);
+    if (is_same_stream(settings.reference, settings.points.path))
+        throw UsageError("--reference and --points: '" + settings.points.path +
+                         "' is a pipe, which can be read once");
     return files;
 }
 
-WriteReport write_results(const SolveSettings& settings, const Results& results) {
+WriteReport write_results(const SolveSettings& settings, const Results& results,
+                          const Stopwatch& started) {
+    Statistics& statistics = results.statistics;
+    const Stopwatch writing;
     SharedClasses classes(results.mesh);
-    Picture picture(settings.view, results, classes);
+    Picture picture(settings, results, classes);
+    WriteReport report;
+    if (!settings.points.output.empty())
+        report.attempt(settings.points.output, [&] { write_points(settings, results); });
+    const double seconds_points = writing.seconds();
     std::vector<WriteReport> reports(settings.outputs.size());
     const auto write = [&](std::size_t k) {
         const Output& output = settings.outputs[k];
@@ -132,15 +166,34 @@ WriteReport write_results(const SolveSettings& settings, const Results& results)
     for (std::size_t k = 0; k < settings.outputs.size(); ++k)
         if (is_picture(settings.outputs[k].kind))
             jobs[0].push_back(k);
-        else
+        else if (settings.outputs[k].kind != OutputKind::json)
             jobs.push_back({k});
+    std::vector<double> seconds(jobs.size());
     const Workers workers(settings.options.threads);
-    if (workers.threads() == 1)
-        std::ranges::reverse(jobs);
-    workers.for_chunks(jobs.size(), 1, [&](std::size_t job, std::size_t) {
+    const bool reversed = workers.threads() == 1;
+    workers.for_chunks(jobs.size(), 1, [&](std::size_t turn, std::size_t) {
+        const std::size_t job = reversed ? jobs.size() - 1 - turn : turn;
+        const Stopwatch watch;
         std::ranges::for_each(jobs[job], write);
+        seconds[job] = watch.seconds();
     });
-    WriteReport report;
+    double seconds_map = 0;
+    if (!settings.error_map.empty()) {
+        const Stopwatch watch;
+        report.attempt(settings.error_map, [&] { write_error_map(settings, results); });
+        seconds_map = watch.seconds();
+    }
+    // What is done side by side shares the time.
+    const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+    const double share = sum > 0 ? (writing.seconds() - seconds_points - seconds_map) / sum : 0;
+    statistics.seconds_gather = seconds_points + share * picture.seconds_gather();
+    statistics.seconds_picture = seconds_map + share * (seconds[0] - picture.seconds_gather());
+    statistics.seconds_write = share * (sum - seconds[0]);
+    statistics.bytes_peak = peak_memory_bytes();
+    statistics.seconds_total = started.seconds();
+    for (std::size_t k = 0; k < settings.outputs.size(); ++k)
+        if (settings.outputs[k].kind == OutputKind::json)
+            write(k);
     for (const WriteReport& of_output : reports)
         report.add(of_output);
     if (!settings.statistics.empty())

@@ -3,10 +3,12 @@
 
 #include "app/running/write_report.h"
 #include "app/settings/settings.h"
+#include "app/terminal/stopwatch.h"
+#include "io/results/points.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
+#include "radiosity/solving/stop_flag.h"
 
-#include <atomic>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,9 +20,10 @@ struct Results {
     const Mesh& mesh;
     const Tracer& tracer;
     const Solution& solution;
-    const Statistics& statistics;
+    Statistics& statistics; ///< all but the seconds of outputs
     std::span<const StepRow> steps;
-    const std::atomic<bool>& interrupted; ///< pictures are then left out where they take long
+    std::span<const NamedPoint> points;
+    const StopFlag& interrupted; ///< pictures are then left out where they take long
 };
 
 /// The files of the run, as far as they are known before the scene is read. Throws UsageError where
@@ -28,7 +31,9 @@ struct Results {
 /// cannot be made, InputError where one cannot be read.
 [[nodiscard]] RunFiles check_files(const SolveSettings& settings);
 
-/// Writes all outputs.
-[[nodiscard]] WriteReport write_results(const SolveSettings& settings, const Results& results);
+/// Writes all outputs, the statistics last: with the seconds that the others took, and those of the
+/// run since it was `started`.
+[[nodiscard]] WriteReport write_results(const SolveSettings& settings, const Results& results,
+                                        const Stopwatch& started);
 
 } // namespace hemilux

@@ -37,6 +37,9 @@ constexpr double bytes_of_analysis = 350;
 /// Per pixel: the picture, its bytes, the rows that are compressed, and the file. For `compare`
 /// there are the reference, the method and their difference.
 constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
+/// The light of a pixel in its parts, of more surfaces at edges, and of a quarter of a point at
+/// which indirect light is gathered.
+constexpr double bytes_per_gathered_pixel = 130;
 /// Rays that wait to be summed.
 constexpr double bytes_of_volleys = 32e6;
 
@@ -141,8 +144,17 @@ SolveOptions with_memory(SolveOptions options, const SceneSettings& scene) {
     return options;
 }
 
-double bytes_of_picture(PixelSize size) {
-    return bytes_per_pixel * static_cast<double>(size.width) * size.height;
+double bytes_of_picture(PixelSize size, bool gathered) {
+    return (bytes_per_pixel + (gathered ? bytes_per_gathered_pixel : 0)) *
+           static_cast<double>(size.width) * size.height;
+}
+
+double bytes_of_points(std::size_t points, unsigned gather) {
+    constexpr double bytes_per_point = 256, bytes_per_ray = 16, rays_per_block = 1 << 20;
+    const double rays_per_point = double(gather) * PointSettings::rays_per_gather_ray;
+    const auto count = static_cast<double>(points);
+    return bytes_per_point * count +
+           bytes_per_ray * std::min(rays_per_block + rays_per_point, count * rays_per_point);
 }
 
 double bytes_of_compared_pictures(PixelSize size) {
@@ -181,12 +193,12 @@ void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
                   const std::string& path) {
     if (!limit || need.all() <= static_cast<double>(*limit))
         return;
-    throw MemoryError(path + ": needs about " + rounded(need.all()) + " (scene " +
-                      rounded(need.scene) + ", patches " + rounded(need.mesh) + ", tree " +
-                      rounded(need.tree) + ", method " + rounded(need.method) + ", pictures " +
-                      rounded(need.pictures) + "), and --memory is " +
-                      rounded(static_cast<double>(*limit)) +
-                      "; a larger --max-edge, fewer --rays or a smaller --size need less");
+    throw MemoryError(
+        path + ": needs about " + rounded(need.all()) + " (scene " + rounded(need.scene) +
+        ", patches " + rounded(need.mesh) + ", tree " + rounded(need.tree) + ", method " +
+        rounded(need.method) + ", pictures " + rounded(need.pictures) + "), and --memory is " +
+        rounded(static_cast<double>(*limit)) +
+        "; a larger --max-edge, fewer --rays, a smaller --size or --no-gather need less");
 }
 
 } // namespace hemilux

@@ -48,8 +48,10 @@ struct MemoryError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 /// Bytes at the peak of writing a picture of so many pixels, or for `compare` all of its pictures.
-[[nodiscard]] double bytes_of_picture(PixelSize size);
+[[nodiscard]] double bytes_of_picture(PixelSize size, bool gathered);
 [[nodiscard]] double bytes_of_compared_pictures(PixelSize size);
+/// Of so many points of --points, while their light is gathered and written.
+[[nodiscard]] double bytes_of_points(std::size_t points, unsigned gather);
 
 /// While the file is read: throws MemoryError once that takes more.
 [[nodiscard]] std::function<void(double bytes)> memory_guard(const std::string& path,

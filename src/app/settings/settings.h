@@ -42,6 +42,13 @@ struct ViewSettings {
     std::optional<double> exposure; ///< empty: from the picture
 };
 
+/// --points and --points-output: where the light is to be known, and the table of it.
+struct PointSettings {
+    std::string path, output; ///< empty: none
+    /// Rays from a point for each ray of --gather: points are fewer than pixels.
+    static constexpr unsigned rays_per_gather_ray = 256;
+};
+
 /// --checkpoint, --every, --resume.
 struct CheckpointSettings {
     std::string path, resumed;   ///< empty: none
@@ -58,11 +65,16 @@ struct SolveSettings {
     StopRule stop;            ///< as given; the method's own rule stands in for an empty one
     ViewSettings view;
     std::vector<Output> outputs;
-    std::string statistics, steps_log; ///< paths; empty: not asked for
-    bool every_step = false;           ///< pictures also after every step
-    std::string reference;             ///< path of a patch table; empty: none
-    std::vector<std::string> detail;   ///< groups; empty: those that begin with `detail`
+    /// Paths; empty: not asked for.
+    std::string statistics, steps_log, error_map;
+    bool every_step = false;         ///< pictures also after every step
+    std::string reference;           ///< path of a patch table; empty: none
+    std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
     CheckpointSettings checkpoint;
+    PointSettings points;
+    unsigned gather = default_gather; ///< rays at a point of a surface that a picture shows
+    static constexpr unsigned default_gather = 16, most_gather = 1024;
+    bool gather_pictures = true; ///< else they interpolate the light of the patches
     Verbosity verbosity = Verbosity::normal;
 };
 

@@ -28,11 +28,12 @@ bool PictureTime::is_over() const {
 
 Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                   std::span<const Vec3> radiosity, const Camera& camera, unsigned threads,
-                  const PictureTime& time, const CornerClasses* classes) {
+                  const PictureTime& time, const CornerClasses* classes, unsigned gather) {
     const auto [width, height] = view.size;
     return render(mesh, tracer, radiosity, camera,
                   {.width = width,
                    .height = height,
+                   .gather = gather,
                    .threads = threads,
                    .classes = classes,
                    .give_up = [&time] { return time.is_over(); }});

@@ -22,6 +22,13 @@ std::string creation_path(const std::string& path) {
     return path;
 }
 
+bool is_same_stream(const std::string& a, const std::string& b) {
+    struct stat of_a {};
+    struct stat of_b {};
+    return ::stat(a.c_str(), &of_a) == 0 && ::stat(b.c_str(), &of_b) == 0 &&
+           !S_ISREG(of_a.st_mode) && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+}
+
 std::optional<FileIdentity> identity_of(const std::string& path) {
     struct stat status {};
     const auto identity = [&status](const std::string& name) {

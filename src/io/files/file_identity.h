@@ -19,6 +19,9 @@ struct FileIdentity {
 /// Empty for pipes and devices, in which nothing can be replaced, and where there is no folder.
 [[nodiscard]] std::optional<FileIdentity> identity_of(const std::string& path);
 
+/// Whether both paths name one pipe or device, which one of two readers alone would empty.
+[[nodiscard]] bool is_same_stream(const std::string& a, const std::string& b);
+
 /// The path at which a new file would be made: a symbolic link whose target does not exist is
 /// followed. Any other path is given back.
 [[nodiscard]] std::string creation_path(const std::string& path);

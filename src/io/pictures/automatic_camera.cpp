@@ -5,6 +5,7 @@
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -104,17 +105,25 @@ std::uint64_t kind_of(const Patch& patch) {
 double score_of(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
                 const std::vector<bool>& lit, double aspect) {
     constexpr int columns = 16, rows = 12;
-    const CameraRays rays(camera, mesh, aspect);
+    const CameraRays view(camera, mesh, aspect);
+    std::array<Ray, std::size_t{columns} * rows> rays;
+    std::array<FacetHit, rays.size()> hits;
+    for (std::size_t k = 0; k < rays.size(); ++k)
+        rays[k] =
+            view.ray((double(k % columns) + 0.5) / columns, (double(k / columns) + 0.5) / rows);
+    tracer.closest_stream(rays, hits);
     std::vector<std::uint64_t> seen;
     std::vector<double> depths;
-    for (int y = 0; y < rows; ++y)
-        for (int x = 0; x < columns; ++x) {
-            const auto first = look(mesh, tracer, rays.ray((x + 0.5) / columns, (y + 0.5) / rows));
-            if (first && first->backs == 0 && lit[first->patch]) {
-                seen.push_back(kind_of(mesh.patches()[first->patch]));
-                depths.push_back(first->hit.t);
-            }
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        if (hits[k].facet == none)
+            continue;
+        const Hit hit = tracer.locate(rays[k], hits[k].facet);
+        const std::uint32_t patch = mesh.patch_at(hit);
+        if (patch != none && lit[patch]) {
+            seen.push_back(kind_of(mesh.patches()[patch]));
+            depths.push_back(hit.t);
         }
+    }
     if (seen.empty())
         return 0;
     const auto pixels = static_cast<double>(seen.size());

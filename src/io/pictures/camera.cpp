@@ -73,8 +73,7 @@ CameraRays::CameraRays(const Camera& camera, const Mesh& mesh, double aspect)
 }
 
 Ray CameraRays::ray(double x, double y) const {
-    const Vec3 direction = forward_ + (2 * x - 1) * right_ + (1 - 2 * y) * up_;
-    return {.origin = eye_, .direction = glm::normalize(direction)};
+    return {.origin = eye_, .direction = glm::normalize(direction(x, y))};
 }
 
 std::optional<Seen> look(const Mesh& mesh, const Tracer& tracer, Ray ray) {

@@ -30,6 +30,11 @@ class CameraRays {
     CameraRays(const Camera& camera, const Mesh& mesh, double aspect);
     /// x from 0 (left) to 1, y from 0 (top) to 1. The direction has unit length.
     [[nodiscard]] Ray ray(double x, double y) const;
+    [[nodiscard]] const Vec3& eye() const { return eye_; }
+    /// That of the ray, linear in x and y: its part along the view is 1.
+    [[nodiscard]] Vec3 direction(double x, double y) const {
+        return forward_ + (2 * x - 1) * right_ + (1 - 2 * y) * up_;
+    }
 
   private:
     Vec3 eye_, forward_, right_, up_; ///< the last two reach from the centre to the picture's edges

@@ -1,11 +1,14 @@
 #include "io/pictures/render.h"
 
 #include "io/files/error.h"
+#include "io/pictures/gathered_picture.h"
+#include "io/pictures/picture_gather.h"
+#include "io/pictures/visible_facets.h"
 #include "io/results/smooth.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 
-#include <atomic>
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -58,6 +61,38 @@ class Shading {
     std::vector<Vec3> corner_radiosity_;
 };
 
+/// The light of the patches at what each pixel shows.
+Image shaded_picture(const Mesh& mesh, const VisibleFacets& visible, const Shading& shading,
+                     const RenderOptions& options) {
+    Image image(options.width, options.height);
+    const auto pixel = [&](const VisibleFacets::Band& band, int x, int y) {
+        Vec3 sum(0.0);
+        visible.visit_pixel(band, x, y, !options.smooth,
+                            [&](std::uint32_t half, const Vec2& place, unsigned, unsigned count) {
+                                const Vec3 direction = visible.direction(place);
+                                const Hit hit = visible.hit_at(half, direction);
+                                sum +=
+                                    double(count) * shading.at(mesh.patch_at(hit),
+                                                               visible.eye() + hit.t * direction);
+                            });
+        return glm::vec3(sum / double(options.samples));
+    };
+    Workers(options.threads)
+        .for_chunks_with(
+            static_cast<std::size_t>(visible.bands()), 1, [] { return VisibleFacets::Band(); },
+            [&](VisibleFacets::Band& band, std::size_t b, std::size_t) {
+                if (options.give_up && options.give_up())
+                    throw Interrupted();
+                visible.fill(static_cast<int>(b), band);
+                const int first = static_cast<int>(b) * VisibleFacets::rows_per_band;
+                const int end = std::min(first + VisibleFacets::rows_per_band, options.height);
+                for (int y = first; y < end; ++y)
+                    for (int x = 0; x < options.width; ++x)
+                        image.at(x, y) = pixel(band, x, y);
+            });
+    return image;
+}
+
 } // namespace
 
 Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
@@ -66,33 +101,21 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
         throw std::invalid_argument("a picture needs at least one pixel and one sample");
     const double width = options.width, height = options.height;
     const CameraRays rays(camera, mesh, width / height);
-    const Shading shading(mesh, radiosity, options);
-    const std::vector<Vec2> samples = pixel_samples(options.samples);
-    Image image(options.width, options.height);
-    const auto pixel = [&](int x, int y) {
-        Vec3 sum(0.0);
-        for (const Vec2& place : samples) {
-            const Ray ray = rays.ray((x + place.x) / width, (y + place.y) / height);
-            if (const std::optional<Seen> seen = look(mesh, tracer, ray))
-                sum += shading.at(seen->patch, ray.origin + seen->hit.t * ray.direction);
-        }
-        return glm::vec3(sum / static_cast<double>(samples.size()));
-    };
-    std::atomic<bool> given_up{false};
-    const auto rows = static_cast<std::size_t>(options.height);
-    Workers(options.threads).for_chunks(rows, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t y = begin; y < end; ++y) {
-            if (given_up || (options.give_up && options.give_up())) {
-                given_up = true;
-                return;
-            }
-            for (int x = 0; x < options.width; ++x)
-                image.at(x, static_cast<int>(y)) = pixel(x, static_cast<int>(y));
-        }
-    });
-    if (given_up)
-        throw Interrupted();
-    return image;
+    const std::vector<Vec2> offsets = pixel_samples(options.samples);
+    const VisibleFacets visible(mesh, rays, {options.width, options.height, 1 / width, 1 / height},
+                                offsets, options.threads);
+    if (options.gather == 0)
+        return shaded_picture(mesh, visible, Shading(mesh, radiosity, options), options);
+    const auto samples = static_cast<unsigned>(options.samples);
+    const PictureGather gather(
+        mesh, tracer, radiosity, rays, options.width, options.height,
+        {.rays = options.gather,
+         .shadow_rays_per_sample = std::max(1u, options.gather / (4 * samples)),
+         .samples = samples,
+         .give_up = options.give_up},
+        Workers(options.threads));
+    return GatheredPicture(mesh, visible, gather, offsets, options.width, options.height)
+        .render(options.give_up, Workers(options.threads));
 }
 
 } // namespace hemilux

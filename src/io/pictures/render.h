@@ -14,11 +14,14 @@ struct CornerClasses;
 
 struct RenderOptions {
     int width = 800, height = 600; ///< pixels
-    int samples = 4;               ///< rays per pixel; more: smoother edges, proportionally slower
-    bool smooth = true;            ///< interpolate over patches; else each shows its own radiosity
-    unsigned threads = 0;          ///< 0: one per core. The picture does not depend on it
+    int samples = 4;    ///< places in a pixel; more: smoother edges, proportionally slower
+    bool smooth = true; ///< interpolate over patches; else each shows its own radiosity
+    /// Rays that gather the light at points once more (picture_gather.h): shadows have their
+    /// places, for many times the time. 0: the patches' light is shown.
+    unsigned gather = 0;
+    unsigned threads = 0;                   ///< 0: one per core. The picture does not depend on it
     const CornerClasses* classes = nullptr; ///< of the mesh, where they are known already
-    /// Is asked by all threads before each row; true ends the picture with Interrupted.
+    /// Is asked by all threads before each band of rows; true ends the picture with Interrupted.
     std::function<bool()> give_up = {};
 };
 

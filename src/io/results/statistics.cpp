@@ -50,7 +50,12 @@ Json to_object(const Statistics& s) {
               {"escaped", channels(s.energy.escaped)},
               {"unshot", channels(s.energy.unshot)},
               {"imbalance", s.energy.imbalance()}}},
-            {"left_out", left_out}};
+            {"left_out", left_out},
+            {"seconds_analysis", s.seconds_analysis},
+            {"seconds_gather", s.seconds_gather},
+            {"seconds_picture", s.seconds_picture},
+            {"seconds_write", s.seconds_write},
+            {"seconds_total", s.seconds_total}};
 }
 
 } // namespace

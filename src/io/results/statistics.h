@@ -26,6 +26,13 @@ struct Statistics {
     std::uint64_t rays_divide = 0;
     double seconds_division_error = unknown; ///< to find out error_division
     std::uint64_t rays_division_error = 0;
+    /// Between the stages above and below: what the scene does not need, what is read besides it,
+    /// where light is lost.
+    double seconds_analysis = unknown;
+    double seconds_gather = 0;      ///< of light at points, and of pictures unless interpolated
+    double seconds_picture = 0;     ///< all else of pictures: views, interpolation, files
+    double seconds_write = 0;       ///< of tables and meshes
+    double seconds_total = unknown; ///< all of the seconds above, with those of no stage
     double rays_per_second = unknown;
     std::uint64_t bytes_density = 0;       ///< measured
     std::uint64_t bytes_transport = 0;     ///< of the rays that `gathering` keeps

@@ -185,4 +185,26 @@ PatchErrors patch_errors(const Mesh& mesh, const Tracer& tracer, const Solution&
     return errors;
 }
 
+std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,
+                                       const Solution& solution, std::uint64_t seed,
+                                       const Workers& workers, const StopFlag& interrupted) {
+    const PatchErrors errors = patch_errors(mesh, tracer, solution, seed, workers, interrupted);
+    if (interrupted)
+        return {};
+    std::vector<double> levels(mesh.patches().size());
+    const double size = reflected_square(mesh, solution);
+    if (!(size > 0))
+        return levels;
+    double area = 0;
+    for (const Patch& patch : mesh.patches())
+        area += patch.area;
+    for (std::uint32_t i = 0; i < levels.size(); ++i) {
+        const Vec3& sigma = solution.standard_error[i];
+        const double sampling = glm::dot(sigma, sigma) * area / size;
+        const double within = errors.square[i] * area / mesh.patches()[i].area;
+        levels[i] = std::sqrt(std::max(within, 0.0) + (std::isfinite(sampling) ? sampling : 0));
+    }
+    return levels;
+}
+
 } // namespace hemilux

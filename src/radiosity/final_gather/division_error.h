@@ -59,4 +59,12 @@ struct PatchErrors {
                                        const Solution& solution, std::uint64_t seed,
                                        const Workers& workers, const StopFlag& interrupted);
 
+/// Of each patch the root mean square of what its light is off: within the patch, as far as
+/// patch_errors() finds it, and by its standard error. Relative to that of the reflected light over
+/// the whole surface. Empty where it was interrupted; 0 where nothing is known or reflected.
+[[nodiscard]] std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,
+                                                     const Solution& solution, std::uint64_t seed,
+                                                     const Workers& workers,
+                                                     const StopFlag& interrupted);
+
 } // namespace hemilux

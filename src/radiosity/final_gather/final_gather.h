@@ -9,6 +9,7 @@
 #include "geometry/polygon_sampler.h"
 #include "radiosity/final_gather/surface_points.h"
 #include "radiosity/gathering/emitter_choice.h"
+#include "radiosity/sampling/sobol.h"
 #include "radiosity/scene/mesh.h"
 
 #include <atomic>
@@ -22,9 +23,30 @@ class StopFlag;
 class Tracer;
 class Workers;
 
+/// Random numbers of a point: `count` points of the Sobol sequence of a seed, `first` and those
+/// after it.
+struct GatherSamples {
+    std::uint64_t seed;
+    std::uint32_t first, count;
+};
+
+/// Light straight from small emitters [W/m2]. What varies from sample to sample varies in both
+/// alike, but for shadows.
+struct DirectLight {
+    Vec3 arriving{0.0};
+    Vec3 unshadowed{0.0}; ///< what would arrive if nothing stood between
+    double nearness = 0;  ///< mean inverse distance of the emitters, by that light; local frame
+};
+enum class Shadows { traced, left_out };
+
+struct IndirectLight {
+    Vec3 irradiance{0.0}; ///< [W/m2]
+    double nearness = 0;  ///< mean inverse distance of what the rays met; local frame
+};
+
 class FinalGather {
   public:
-    /// Rays of one estimate at one point: 16 cosine-distributed ones and up to 4 shadow rays.
+    /// Rays of one round: 16 cosine-distributed ones and up to 4 shadow rays.
     static constexpr unsigned random_rays = 16, shadow_rays = 4;
 
     /// `radiosity`: by patch [W/m2]. All of it outlives this.
@@ -38,6 +60,20 @@ class FinalGather {
                                                std::span<const std::uint64_t> streams,
                                                std::size_t estimates, const Workers& workers,
                                                const StopFlag& interrupted);
+    /// The irradiance in two parts, at each point by its own samples. Straight from small emitters,
+    /// by a shadow ray for each sample; and all other, by a cosine-distributed ray for each. On the
+    /// calling thread. Where shadows are left out no ray is traced, and nothing arrives.
+    [[nodiscard]] std::vector<DirectLight> direct(std::span<const SurfacePoint> points,
+                                                  std::span<const GatherSamples> samples,
+                                                  Shadows shadows) const;
+    [[nodiscard]] std::vector<IndirectLight> indirect(std::span<const SurfacePoint> points,
+                                                      std::span<const GatherSamples> samples) const;
+    /// Rounds of which an estimate is the mean, 1 at first. Their points are those of one sequence,
+    /// so that more rounds reduce the error faster than independent estimates would.
+    void set_rounds(unsigned rounds) { rounds_ = rounds; }
+    /// From now on irradiance() also says what each cosine-distributed ray met: a patch, `escaped`
+    /// or `absorbed` (receivers.h), in the order of the estimates, rounds * 16 of each.
+    void record_receivers(std::vector<std::uint32_t>& receivers) { receivers_ = &receivers; }
     /// Traced so far.
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
@@ -53,16 +89,25 @@ class FinalGather {
     struct Batch;
     void gather(const SurfacePoint& point, std::uint64_t seed, std::size_t estimates,
                 std::uint32_t place, Batch& batch) const;
+    /// By `count` points of the block, `first` and those after it, each with a share of 1 / `of`.
+    void add_shadow_rays(const SurfacePoint& point, const SobolBlocks<5>& numbers,
+                         std::uint32_t first, std::uint32_t count, std::uint32_t of,
+                         std::uint32_t place, Batch& batch) const;
     void send(Batch& batch, std::span<Vec3> found);
+    template <class Add>
+    void send_shadow_rays(Batch& batch, const Add& add) const;
+    void send_random_rays(Batch& batch, std::span<IndirectLight> found) const;
 
     const Mesh& mesh_;
     const Tracer& tracer_;
     std::span<const Vec3> radiosity_;
+    unsigned rounds_ = 1;
+    std::vector<std::uint32_t>* receivers_ = nullptr;
     std::vector<Vec3> without_emitters_; ///< the same less what the emitters below emit
     std::vector<Patch> sides_;
     std::vector<Emitter> emitters_; ///< those reached by shadow rays
     EmitterChoice choice_;
-    std::atomic<std::uint64_t> rays_{0};
+    mutable std::atomic<std::uint64_t> rays_{0};
 };
 
 } // namespace hemilux

@@ -1,0 +1,53 @@
+#include "app/running/error_map.h"
+
+#include "app/settings/view.h"
+#include "io/drawings/density_picture.h"
+#include "io/files/error.h"
+#include "radiosity/final_gather/division_error.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/workers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+/// The largest of 99 patches in 100: a few patches in gaps must not hide all others.
+void limit_to_most(std::vector<double>& errors) {
+    constexpr double most = .99;
+    std::vector<double> sorted = errors;
+    const auto rank = static_cast<std::ptrdiff_t>(most * static_cast<double>(sorted.size() - 1));
+    std::ranges::nth_element(sorted, sorted.begin() + rank);
+    const double limit = sorted[static_cast<std::size_t>(rank)];
+    if (limit > 0)
+        for (double& error : errors)
+            error = std::min(error, limit);
+}
+
+} // namespace
+
+void write_error_map(const SolveSettings& settings, const Results& results) {
+    const auto& [mesh, tracer, solution, statistics, steps, points, interrupted] = results;
+    const PictureTime time(interrupted);
+    const Camera camera = camera_of(settings.view, mesh, tracer, solution.radiosity);
+    std::vector<double> errors =
+        patch_error_levels(mesh, tracer, solution, hash_words({settings.options.seed, 3}),
+                           Workers(settings.options.threads), interrupted);
+    if (errors.empty())
+        throw Interrupted();
+    limit_to_most(errors);
+    for (double& error : errors)
+        error *= 100;
+    const RenderOptions options{.width = settings.view.size.width,
+                                .height = settings.view.size.height,
+                                .threads = settings.options.threads,
+                                .give_up = [&time] { return time.is_over(); }};
+    write_png(settings.error_map,
+              density_picture(mesh, tracer, errors,
+                              "error of patches, % of the mean light (root mean square)", camera,
+                              options),
+              1);
+}
+
+} // namespace hemilux

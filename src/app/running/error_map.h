@@ -1,0 +1,12 @@
+#pragma once
+// --error-map: where the light of the patches is far off.
+
+#include "app/running/results.h"
+
+namespace hemilux {
+
+/// Gathers the error of each patch and writes the picture. Throws OutputError, and Interrupted
+/// after a signal.
+void write_error_map(const SolveSettings& settings, const Results& results);
+
+} // namespace hemilux

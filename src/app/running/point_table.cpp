@@ -1,0 +1,48 @@
+#include "app/running/point_table.h"
+
+#include "app/settings/view.h"
+#include "io/files/error.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/workers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+
+std::vector<NamedPoint> points_of(const SolveSettings& settings) {
+    return settings.points.path.empty() ? std::vector<NamedPoint>()
+                                        : read_points(settings.points.path);
+}
+
+void check_distances(const SolveSettings& settings, std::span<const NamedPoint> points,
+                     const Mesh& mesh) {
+    constexpr double most = 1e6; // half the size of the scene is 1
+    for (const NamedPoint& point : points) {
+        const Vec3 local = glm::abs(mesh.frame().to_local(point.position));
+        if (!(std::max({local.x, local.y, local.z}) <= most))
+            throw InputError(settings.points.path, point.line,
+                             "expected a point near the scene, this one is more than half a "
+                             "million times its size away");
+    }
+}
+
+void write_points(const SolveSettings& settings, const Results& results) {
+    const auto& [mesh, tracer, solution, statistics, steps, points, interrupted] = results;
+    std::vector<Sensor> sensors;
+    for (const NamedPoint& point : points)
+        sensors.push_back(
+            sensor_at(mesh, tracer, mesh.frame().to_local(point.position), point.normal));
+    const PictureTime time(interrupted);
+    const std::vector<PointLight> lights =
+        light_at(sensors, mesh, tracer, solution,
+                 {.rays = PointSettings::rays_per_gather_ray * settings.gather,
+                  .seed = hash_words({settings.options.seed, 2}),
+                  .give_up = [&time] { return time.is_over(); }},
+                 Workers(settings.options.threads));
+    if (lights.size() < sensors.size())
+        throw Interrupted();
+    write_points_table(settings.points.output, mesh, points, sensors, lights);
+}
+
+} // namespace hemilux

@@ -1,0 +1,131 @@
+#include "io/pictures/gathered_picture.h"
+
+#include "io/files/error.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <array>
+
+namespace hemilux {
+namespace {
+
+/// Over so many pixels, at both ends by half: their rays together are well distributed.
+constexpr std::array<float, 5> window{.5f, 1, 1, 1, .5f};
+constexpr int half_window = 2;
+
+} // namespace
+
+GatheredPicture::GatheredPicture(const Mesh& mesh, const VisibleFacets& visible,
+                                 const PictureGather& gather, std::span<const Vec2> offsets,
+                                 int width, int height)
+    : mesh_(mesh), visible_(visible), gather_(gather), offsets_(offsets), width_(width),
+      height_(height), whole_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      parts_(static_cast<std::size_t>(height)) {}
+
+Image GatheredPicture::render(const std::function<bool()>& give_up, const Workers& workers) {
+    const auto check = [&] {
+        if (give_up && give_up())
+            throw Interrupted();
+    };
+    workers.for_chunks_with(
+        static_cast<std::size_t>(visible_.bands()), 1, [] { return VisibleFacets::Band(); },
+        [&](VisibleFacets::Band& band, std::size_t b, std::size_t) {
+            check();
+            visible_.fill(static_cast<int>(b), band);
+            gather_band(band, static_cast<int>(b) * VisibleFacets::rows_per_band);
+        });
+    Image image(width_, height_);
+    workers.for_chunks(parts_.size(), 8, [&](std::size_t begin, std::size_t end) {
+        check();
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            for (int x = 0; x < width_; ++x)
+                if (const Part& whole = whole_[image.index(x, y)]; whole.share > 0)
+                    image.at(x, y) = radiosity(whole, y);
+            for (const Part& part : parts_[static_cast<std::size_t>(y)])
+                image.at(part.x, y) += part.share * radiosity(part, y);
+        }
+    });
+    return image;
+}
+
+/// Pixels are visited square by square: those near each other share what they have in common.
+void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first) {
+    constexpr int side = 4;
+    const int end = std::min(first + VisibleFacets::rows_per_band, height_);
+    std::vector<Part> parts;
+    std::vector<int> rows;
+    std::vector<PictureGather::Place> places;
+    const auto visit = [&](int x, int y) {
+        visible_.visit_pixel(
+            band, x, y, false,
+            [&](std::uint32_t half, const Vec2& place, unsigned sample, unsigned count) {
+                const Vec3 direction = visible_.direction(place);
+                const Hit hit = visible_.hit_at(half, direction);
+                const std::uint32_t patch = mesh_.patch_at(hit);
+                const Vec3 position = visible_.eye() + hit.t * direction;
+                parts.push_back({.position = glm::vec3(position),
+                                 .patch = patch,
+                                 .share = float(count) / float(offsets_.size()),
+                                 .x = x});
+                rows.push_back(y);
+                places.push_back(
+                    {{position, mesh_.patches()[patch].normal, hit.facet}, place, sample, count});
+            });
+    };
+    for (int top = first; top < end; top += side)
+        for (int left = 0; left < width_; left += side)
+            for (int y = top; y < std::min(top + side, end); ++y)
+                for (int x = left; x < std::min(left + side, width_); ++x)
+                    visit(x, y);
+    const std::vector<PictureGather::Light> lights = gather_.irradiance(places);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        parts[k].direct = glm::vec3(lights[k].direct.arriving);
+        parts[k].unshadowed = glm::vec3(lights[k].direct.unshadowed);
+        parts[k].smooth_unshadowed = glm::vec3(lights[k].slow.unshadowed);
+        parts[k].indirect = glm::vec3(lights[k].slow.indirect);
+        if (places[k].count == offsets_.size())
+            whole_[static_cast<std::size_t>(rows[k]) * static_cast<std::size_t>(width_) +
+                   static_cast<std::size_t>(parts[k].x)] = parts[k];
+        else
+            parts_[static_cast<std::size_t>(rows[k])].push_back(parts[k]);
+    }
+}
+
+glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
+    const Vec3& normal = mesh_.patches()[part.patch].normal;
+    glm::vec3 arriving(0.0f), unshadowed(0.0f);
+    const auto add = [&](const Part& from, float weight) {
+        arriving += weight * from.direct;
+        unshadowed += weight * from.unshadowed;
+    };
+    if (part.share < 1) // itself is not among those around
+        add(part, part.share);
+    for (int dy = std::max(-half_window, -y); dy <= std::min(half_window, height_ - 1 - y); ++dy)
+        for (int dx = std::max(-half_window, -part.x);
+             dx <= std::min(half_window, width_ - 1 - part.x); ++dx) {
+            const Part& there =
+                whole_[static_cast<std::size_t>(y + dy) * static_cast<std::size_t>(width_) +
+                       static_cast<std::size_t>(part.x + dx)];
+            if (there.share == 0 ||
+                (there.patch != part.patch &&
+                 !is_same_surface(Vec3(part.position), normal, Vec3(there.position),
+                                  mesh_.patches()[there.patch].normal)))
+                continue;
+            add(there, window[static_cast<std::size_t>(dy + half_window)] *
+                           window[static_cast<std::size_t>(dx + half_window)]);
+        }
+    glm::vec3 light(0.0f);
+    for (int c = 0; c < 3; ++c)
+        if (unshadowed[c] > 0)
+            light[c] = part.smooth_unshadowed[c] * (arriving[c] / unshadowed[c]);
+    return light;
+}
+
+glm::vec3 GatheredPicture::radiosity(const Part& part, int y) const {
+    const Material& material = mesh_.material(part.patch);
+    return glm::vec3(material.emission) +
+           glm::vec3(material.reflectance) * (direct_light(part, y) + part.indirect);
+}
+
+} // namespace hemilux

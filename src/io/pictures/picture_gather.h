@@ -1,0 +1,97 @@
+#pragma once
+// The light on what a picture shows, gathered from a solution: shadows at their places, with the
+// edges that patches are too large for.
+//
+// Light straight from small emitters has sharp edges: it is found by shadow rays at each pixel. All
+// other light varies slowly, the slower the further surfaces are away (Ward, Rubinstein and Clear
+// 1988): it is gathered at every second pixel of every second row. Each of these points takes other
+// rays of one well distributed sequence, and averages over its neighbours within a share of the
+// harmonic mean distance of what its rays met (interleaved sampling: Keller and Heidrich 2001; the
+// filter: Wald et al. 2002). Pixels read the points around them that lie on the same surface.
+
+#include "geometry/vector.h"
+#include "io/pictures/visible_facets.h"
+#include "radiosity/final_gather/final_gather.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Workers;
+
+/// Whether two points with unit normals are of one surface, which may be bent a little.
+[[nodiscard]] bool is_same_surface(const Vec3& a, const Vec3& normal_a, const Vec3& b,
+                                   const Vec3& normal_b);
+
+struct PictureGatherOptions {
+    /// Cosine-distributed rays of a point. Four times as many halve the noise of indirect light.
+    unsigned rays = 16;
+    unsigned shadow_rays_per_sample = 1;
+    unsigned samples = 4;               ///< of a pixel
+    std::function<bool()> give_up = {}; ///< true ends it with Interrupted
+};
+
+class PictureGather {
+  public:
+    PictureGather(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
+                  const CameraRays& camera, int width, int height,
+                  const PictureGatherOptions& options, const Workers& workers);
+
+    /// Where samples of a pixel show a surface: `count` of them, the first of which is number
+    /// `sample` of the pixel.
+    struct Place {
+        SurfacePoint at;
+        Vec2 pixel; ///< in pixels
+        unsigned sample, count;
+    };
+    /// Irradiance that varies slowly [W/m2].
+    struct SlowLight {
+        Vec3 unshadowed{0.0}; ///< straight from small emitters if nothing stood between
+        Vec3 indirect{0.0};
+    };
+    /// Direct light is slow.unshadowed times the share of it that arrives: the ratio of sums over
+    /// `direct` of places around, as the few rays of one place tell it badly.
+    struct Light {
+        DirectLight direct;
+        SlowLight slow;
+    };
+    /// At each place. May be called by several threads.
+    [[nodiscard]] std::vector<Light> irradiance(std::span<const Place> places) const;
+
+    /// Pixels from one point at which indirect light is gathered to the next.
+    static constexpr int step = 2;
+
+  private:
+    /// Of a sample of the grid. Without a surface there: facet none.
+    struct Record {
+        SurfacePoint at;
+        SlowLight light;
+        double nearness = 0; ///< mean inverse distance of what the rays met, or of lamps
+
+        [[nodiscard]] bool is_of_surface(const SurfacePoint& point) const {
+            return is_same_surface(point.position, point.normal, at.position, at.normal);
+        }
+    };
+    [[nodiscard]] GatherSamples samples_of(int x, int y, unsigned count) const;
+    [[nodiscard]] const Record* record(int x, int y) const;
+    void find_points(const Mesh& mesh, const CameraRays& camera, const Workers& workers);
+    void gather(const Workers& workers);
+    [[nodiscard]] static double weight_of(const Record& here, const Record* there, double most);
+    static void add(SlowLight& sum, const SlowLight& light, double weight);
+    [[nodiscard]] double spacing(int x, int y) const;
+    void smooth_nearness(const Workers& workers);
+    void smooth_light(int stride, const Workers& workers);
+    [[nodiscard]] bool interpolate(const Place& place, SlowLight& light) const;
+    void give_up_if_asked() const;
+
+    PictureGatherOptions options_;
+    FinalGather final_gather_;
+    int width_, height_;
+    int columns_, rows_;
+    std::vector<Record> records_;
+};
+
+} // namespace hemilux

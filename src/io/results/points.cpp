@@ -1,0 +1,117 @@
+#include "io/results/points.h"
+
+#include "io/files/atomic_file.h"
+#include "io/files/error.h"
+#include "io/files/text_reader.h"
+#include "io/files/text_words.h"
+#include "io/results/csv.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace hemilux {
+namespace {
+
+constexpr std::string_view header =
+    "point,x,y,z,nx,ny,nz,irradiance_r,irradiance_g,irradiance_b,radiosity_r,radiosity_g,"
+    "radiosity_b,stderr_r,stderr_g,stderr_b\n";
+
+/// The next word of a row, which a comma or blanks end; empty where there is none.
+std::string_view next_field(std::string_view& row) {
+    row = trimmed(row);
+    const std::size_t size = std::min(row.find_first_of(", \t\v\f"), row.size());
+    const std::string_view field = row.substr(0, size);
+    row = trimmed(row.substr(size));
+    if (row.starts_with(','))
+        row.remove_prefix(1);
+    return field;
+}
+
+bool is_header(std::string_view row) {
+    const std::string_view first = next_field(row);
+    return !parse_decimal(first) && !first.empty() &&
+           (std::isalpha(static_cast<unsigned char>(first.front())) != 0 || first.front() == '"');
+}
+
+NamedPoint point_from(const std::string& path, std::size_t line, std::string_view row) {
+    const auto refuse = [&](const std::string& found) {
+        throw InputError(path, line, "expected six numbers x,y,z,nx,ny,nz, " + found);
+    };
+    std::array<double, 6> numbers{};
+    for (double& number : numbers) {
+        const std::string_view field = next_field(row);
+        const std::optional<double> value = parse_decimal(field);
+        if (!value)
+            refuse(found_instead_of_number(field));
+        number = value.value_or(0);
+    }
+    if (!row.empty())
+        refuse("then " + found_instead(row));
+    const auto& [x, y, z, nx, ny, nz] = numbers;
+    const Vec3 normal(nx, ny, nz);
+    const double largest = std::max({std::abs(nx), std::abs(ny), std::abs(nz)});
+    if (!(largest > 0))
+        throw InputError(path, line, "expected a normal nx,ny,nz that is not 0,0,0");
+    return {{x, y, z}, normal, glm::normalize(normal / largest), line};
+}
+
+void add(std::string& text, const Vec3& v) {
+    for (int i = 0; i < 3; ++i) {
+        text += ',';
+        csv::append_number(text, v[i]);
+    }
+}
+
+} // namespace
+
+std::vector<NamedPoint> read_points(const std::string& path) {
+    const std::string content = read_text_file(path, InputKind::stream);
+    std::vector<NamedPoint> points;
+    bool first = true;
+    std::size_t line = 0;
+    for (std::string_view left = content; !left.empty();) {
+        const std::size_t size = std::min(left.find_first_of("\r\n"), left.size());
+        const std::string_view row = trimmed(left.substr(0, std::min(size, left.find('#'))));
+        left.remove_prefix(size);
+        left.remove_prefix(left.starts_with("\r\n") ? 2 : left.empty() ? 0 : 1);
+        ++line;
+        if (row.empty() || (std::exchange(first, false) && is_header(row)))
+            continue;
+        points.push_back(point_from(path, line, row));
+    }
+    if (points.empty())
+        throw InputError(path, "there is no point; expected rows x,y,z,nx,ny,nz");
+    return points;
+}
+
+void write_points_table(const std::string& path, const Mesh& mesh,
+                        std::span<const NamedPoint> points, std::span<const Sensor> sensors,
+                        std::span<const PointLight> lights) {
+    AtomicFile file(path);
+    file.write(header);
+    std::string text;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        text.clear();
+        csv::append_number(text, std::uint64_t{k});
+        add(text, points[k].position);
+        add(text, points[k].given_normal);
+        add(text, lights[k].irradiance);
+        if (sensors[k].patch != none) {
+            const Material& material = mesh.material(sensors[k].patch);
+            add(text, material.emission + material.reflectance * lights[k].irradiance);
+        } else {
+            text += ",,,";
+        }
+        add(text, lights[k].standard_error);
+        text += '\n';
+        file.write(text);
+    }
+    file.commit();
+}
+
+} // namespace hemilux

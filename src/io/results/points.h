@@ -1,0 +1,35 @@
+#pragma once
+// Points at which a user wants to know the light (sensors), and the table of it.
+
+#include "geometry/vector.h"
+#include "radiosity/final_gather/light_at_points.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+/// A row of a file of points, in world units.
+struct NamedPoint {
+    Vec3 position;
+    Vec3 given_normal; ///< as in the file
+    Vec3 normal;       ///< unit
+    std::size_t line;  ///< in the file
+};
+
+/// Rows of six numbers x,y,z,nx,ny,nz with commas or blanks between them. A # begins a comment, and
+/// the first row may be a header. A pipe is read too. Throws InputError with file and line for any
+/// other row, for a normal without a direction and for a file without points.
+[[nodiscard]] std::vector<NamedPoint> read_points(const std::string& path);
+
+/// One row per point: number from 0, position and normal as they were read, irradiance, radiosity
+/// of the face that the point lies on, standard error of the irradiance. Throws OutputError.
+void write_points_table(const std::string& path, const Mesh& mesh,
+                        std::span<const NamedPoint> points, std::span<const Sensor> sensors,
+                        std::span<const PointLight> lights);
+
+} // namespace hemilux

@@ -1,0 +1,85 @@
+// Pictures whose light is gathered, and where the seconds of a run went.
+#include "app/program.h"
+#include "app/running.h"
+#include "support/catch.h"
+
+#include <sstream>
+#include <string>
+
+using Catch::Contains;
+using test::Running;
+using test::wait_for;
+using test::Workplace;
+
+namespace {
+
+/// Of a line `"key": number,`.
+double number_in(const std::string& json, const std::string& key) {
+    const std::size_t at = json.find('"' + key + "\": ");
+    REQUIRE(at != std::string::npos);
+    return std::stod(json.substr(at + key.size() + 4));
+}
+
+} // namespace
+
+TEST_CASE("pictures are gathered, unless --no-gather; those of steps are not") {
+    const Workplace place;
+    place.write_room();
+    const std::string common = "solve room.obj -q --steps 1 --size 64x48 ";
+    REQUIRE(place.hemilux(common + "--every-step -o a.png").code == 0);
+    REQUIRE(place.hemilux(common + "--gather 16 -t 1 -o b.png -o b.hdr").code == 0);
+    REQUIRE(place.hemilux(common + "--gather 17 -o c.png").code == 0);
+    REQUIRE(place.hemilux(common + "--no-gather -o d.hdr --every-step -o d.png").code == 0);
+    CHECK(place.read("a.png") == place.read("b.png"));
+    CHECK(place.read("a.png") != place.read("c.png"));
+    CHECK(place.read("a.png") != place.read("d.png"));
+    CHECK(place.read("b.hdr") != place.read("d.hdr"));
+    CHECK(place.read("a-0001.png") == place.read("d-0001.png"));
+    CHECK(place.read("d-0001.png") == place.read("d.png"));
+    for (const char* bad : {"--gather 0", "--gather 1025", "--gather x", "--gather -3"}) {
+        const auto outcome = place.hemilux(common + "-o e.png " + bad);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains("--gather: expected a whole number from 1 to 1024"));
+    }
+}
+
+TEST_CASE("a signal ends a gathered picture") {
+    const Workplace place;
+    place.write_room();
+    Running run(place,
+                "solve room.obj --steps 4000000000 -v --gather 1024 --size 2000x1500 "
+                "-o a.png -o a.csv",
+                place.path("talk.txt").c_str());
+    REQUIRE(wait_for(place, "talk.txt", "step 2:"));
+    run.interrupt();
+    CHECK(run.wait() == 130);
+    CHECK_THAT(place.read("talk.txt"), Contains("interrupted; left out a.png"));
+    CHECK(place.has("a.csv"));
+    CHECK_FALSE(place.has("a.png"));
+}
+
+TEST_CASE("the seconds of the stages are all of a run") {
+    const Workplace place;
+    place.write_room();
+    place.write("p.txt", ".5 .5 .5 0 1 0\n");
+    for (const char* threads : {"1", "3"}) {
+        REQUIRE(place
+                    .hemilux("solve room.obj --max-edge .1 -q --steps 4 -o a.csv -o a.ply "
+                             "--points p.txt --points-output light.csv -o a.json --stats b.json "
+                             "-o a.png --size 320x240 -t " +
+                             std::string(threads))
+                    .code == 0);
+        const std::string json = place.read("a.json");
+        CHECK(json == place.read("b.json"));
+        double sum = 0;
+        for (const char* stage : {"read", "bvh", "divide", "density", "solve", "division_error",
+                                  "analysis", "gather", "picture", "write"}) {
+            const double seconds = number_in(json, std::string("seconds_") + stage);
+            CHECK(seconds >= 0);
+            sum += seconds;
+        }
+        CHECK(sum == Approx(number_in(json, "seconds_total")).epsilon(.02));
+        CHECK(number_in(json, "seconds_gather") > 0);
+        CHECK(number_in(json, "seconds_picture") > 0);
+    }
+}

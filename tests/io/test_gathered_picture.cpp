@@ -1,0 +1,162 @@
+// Pictures whose light is gathered at their pixels, against light in closed form.
+#include "bvh/bvh.h"
+#include "geometry/form_factor.h"
+#include "io/files/error.h"
+#include "io/pictures/render.h"
+#include "radiosity/scene/mesh.h"
+#include "support/catch.h"
+#include "support/scenes.h"
+#include "support/solve.h"
+
+#include <cmath>
+
+using namespace hemilux;
+using test::Model;
+
+namespace {
+
+constexpr int width = 96, height = 48;
+constexpr double lamp_emission = 20;
+
+/// Sees the ground from x = -2 to 2 and z = -1 to 1 from above.
+const Camera from_above{.eye = {0, 5, 0},
+                        .target = {0, 0, 0},
+                        .up = {0, 0, -1},
+                        .vertical_fov_degrees = 22.619864948040426};
+
+/// Ground of 4 x 2 m, of one patch, and a lamp of 0.2 x 0.2 m that hangs 1 m above x = 1.
+Scene lamp_over_ground() {
+    Scene scene;
+    scene.materials = {{"ground", Vec3(.5, .25, 0), Vec3(0)},
+                       {"lamp", Vec3(0), Vec3(lamp_emission)},
+                       {"black", Vec3(0), Vec3(0)}};
+    scene.groups = {"default"};
+    test::add_quad(scene, {-2, 0, -1}, {-2, 0, 1}, {2, 0, 1}, {2, 0, -1}, 1, 1, 0);
+    test::add_quad(scene, {.9, 1, -.1}, {1.1, 1, -.1}, {1.1, 1, .1}, {.9, 1, .1}, 1, 1, 1);
+    scene.faces = 2;
+    return scene;
+}
+
+/// A black wall of no thickness across x = 0, as high as the lamp and higher.
+void add_wall(Scene& scene) {
+    test::add_quad(scene, {0, 0, -1}, {0, 2, -1}, {0, 2, 1}, {0, 0, 1}, 1, 1, 2);
+    test::add_quad(scene, {0, 0, 1}, {0, 2, 1}, {0, 2, -1}, {0, 0, -1}, 1, 1, 2);
+    scene.faces += 2;
+}
+
+Image picture_of(const Model& model, const Camera& camera, RenderOptions options = {}) {
+    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(2));
+    options.width = width;
+    options.height = height;
+    options.gather = options.gather > 0 ? options.gather : 16;
+    return render(model.mesh, model.bvh, solution.radiosity, camera, options);
+}
+
+/// Of the centre of a pixel on the ground.
+Vec3 ground_at(int x, int y) { return {-2 + 4 * (x + .5) / width, 0, -1 + 2 * (y + .5) / height}; }
+
+} // namespace
+
+TEST_CASE("gathered light below a lamp is Lambert's, on a ground of one patch") {
+    const Model model(lamp_over_ground());
+    const Image image = picture_of(model, from_above);
+    Polygon lamp = model.mesh.whole_side(1, false).shape;
+    double square = 0, size = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width / 2; ++x) { // the lamp's back hides some of the right half
+            const double light =
+                lamp_emission *
+                point_to_polygon(model.mesh.frame().to_local(ground_at(x, y)), {0, 1, 0}, lamp);
+            const glm::vec3& pixel = image.at(x, y);
+            CHECK(pixel.x == Approx(.5 * light).epsilon(.15));
+            CHECK(pixel.y == Approx(.5 * pixel.x).epsilon(1e-5));
+            CHECK(pixel.z == 0);
+            square += std::pow(pixel.x - .5 * light, 2);
+            size += std::pow(.5 * light, 2);
+        }
+    CHECK(std::sqrt(square / size) < .03);
+}
+
+TEST_CASE("no light leaks below a wall, however thin") {
+    Scene scene = lamp_over_ground();
+    add_wall(scene);
+    const Model model(std::move(scene));
+    const Image image = picture_of(model, from_above);
+    constexpr int blur = 6; // pixels over which light is averaged
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width / 2 - blur; ++x)
+            CHECK(image.at(x, y).x == 0);
+        CHECK(image.at(width / 2 + blur, y).x > 0);
+    }
+}
+
+TEST_CASE("in a furnace every gathered pixel is the same") {
+    const Model model(test::furnace_box(3, .5));
+    const std::vector<Vec3> b(model.mesh.patches().size(), Vec3(2));
+    const Camera camera = automatic_camera(model.mesh, model.bvh, b);
+    const Image image = render(model.mesh, model.bvh, b, camera,
+                               {.width = 40, .height = 30, .gather = GENERATE(1u, 5u, 16u)});
+    for (const glm::vec3& pixel : image.pixels)
+        REQUIRE(glm::distance(pixel, glm::vec3(2)) < 1e-5f);
+}
+
+TEST_CASE("more rays make a gathered picture less noisy") {
+    const Model model(test::room_with_block());
+    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(4));
+    const Camera camera = automatic_camera(model.mesh, model.bvh, solution.radiosity);
+    const auto picture = [&](unsigned rays) {
+        return render(model.mesh, model.bvh, solution.radiosity, camera,
+                      {.width = 64, .height = 48, .gather = rays});
+    };
+    const Image best = picture(1024), many = picture(64), few = picture(4);
+    const auto distance = [&](const Image& image) {
+        double sum = 0;
+        for (std::size_t k = 0; k < image.pixels.size(); ++k)
+            sum += std::pow(glm::distance(image.pixels[k], best.pixels[k]), 2);
+        return std::sqrt(sum);
+    };
+    CHECK(distance(many) < .6 * distance(few));
+}
+
+TEST_CASE("a gathered picture does not depend on threads; beside all surfaces it is black") {
+    const Model model(test::open_scene());
+    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(2));
+    const Camera camera = automatic_camera(model.mesh, model.bvh, solution.radiosity);
+    const auto picture = [&](unsigned threads, unsigned gather) {
+        return render(model.mesh, model.bvh, solution.radiosity, camera,
+                      {.width = 70, .height = 50, .gather = gather, .threads = threads});
+    };
+    const Image one = picture(1, 8);
+    CHECK(one.pixels == picture(3, 8).pixels);
+    const Image interpolated = picture(1, 0);
+    std::size_t black = 0;
+    for (std::size_t k = 0; k < one.pixels.size(); ++k)
+        if (interpolated.pixels[k] == glm::vec3(0.0f)) {
+            ++black;
+            CHECK(one.pixels[k] == glm::vec3(0.0f));
+        }
+    CHECK(black > 0);
+}
+
+TEST_CASE("both sides of a sheet have gathered light of their own") {
+    Scene scene = lamp_over_ground();
+    const Model model(std::move(scene), {.two_sided = true});
+    Camera from_below = from_above;
+    from_below.eye.y = -5;
+    const Image above = picture_of(model, from_above), below = picture_of(model, from_below);
+    CHECK(above.at(20, 20).x > 0);
+    for (const glm::vec3& pixel : below.pixels)
+        CHECK(pixel == glm::vec3(0.0f));
+}
+
+TEST_CASE("a gathered picture can be given up") {
+    const Model model(test::room_with_block());
+    const std::vector<Vec3> b(model.mesh.patches().size(), Vec3(1));
+    const Camera camera = automatic_camera(model.mesh, model.bvh, b);
+    int asked = 0;
+    const RenderOptions options{
+        .width = 64, .height = 64, .gather = 4, .threads = 1, .give_up = [&] {
+            return ++asked > 12;
+        }};
+    CHECK_THROWS_AS(render(model.mesh, model.bvh, b, camera, options), Interrupted);
+}
