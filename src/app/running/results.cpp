@@ -54,7 +54,7 @@ class Picture {
         const auto& [mesh, tracer, solution, statistics, steps, interrupted] = results_;
         const Camera camera = camera_of(view_, mesh, tracer, solution.radiosity);
         return render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads,
-                           time_, &classes_.get());
+                           time_, &classes_.get(), solution.slope);
     }
 
     const ViewSettings& view_;
@@ -72,10 +72,12 @@ void write_output(const Output& output, const Results& results, SharedClasses& c
     case OutputKind::hdr:
         return picture.write(output);
     case OutputKind::ply:
-        return write_ply(output.path, results.mesh, solution.radiosity, classes.get());
+        return write_ply(output.path, results.mesh, solution.radiosity, classes.get(),
+                         solution.slope);
     case OutputKind::csv:
         return write_patch_table(output.path, results.mesh, solution.radiosity,
-                                 solution.standard_error, Workers(results.statistics.threads));
+                                 solution.standard_error, Workers(results.statistics.threads),
+                                 solution.slope);
     case OutputKind::json:
         return write_statistics(output.path, results.statistics);
     }

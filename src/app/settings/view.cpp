@@ -28,13 +28,15 @@ bool PictureTime::is_over() const {
 
 Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                   std::span<const Vec3> radiosity, const Camera& camera, unsigned threads,
-                  const PictureTime& time, const CornerClasses* classes) {
+                  const PictureTime& time, const CornerClasses* classes,
+                  std::span<const Slope> slope) {
     const auto [width, height] = view.size;
     return render(mesh, tracer, radiosity, camera,
                   {.width = width,
                    .height = height,
                    .threads = threads,
                    .classes = classes,
+                   .slope = slope,
                    .give_up = [&time] { return time.is_over(); }});
 }
 

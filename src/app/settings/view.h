@@ -30,12 +30,14 @@ class PictureTime {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Linear radiosity in the size asked for; the mesh's classes of corners, where they are known.
+/// Linear radiosity in the size asked for; the mesh's classes of corners, where they are known;
+/// slopes as of smooth().
 /// Throws Interrupted when the time is over.
 [[nodiscard]] Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                                 std::span<const Vec3> radiosity, const Camera& camera,
                                 unsigned threads, const PictureTime& time,
-                                const CornerClasses* classes = nullptr);
+                                const CornerClasses* classes = nullptr,
+                                std::span<const Slope> slope = {});
 
 /// The factor given, or one chosen for the picture.
 [[nodiscard]] double exposure_of(const ViewSettings& view, const Image& image);

@@ -35,7 +35,7 @@ class Shading {
             return;
         if (!classes_)
             classes_ = &own_classes_.emplace(find_corner_classes(mesh));
-        corner_radiosity_ = smooth(mesh, *classes_, radiosity);
+        corner_radiosity_ = smooth(mesh, *classes_, radiosity, options.slope);
     }
     Shading(const Shading&) = delete;
     Shading& operator=(const Shading&) = delete;

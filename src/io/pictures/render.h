@@ -11,6 +11,7 @@
 namespace hemilux {
 
 struct CornerClasses;
+struct Slope;
 
 struct RenderOptions {
     int width = 800, height = 600; ///< pixels
@@ -18,6 +19,7 @@ struct RenderOptions {
     bool smooth = true;            ///< interpolate over patches; else each shows its own radiosity
     unsigned threads = 0;          ///< 0: one per core. The picture does not depend on it
     const CornerClasses* classes = nullptr; ///< of the mesh, where they are known already
+    std::span<const Slope> slope = {};      ///< as of smooth()
     /// Is asked by all threads before each row; true ends the picture with Interrupted.
     std::function<bool()> give_up = {};
 };

@@ -13,7 +13,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 namespace hemilux {
 
@@ -39,24 +38,13 @@ struct DivisionErrorOptions {
     double negligible = 0;
 };
 
+/// The sum over patches of area times reflected radiosity squared, to which errors are relative.
+[[nodiscard]] double reflected_square(const Mesh& mesh, const Solution& solution);
+
 /// Of a solution with a step at least. Where it was interrupted the error is not known.
 [[nodiscard]] DivisionError division_error(const Mesh& mesh, const Tracer& tracer,
                                            const Solution& solution,
                                            const DivisionErrorOptions& options,
                                            const Workers& workers, const StopFlag& interrupted);
-
-/// The same by patch, as far as the patch alone can tell: how the light varies within it. Both
-/// gathers of all points of a patch use the same random numbers, so that their noise is about the
-/// same everywhere on it, and hides little.
-struct PatchErrors {
-    DivisionError whole;
-    /// Of each patch its share of the squared error, relative to the sum over patches of area times
-    /// reflected radiosity squared; an estimate from few points, which may be negative.
-    std::vector<double> square;
-};
-
-[[nodiscard]] PatchErrors patch_errors(const Mesh& mesh, const Tracer& tracer,
-                                       const Solution& solution, std::uint64_t seed,
-                                       const Workers& workers, const StopFlag& interrupted);
 
 } // namespace hemilux

@@ -4,8 +4,11 @@
 // A patch holds one value for its whole area; a point sees more: the edge of a shadow, the light of
 // a lamp that is near. So the light straight from small emitters is found by shadow rays with their
 // exact factor, and all other light by cosine-distributed rays that read the solution where they
-// strike (final gather: Reichert 1992; Lischinski, Tampieri and Greenberg 1993, "local pass").
+// strike (final gather: Reichert 1992; Lischinski, Tampieri and Greenberg 1993, "local pass"). Where
+// a patch is so near that what it sends may not be what it sends on average, as in corners and in
+// gaps, a ray goes on as a path (Christensen 1999).
 
+#include "bvh/tracer.h"
 #include "geometry/polygon_sampler.h"
 #include "radiosity/final_gather/surface_points.h"
 #include "radiosity/gathering/emitter_choice.h"
@@ -19,16 +22,17 @@
 namespace hemilux {
 
 class StopFlag;
-class Tracer;
 class Workers;
+struct Solution;
 
 class FinalGather {
   public:
-    /// Rays of one estimate at one point: 16 cosine-distributed ones and up to 4 shadow rays.
-    static constexpr unsigned random_rays = 16, shadow_rays = 4;
+    /// Rays of one estimate at one point: cosine-distributed ones, and up to 4 shadow rays.
+    static constexpr unsigned usual_random_rays = 16, shadow_rays = 4;
 
-    /// `radiosity`: by patch [W/m2]. All of it outlives this.
-    FinalGather(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity);
+    /// All of it outlives this.
+    FinalGather(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                unsigned random_rays = usual_random_rays);
 
     /// `estimates` of the irradiance at each point [W/m2], independent of each other and without
     /// bias for the light that the solution sends: those of point k stand from k * estimates on.
@@ -42,23 +46,43 @@ class FinalGather {
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
   private:
-    FinalGather(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
-                const std::vector<std::uint32_t>& emitters);
+    FinalGather(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                unsigned random_rays, const std::vector<std::uint32_t>& emitters);
 
     struct Emitter {
         Patch side; ///< of a whole facet
         PolygonSampler points;
         double near; ///< from the centre, see look_at
     };
-    struct Batch;
+    /// Rays that are not traced yet, of some points.
+    struct Batch {
+        struct Sample {
+            std::uint32_t place; ///< of the estimate
+            Vec3 light; ///< if nothing is in the way; of a random ray, its share of what it meets
+        };
+        std::vector<Ray> shadow, random;
+        std::vector<Sample> to_emitter, from_patch;
+        std::vector<std::uint32_t> targets;
+        std::vector<std::uint32_t> receivers;
+        std::vector<std::uint8_t> blocked;
+        std::vector<bool> sees_emission;  ///< of random rays: emitters are left to them
+        std::vector<std::uint64_t> seeds; ///< of random rays, for what follows from them
+        EmitterChoice::Cut cut;
+    };
     void gather(const SurfacePoint& point, std::uint64_t seed, std::size_t estimates,
                 std::uint32_t place, Batch& batch) const;
+    void go_on(const SurfacePoint& point, const Vec3& light, std::uint32_t place,
+               std::uint64_t seed, Batch& batch) const;
+    void receive(std::uint32_t patch, const Ray& ray, const Batch::Sample& sample,
+                 const Vec3& left_out, const std::uint64_t* seed, Batch& next,
+                 std::span<Vec3> found) const;
     void send(Batch& batch, std::span<Vec3> found);
 
     const Mesh& mesh_;
     const Tracer& tracer_;
-    std::span<const Vec3> radiosity_;
-    std::vector<Vec3> without_emitters_; ///< the same less what the emitters below emit
+    const Solution& solution_;
+    unsigned random_rays_;
+    std::vector<Vec3> left_out_; ///< by patch, what the emitters below emit
     std::vector<Patch> sides_;
     std::vector<Emitter> emitters_; ///< those reached by shadow rays
     EmitterChoice choice_;
