@@ -38,11 +38,11 @@ struct Room {
              unsigned sides = 63) {
         const Vec3 d = high - low, x(d.x, 0, 0), y(0, d.y, 0), z(0, 0, d.z);
         const std::array<std::array<Vec3, 3>, 6> of{{{low, z, x},
-                                                      {low + y, x, z},
-                                                      {low, y, z},
-                                                      {low + x, z, y},
-                                                      {low, x, y},
-                                                      {low + z, y, x}}};
+                                                     {low + y, x, z},
+                                                     {low, y, z},
+                                                     {low + x, z, y},
+                                                     {low, x, y},
+                                                     {low + z, y, x}}};
         for (unsigned s = 0; s < 6; ++s)
             if (sides >> s & 1)
                 inside ? quad(of[s][0], of[s][1], of[s][2], s == 2 ? red : material)

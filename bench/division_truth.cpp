@@ -125,7 +125,9 @@ class Truth {
         const auto solver =
             find_method("gathering")->make({mesh, *made.tracer, solve, monitor, needs});
         run(*solver, {mesh, *made.tracer, solve, monitor, needs},
-            {.steps = {}, .seconds = {}, .error = settings.reference_sampling,
+            {.steps = {},
+             .seconds = {},
+             .error = settings.reference_sampling,
              .rays = 400'000'000});
         Solution solution = solver->solution();
         SolveSettings auto_division;

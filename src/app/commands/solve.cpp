@@ -223,7 +223,9 @@ int solve(const SolveSettings& settings) {
     if (divided.linear)
         add_slopes(settings, mesh, *tracer, linear, monitor.interrupted, statistics);
     // Where a signal or the time left no step, there is the light by which patches were divided.
-    const Solution& solution = linear.steps > 0 ? linear : divided.rough.steps > 0 ? divided.rough : linear;
+    const Solution& solution = linear.steps > 0          ? linear
+                               : divided.rough.steps > 0 ? divided.rough
+                                                         : linear;
     fill(statistics, settings, mesh, solution, seconds_solver);
     add_division_error(statistics, settings, mesh, *tracer, solution, monitor.interrupted);
     if (!settings.plain) // which leaves out nothing
@@ -234,9 +236,8 @@ int solve(const SolveSettings& settings) {
     const bool interrupted = !completed && !fault;
     SolveSettings shown = settings; // the last picture has the view of those before
     shown.view.camera = step_pictures.camera();
-    const int code =
-        finish(shown, {mesh, *tracer, solution, statistics, rows, monitor.interrupted},
-               of_run, reference, notes, interrupted);
+    const int code = finish(shown, {mesh, *tracer, solution, statistics, rows, monitor.interrupted},
+                            of_run, reference, notes, interrupted);
     if (interrupted)
         end_at_once(code);
     if (!fault || code != exit_done)

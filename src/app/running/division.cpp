@@ -41,7 +41,8 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
                               .threads = settings.options.threads};
     if (settings.scene.memory) {
         division.memory = *settings.scene.memory / 2;
-        division.most_patches = std::max<std::size_t>(patches, *settings.scene.memory / bytes_of_patch);
+        division.most_patches =
+            std::max<std::size_t>(patches, *settings.scene.memory / bytes_of_patch);
     }
     return division;
 }
@@ -53,12 +54,10 @@ bool is_uneven(const SolveSettings& settings, const Mesh& mesh, const Tracer& tr
     if (solution.steps == 0 || monitor.interrupted)
         return false;
     const double most = division_share * whole_error(settings);
-    const DivisionError found =
-        division_error(mesh, tracer, solution,
-                       {.seed = hash_words({settings.options.seed, 4}),
-                        .most_rays = 0,
-                        .negligible = most},
-                       Workers(settings.options.threads), monitor.interrupted);
+    const DivisionError found = division_error(
+        mesh, tracer, solution,
+        {.seed = hash_words({settings.options.seed, 4}), .most_rays = 0, .negligible = most},
+        Workers(settings.options.threads), monitor.interrupted);
     statistics.rays_divide += found.rays;
     return found.error > most;
 }
@@ -117,12 +116,12 @@ void add_slopes(const SolveSettings& settings, const Mesh& mesh, const Tracer& t
         return;
     std::vector<std::uint32_t> all(mesh.patches().size());
     std::iota(all.begin(), all.end(), 0u);
-    const LightWithinPatches found = light_within_patches(
-        {mesh, tracer, solution}, all,
-        {.estimates = estimates_of_slopes(whole_error(settings)),
-         .most_rows = 3,
-         .seed = hash_words({settings.options.seed, 3})},
-        Workers(settings.options.threads), interrupted);
+    const LightWithinPatches found =
+        light_within_patches({mesh, tracer, solution}, all,
+                             {.estimates = estimates_of_slopes(whole_error(settings)),
+                              .most_rows = 3,
+                              .seed = hash_words({settings.options.seed, 3})},
+                             Workers(settings.options.threads), interrupted);
     if (interrupted)
         return;
     solution.slope = found.slope;
@@ -135,14 +134,15 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
     statistics.error_sampling = statistics.estimated_error;
     if (solution.steps == 0 || interrupted)
         return;
-    constexpr std::uint64_t share_of_rays = 2; // of those of the solution, at most: one in so many
+    constexpr std::uint64_t share_of_rays = 2; // of all before, at most: one in so many
     const Stopwatch watch;
-    const DivisionError found =
-        division_error(mesh, tracer, solution,
-                       {.seed = hash_words({settings.options.seed, 1}),
-                        .most_rays = (solution.rays_energy + solution.rays_density) / share_of_rays,
-                        .negligible = statistics.error_sampling / 2},
-                       Workers(settings.options.threads), interrupted);
+    const DivisionError found = division_error(
+        mesh, tracer, solution,
+        {.seed = hash_words({settings.options.seed, 1}),
+         .most_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
+                      share_of_rays,
+         .negligible = statistics.error_sampling / 2},
+        Workers(settings.options.threads), interrupted);
     statistics.error_division = found.error;
     statistics.error_division_uncertainty = found.uncertainty;
     statistics.rays_division_error = found.rays;

@@ -1,9 +1,9 @@
 #include "io/results/tables.h"
 
+#include "geometry/frame.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/results/csv.h"
-#include "geometry/frame.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
@@ -83,8 +83,8 @@ class PatchRows {
         if (!slope_.empty()) {
             const Frame axes = Frame::from_normal(patch.normal);
             for (int channel = 0; channel < 3; ++channel)
-                add(text, frame.scale * (slope_[i].x[channel] * axes.x +
-                                         slope_[i].y[channel] * axes.y));
+                add(text,
+                    frame.scale * (slope_[i].x[channel] * axes.x + slope_[i].y[channel] * axes.y));
         }
         text += '\n';
     }

@@ -40,8 +40,8 @@ class Division {
     Division(Mesh& mesh, const Tracer& tracer, Solution& solution, const AdaptiveDivision& options,
              Monitor& monitor)
         : mesh_(mesh), tracer_(tracer), solution_(solution), options_(options), monitor_(monitor),
-          workers_(options.threads), square_(mesh.patches().size()),
-          times_(mesh.patches().size()), solved_(mesh.patches().size()) {}
+          workers_(options.threads), square_(mesh.patches().size()), times_(mesh.patches().size()),
+          solved_(mesh.patches().size()) {}
 
     [[nodiscard]] std::size_t patches() const { return mesh_.patches().size(); }
 
@@ -80,9 +80,10 @@ class Division {
             return static_cast<std::size_t>(growth * double(patches()));
         };
         const std::vector<std::uint8_t> levels = levels_of_division(
-            square_, {.goal = options_.error * options_.error * size(),
-                      .least_pieces = times(least_growth),
-                      .most_pieces = std::min(options_.most_patches, times(most_growth) + least_room)});
+            square_,
+            {.goal = options_.error * options_.error * size(),
+             .least_pieces = times(least_growth),
+             .most_pieces = std::min(options_.most_patches, times(most_growth) + least_room)});
         if (std::ranges::none_of(levels, [](std::uint8_t level) { return level > 0; }))
             return false;
         const std::size_t before = patches();
@@ -102,8 +103,8 @@ class Division {
   private:
     void measure(std::span<const std::uint32_t> some, unsigned most_rows, std::uint64_t seed) {
         const LightWithinPatches found = light_within_patches(
-            {mesh_, tracer_, solution_}, some, {.estimates = 1, .most_rows = most_rows, .seed = seed},
-            workers_, monitor_.interrupted);
+            {mesh_, tracer_, solution_}, some,
+            {.estimates = 1, .most_rows = most_rows, .seed = seed}, workers_, monitor_.interrupted);
         for (std::size_t k = 0; k < some.size(); ++k) {
             fresh_ += found.square[k];
             double& times = times_[some[k]];
@@ -122,8 +123,8 @@ class Division {
     Monitor& monitor_;
     Workers workers_;
     std::vector<double> square_; ///< by patch, as of light_within_patches()
-    std::vector<double> times_; ///< that the patch was measured, by rows of points
-    double fresh_ = 0;          ///< sum of what was measured in this round alone
+    std::vector<double> times_;  ///< that the patch was measured, by rows of points
+    double fresh_ = 0;           ///< sum of what was measured in this round alone
     std::size_t solved_;
     std::uint64_t rays_ = 0;
 };

@@ -5,7 +5,6 @@
 #include "radiosity/gathering/small_emitters.h"
 #include "radiosity/rays/receivers.h"
 #include "radiosity/rays/shot.h"
-#include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/sampling/workers.h"
@@ -157,8 +156,7 @@ void FinalGather::receive(std::uint32_t patch, const Ray& ray, const Batch::Samp
                   next);
         return;
     }
-    found[sample.place] +=
-        sample.light * (radiosity_at(mesh_, solution_, patch, point) - left_out);
+    found[sample.place] += sample.light * (radiosity_at(mesh_, solution_, patch, point) - left_out);
 }
 
 void FinalGather::send(Batch& batch, std::span<Vec3> found) {

@@ -4,9 +4,9 @@
 // A patch holds one value for its whole area; a point sees more: the edge of a shadow, the light of
 // a lamp that is near. So the light straight from small emitters is found by shadow rays with their
 // exact factor, and all other light by cosine-distributed rays that read the solution where they
-// strike (final gather: Reichert 1992; Lischinski, Tampieri and Greenberg 1993, "local pass"). Where
-// a patch is so near that what it sends may not be what it sends on average, as in corners and in
-// gaps, a ray goes on as a path (Christensen 1999).
+// strike (final gather: Reichert 1992; Lischinski, Tampieri and Greenberg 1993, "local pass").
+// Where a patch is so near that what it sends may not be what it sends on average, as in corners
+// and in gaps, a ray goes on as a path (Christensen 1999).
 
 #include "bvh/tracer.h"
 #include "geometry/polygon_sampler.h"

@@ -47,10 +47,9 @@ LightWithinPatches light_within_patches(const LightSource& light,
             at.push_back(point.at);
             streams.push_back(hash_words({options.seed, 1, point.patch}));
         }
-        const std::vector<Vec3> irradiance =
-            mean_of_halves(gather.irradiance(at, streams, 2 * options.estimates, workers,
-                                             interrupted),
-                           options.estimates);
+        const std::vector<Vec3> irradiance = mean_of_halves(
+            gather.irradiance(at, streams, 2 * options.estimates, workers, interrupted),
+            options.estimates);
         for (std::size_t k = 0, begin = 0, end = 0; k < some.size(); ++k, begin = end) {
             while (end < points.size() && points[end].patch == some[k])
                 ++end;

@@ -63,8 +63,7 @@ Slope LinearLight::slope() const {
     };
     const Slope mean{.5 * (slope_[0].x + slope_[1].x), .5 * (slope_[0].y + slope_[1].y)};
     const double size = product(mean, mean);
-    const double agreed =
-        size > 0 ? std::clamp(product(slope_[0], slope_[1]) / size, 0.0, 1.0) : 0;
+    const double agreed = size > 0 ? std::clamp(product(slope_[0], slope_[1]) / size, 0.0, 1.0) : 0;
     return {agreed * mean.x, agreed * mean.y};
 }
 

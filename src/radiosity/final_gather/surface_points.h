@@ -33,8 +33,8 @@ struct PatchPoint {
                                                           std::uint64_t seed);
 
 /// Of each of some patches, if it reflects, `rows` x `rows` points, 3 x 3 to `most_rows` squared,
-/// one after the other, each uniform over an equal piece of it: more where the patch is large beside
-/// the mean of all.
+/// one after the other, each uniform over an equal piece of it: more where the patch is large
+/// beside the mean of all.
 [[nodiscard]] std::vector<PatchPoint> points_on_patches(const Mesh& mesh,
                                                         std::span<const std::uint32_t> some,
                                                         unsigned most_rows, std::uint64_t seed);

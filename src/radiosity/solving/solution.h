@@ -33,7 +33,7 @@ struct Slope {
 };
 
 struct Solution {
-    std::vector<Vec3> radiosity;      ///< B per patch [W/m2 leaving], own emission included
+    std::vector<Vec3> radiosity; ///< B per patch [W/m2 leaving], own emission included
     /// By patch: its light is a linear function whose mean is B. Empty: B everywhere on it.
     std::vector<Slope> slope = {};
     std::vector<Vec3> standard_error; ///< of B [W/m2]; NaN before two steps
