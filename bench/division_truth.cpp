@@ -202,7 +202,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     solve.options.seed = seed;
     solve.options.threads = settings.threads;
     solve.stop.error = error;
-    solve.talk = Talk::quiet;
+    solve.verbosity = Verbosity::quiet;
     const MadeTracer made = make_tracer(mesh, find_needs(mesh).tree, settings.threads);
     Monitor monitor;
     Statistics statistics;
@@ -278,7 +278,7 @@ Mesh read_mesh(const std::string& path) {
     SceneSettings scene;
     scene.path = path;
     ReadResult read = load_scene(scene, {});
-    return divide_with_sides(std::move(read.scene), scene, {}, Talk::quiet).mesh;
+    return divide_with_sides(std::move(read.scene), scene, {}, Verbosity::quiet).mesh;
 }
 
 void add_options(Command command, Settings& settings) {

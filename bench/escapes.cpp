@@ -90,14 +90,14 @@ class Inside {
         std::vector<Ray> rays;
         for (std::size_t k = 0; k < count; ++k)
             rays.push_back(make());
-        std::vector<Struck> struck(count);
-        bvh_.closest_stream(rays, struck);
-        return missed(struck);
+        std::vector<FacetHit> hits(count);
+        bvh_.closest_stream(rays, hits);
+        return missed(hits);
     }
 
-    [[nodiscard]] static std::size_t missed(std::span<const Struck> struck) {
+    [[nodiscard]] static std::size_t missed(std::span<const FacetHit> hits) {
         return static_cast<std::size_t>(
-            std::ranges::count_if(struck, [](const Struck& s) { return s.facet == none; }));
+            std::ranges::count_if(hits, [](const FacetHit& s) { return s.facet == none; }));
     }
 
     Mesh mesh_;

@@ -5,9 +5,9 @@
 //     few_facets
 #include "bvh/brute_force.h"
 #include "bvh/wide/wide_bvh.h"
-#include "contest.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
+#include "timed_rounds.h"
 
 #include <cstdio>
 
@@ -62,19 +62,19 @@ int main() {
     constexpr std::size_t count = 100'000;
     constexpr int rounds = 31;
     const std::vector<Ray> rays = make_rays(count);
-    std::vector<Struck> struck(count);
+    std::vector<FacetHit> hits(count);
     std::printf("quads  tree [ns]  without [ns]  loop [ns]\n");
     for (const unsigned facets : {1u, 2u, 3u, 4u, 5u, 6u}) {
         const Room room = make_room(facets);
         const WideBvh tree(room.soup(), {.threads = 1});
         const WideBvh without(room.soup(), {.threads = 1, .hierarchy = false});
         const BruteForce loop(room.soup());
-        std::vector<std::function<void()>> entrants;
+        std::vector<std::function<void()>> variants;
         for (const Tracer* const tracer :
              {static_cast<const Tracer*>(&tree), static_cast<const Tracer*>(&without),
               static_cast<const Tracer*>(&loop)})
-            entrants.push_back([&, tracer] { tracer->closest_stream(rays, struck); });
-        const auto seconds = bench::contest(entrants, rounds);
+            variants.push_back([&, tracer] { tracer->closest_stream(rays, hits); });
+        const auto seconds = bench::fastest_of_rounds(variants, rounds);
         std::printf("%5u  %9.0f  %12.0f  %9.0f\n", facets, 1e9 * seconds[0] / count,
                     1e9 * seconds[1] / count, 1e9 * seconds[2] / count);
     }

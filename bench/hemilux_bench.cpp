@@ -7,10 +7,10 @@
 // rtcIntersect1 on the same rays in random order; of `count` to the best of Embree's ways to count
 // exactly; of `build` to its medium quality.
 #include "bvh/wide/wide_bvh.h"
-#include "contest.h"
 #include "io/scene_files/obj.h"
 #include "rays.h"
 #include "scenes.h"
+#include "timed_rounds.h"
 #if defined(HEMILUX_EMBREE)
 #include "embree_scene.h"
 #endif
@@ -146,14 +146,14 @@ class Course {
 
     /// Against Embree's single rays.
     void independent(const RaySet& set) const {
-        std::vector<Struck> struck(set.shuffled.size());
-        std::vector<std::function<void()>> entrants{
-            [&] { bvh_->closest_stream(set.shuffled, struck); }};
+        std::vector<FacetHit> hits(set.shuffled.size());
+        std::vector<std::function<void()>> variants{
+            [&] { bvh_->closest_stream(set.shuffled, hits); }};
 #if defined(HEMILUX_EMBREE)
         std::vector<std::uint32_t> theirs(set.shuffled.size());
-        entrants.push_back([&] { embree_closest(*embree_, set.shuffled, theirs); });
+        variants.push_back([&] { embree_closest(*embree_, set.shuffled, theirs); });
 #endif
-        const auto seconds = contest(entrants, settings_.rounds);
+        const auto seconds = fastest_of_rounds(variants, settings_.rounds);
         const std::size_t n = set.shuffled.size();
         report_.add({name_, "independent", 1024, millions(n, seconds[0]),
                      seconds.size() > 1 ? millions(n, seconds[1]) : 0});
@@ -162,7 +162,7 @@ class Course {
     void count(const RaySet& set) const {
         const std::vector<Ray>& sorted = set.sorted;
         std::vector<std::uint32_t> pierced(sorted.size());
-        std::vector<std::function<void()>> entrants{[&] {
+        std::vector<std::function<void()>> variants{[&] {
             for (std::size_t k = 0; k < sorted.size(); ++k)
                 pierced[k] = bvh_->count(sorted[k]);
         }};
@@ -170,9 +170,9 @@ class Course {
         const EmbreeScene counting(soup_, false, counting_filter);
         std::vector<std::uint32_t> theirs(sorted.size());
         for (const CountBy by : {CountBy::intersect1, CountBy::occluded1, CountBy::intersect16})
-            entrants.push_back([&, by] { embree_count(counting, by, sorted, theirs); });
+            variants.push_back([&, by] { embree_count(counting, by, sorted, theirs); });
 #endif
-        const auto seconds = contest(entrants, settings_.rounds);
+        const auto seconds = fastest_of_rounds(variants, settings_.rounds);
         const double best =
             seconds.size() > 1 ? *std::min_element(seconds.begin() + 1, seconds.end()) : 0;
         report_.add({name_, "count", 64, millions(pierced.size(), seconds[0]),
@@ -190,25 +190,24 @@ class Course {
     void agreement([[maybe_unused]] const RaySet& set) const {
 #if defined(HEMILUX_EMBREE)
         const EmbreeScene robust(soup_, true, starting_facet_filter);
-        std::vector<Struck> struck(set.shuffled.size());
-        bvh_->closest_stream(set.shuffled, struck);
+        std::vector<FacetHit> hits(set.shuffled.size());
+        bvh_->closest_stream(set.shuffled, hits);
         std::size_t same = 0, ties = 0, neither = 0;
-        for (std::size_t k = 0; k < struck.size(); ++k) {
+        for (std::size_t k = 0; k < hits.size(); ++k) {
             const Ray& ray = set.shuffled[k];
             const EmbreeHit theirs = embree_robust_hit(robust, ray);
-            const bool equal = theirs.facet == struck[k].facet;
+            const bool equal = theirs.facet == hits[k].facet;
             same += equal;
             if (equal)
                 continue;
-            const bool tie =
-                theirs.facet != none && struck[k].facet != none &&
-                std::abs(bvh_->locate(ray, struck[k].facet).t - double(theirs.t)) < 1e-5;
+            const bool tie = theirs.facet != none && hits[k].facet != none &&
+                             std::abs(bvh_->locate(ray, hits[k].facet).t - double(theirs.t)) < 1e-5;
             (tie ? ties : neither) += 1;
         }
         std::printf("%-22s same facet as Embree (robust): %.4f %%, at the same distance %zu, "
                     "else %zu of %zu\n",
-                    name_.c_str(), 100 * double(same) / double(struck.size()), ties, neither,
-                    struck.size());
+                    name_.c_str(), 100 * double(same) / double(hits.size()), ties, neither,
+                    hits.size());
 #endif
     }
 

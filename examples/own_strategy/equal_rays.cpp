@@ -22,12 +22,12 @@ class EqualRays final : public Strategy {
         const std::size_t first = Hemisphere::cells_up_to(hemisphere.depth() - 1);
         const double rays = 1.0 / static_cast<double>(cells.size() - first);
         for (std::size_t c = first; c < cells.size(); ++c)
-            dealt_.add(static_cast<std::uint16_t>(c), rays);
+            allocated_.add(static_cast<std::uint16_t>(c), rays);
     }
-    Dealing deal(std::uint32_t, DealtCells&) const override { return dealt_.view(); }
+    Allocation allocate(std::uint32_t, AllocatedCells&) const override { return allocated_.view(); }
 
   private:
-    DealtCells dealt_;
+    AllocatedCells allocated_;
 };
 
 std::unique_ptr<Strategy> make_equal_rays(const SolverInput&, const Hemisphere& hemisphere,

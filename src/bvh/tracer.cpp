@@ -3,16 +3,16 @@
 namespace hemilux {
 namespace {
 
-Struck struck_by(const Tracer& tracer, const Ray& ray) {
+FacetHit hit_record_of(const Tracer& tracer, const Ray& ray) {
     const auto hit = tracer.closest(ray);
-    return hit ? Struck{hit->facet, hit->front} : Struck{};
+    return hit ? FacetHit{hit->facet, hit->front} : FacetHit{};
 }
 
 } // namespace
 
-void Tracer::closest_stream(std::span<const Ray> rays, std::span<Struck> out) const {
+void Tracer::closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const {
     for (std::size_t k = 0; k < rays.size(); ++k)
-        out[k] = struck_by(*this, rays[k]);
+        out[k] = hit_record_of(*this, rays[k]);
 }
 
 void Tracer::occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,

@@ -42,7 +42,7 @@ struct Hit {
 
 /// Which facet is the nearest, and whether from its counter-clockwise side: as much of a hit as
 /// most patches need. Tracer::locate tells the rest.
-struct Struck {
+struct FacetHit {
     std::uint32_t facet = none;
     bool front = false;
 };
@@ -62,7 +62,7 @@ class Tracer {
     // By default they are asked one by one.
 
     /// Rays that have nothing in common.
-    virtual void closest_stream(std::span<const Ray> rays, std::span<Struck> out) const;
+    virtual void closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const;
     /// out[k] != 0: something but targets[k] lies on ray k.
     virtual void occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
                                  std::span<std::uint8_t> out) const;

@@ -41,8 +41,9 @@ class Running {
         if (child_ != 0)
             return;
         const std::string command = "exec '" HEMILUX_PROGRAM "' " + arguments;
-        const int talk = open(stderr_path, O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0600);
-        const bool ready = chdir(place.path("").c_str()) == 0 && dup2(talk, STDERR_FILENO) >= 0;
+        const int stderr_fd = open(stderr_path, O_WRONLY | O_CREAT | O_TRUNC | O_NOCTTY, 0600);
+        const bool ready =
+            chdir(place.path("").c_str()) == 0 && dup2(stderr_fd, STDERR_FILENO) >= 0;
         if (ready)
             execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
         _exit(127);

@@ -57,13 +57,13 @@ void check_kills(const Workplace& place, int kills, const std::string& run, int 
         const int renewals = kill == 0 ? 1 : count(random);
         const test::FileVersion before = test::version_of(place, "saved");
         Running running(place, kept + (kill > 0 ? " --resume saved" : ""),
-                        place.path("talk.txt").c_str());
+                        place.path("stderr.txt").c_str());
         wait_for_renewals(place, running, "saved", before, renewals);
         std::this_thread::sleep_for(
             std::chrono::duration<double, std::milli>(milliseconds(random)));
         running.send(SIGKILL);
         const int code = running.wait();
-        CAPTURE(kill, renewals, place.read("talk.txt"));
+        CAPTURE(kill, renewals, place.read("stderr.txt"));
         REQUIRE((code == -1 || code == 0)); // a resumed run is not refused; it may be at its end
         REQUIRE(place.has("saved"));
     }
@@ -146,8 +146,8 @@ TEST_CASE("Ctrl-C leaves a checkpoint of all steps that were done") {
     const std::string run =
         GENERATE("solve room.obj --rays 20", "solve room.obj --rays 20 --method hemisphere");
     Running running(place, run + " --steps 4000000000 -v --checkpoint saved -o a.csv",
-                    place.path("talk.txt").c_str());
-    REQUIRE(wait_for(place, "talk.txt", "step 3:"));
+                    place.path("stderr.txt").c_str());
+    REQUIRE(wait_for(place, "stderr.txt", "step 3:"));
     running.interrupt();
     CHECK(running.wait() == 130);
     const std::string there = place.read("a.csv");
@@ -240,10 +240,10 @@ TEST_CASE("a checkpoint that cannot be written leaves the one before and ends wi
     const std::string good = place.read("saved");
     // Files of at most a few blocks: the picture fits, the checkpoint does not.
     const std::string limited = "(ulimit -f 40; exec '" HEMILUX_PROGRAM "' " + run +
-                                " --steps 2 --resume saved -o b.png --size 16x12) 2>talk.txt";
+                                " --steps 2 --resume saved -o b.png --size 16x12) 2>stderr.txt";
     const int status = std::system(("cd '" + place.path("").string() + "' && " + limited).c_str());
     CHECK(WEXITSTATUS(status) == 3);
-    CHECK_THAT(place.read("talk.txt"), Contains("saved: cannot write"));
+    CHECK_THAT(place.read("stderr.txt"), Contains("saved: cannot write"));
     CHECK(place.has("b.png"));
     CHECK(place.read("saved") == good);
     for (const auto& entry : std::filesystem::directory_iterator(place.path("")))

@@ -79,14 +79,15 @@ TEST_CASE("a comparison leaves a log, a chart, pictures and a table") {
 
     const std::string log = place.read("deep/compared/error.csv");
     CHECK(log.rfind("method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,"
-                    "true_error_rest\n",
+                    "true_error_rest,total_error\n",
                     0) == 0);
     std::map<std::string, int> steps;
     std::map<std::string, double> last_rays;
     for (const auto& row : split(log, ',')) {
         if (row[0] == "method")
             continue;
-        REQUIRE(row.size() == 9);
+        REQUIRE(row.size() == 10);
+        CHECK(row[9].empty());
         const std::string run = row[0] + row[1];
         CHECK(std::stoi(row[2]) == ++steps[run]);
         CHECK(std::stod(row[3]) > last_rays[run]);
@@ -118,6 +119,25 @@ TEST_CASE("a comparison leaves a log, a chart, pictures and a table") {
     // 2000 rays per patch on 24 patches.
     for (const char* method : {"hemisphere", "progressive-monte-carlo"})
         CHECK(std::stod(table.at(method)[3]) < 6);
+}
+
+TEST_CASE("--total: methods side by side by the error of the light itself") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome =
+        place.hemilux("compare room.obj -o a --total --methods stratified,progressive-monte-carlo "
+                      "--runs 2 --rays 100 --budget-rays 48000 " +
+                      quick);
+    REQUIRE(outcome.code == 0);
+    const auto table = table_of(outcome.out);
+    CHECK(table.at("method")[3] == "total %");
+    CHECK(table.at("method")[4] == "error %");
+    for (const char* method : {"stratified", "progressive-monte-carlo"})
+        CHECK(std::stod(table.at(method)[3]) > std::stod(table.at(method)[4]));
+    CHECK_THAT(place.read("a/error.svg"), Contains("error of the light itself"));
+    for (const auto& row : split(place.read("a/error.csv"), ','))
+        if (row[0] != "method")
+            CHECK(std::stod(row[9]) > std::stod(row[6]));
 }
 
 TEST_CASE("the uncertainty of a gain from one run is unknown") {

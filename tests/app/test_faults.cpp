@@ -19,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// By the shell, inside the folder; what is not redirected goes to talk.txt.
+/// By the shell, inside the folder; what is not redirected goes to stderr.txt.
 int shell(const Workplace& place, const std::string& command) {
     const int status =
         std::system(("cd '" + place.path("").string() + "' && H='" HEMILUX_PROGRAM "' && { " +
-                     command + "; } >>out.txt 2>>talk.txt </dev/null")
+                     command + "; } >>out.txt 2>>stderr.txt </dev/null")
                         .c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
@@ -82,11 +82,11 @@ TEST_CASE("SIGTERM writes what was computed and ends with 143") {
     const Workplace place;
     place.write_room();
     Running run(place, "solve room.obj --steps 4000000000 -v -o a.csv",
-                place.path("talk.txt").c_str());
-    REQUIRE(wait_for(place, "talk.txt", "step 2:"));
+                place.path("stderr.txt").c_str());
+    REQUIRE(wait_for(place, "stderr.txt", "step 2:"));
     run.send(SIGTERM);
     CHECK(run.wait() == 143);
-    CHECK_THAT(place.read("talk.txt"), Contains("interrupted; the outputs hold"));
+    CHECK_THAT(place.read("stderr.txt"), Contains("interrupted; the outputs hold"));
     CHECK(place.has("a.csv"));
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("a signal while the scene is read ends the program at once") {
     place.write_room();
     REQUIRE(shell(place, "mkfifo slow.obj") == 0);
     const int signal = GENERATE(SIGINT, SIGTERM);
-    Running run(place, "solve slow.obj -o a.csv", place.path("talk.txt").c_str());
+    Running run(place, "solve slow.obj -o a.csv", place.path("stderr.txt").c_str());
     // There is a writer as soon as there is a reader. It writes nothing, so reading has no end.
     int writer = -1;
     CHECK(test::wait_until([&] {
@@ -107,7 +107,7 @@ TEST_CASE("a signal while the scene is read ends the program at once") {
     CHECK(test::wait_until([&] { return run.ended(); }));
     close(writer);
     CHECK(run.wait() == 128 + signal);
-    CHECK_THAT(place.read("talk.txt"), Contains("interrupted before there was a result"));
+    CHECK_THAT(place.read("stderr.txt"), Contains("interrupted before there was a result"));
     CHECK_FALSE(place.has("a.csv"));
 }
 #endif
@@ -121,7 +121,7 @@ TEST_CASE("a signal ends a large run soon, whatever it is at", "[slow]") {
     const int wait_ms = GENERATE(0, 500, 1200, 2500); // moments of all kinds on most machines
     CAPTURE(method, wait_ms);
     Running run(place, "solve large.obj --rays 100 -o a.json --method " + method,
-                place.path("talk.txt").c_str());
+                place.path("stderr.txt").c_str());
     REQUIRE(test::wait_until([&] { return run.handles(SIGTERM); }));
     std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
     check_ends_soon(place, run, "large.obj");
@@ -133,8 +133,8 @@ TEST_CASE("a signal ends the shot of a lamp that lights a million patches", "[sl
     const std::string method = GENERATE("hemisphere", "monte-carlo");
     CAPTURE(method);
     Running run(place, "solve large.obj --rays 1000 -v -o a.json --method " + method,
-                place.path("talk.txt").c_str());
-    REQUIRE(wait_for(place, "talk.txt", "BVH:"));
+                place.path("stderr.txt").c_str());
+    REQUIRE(wait_for(place, "stderr.txt", "BVH:"));
     std::this_thread::sleep_for(std::chrono::seconds(2)); // within the shot, on most machines
     check_ends_soon(place, run, "large.obj");
 }
@@ -145,15 +145,15 @@ TEST_CASE("a full disk leaves nothing half-written") {
     place.write("keep.csv", "old");
     const std::string limited = "ulimit -f 4 && \"$H\" solve room.obj --max-edge .05 --steps 1 ";
     CHECK(shell(place, limited + "-o keep.csv -o new.ply -o small.png --size 4x4") == 3);
-    CHECK_THAT(place.read("talk.txt"), Contains("keep.csv: cannot write: File too large"));
+    CHECK_THAT(place.read("stderr.txt"), Contains("keep.csv: cannot write: File too large"));
     CHECK(place.read("keep.csv") == "old");
     CHECK(files_of(place) == std::vector<std::string>{"keep.csv", "out.txt", "room.mtl", "room.obj",
-                                                      "small.png", "talk.txt"});
+                                                      "small.png", "stderr.txt"});
     for (const char* kind : {"csv", "png", "hdr", "ply", "json"}) {
         const std::string name = std::string("full.") + kind;
         fs::create_symlink("/dev/full", place.path(name));
         CHECK(shell(place, "\"$H\" solve room.obj --steps 1 --size 9x9 -o " + name) == 3);
-        CHECK_THAT(place.read("talk.txt"), Contains(name + ": cannot write: No space left"));
+        CHECK_THAT(place.read("stderr.txt"), Contains(name + ": cannot write: No space left"));
     }
     for (const char* option : {"--stats full.csv", "--steps-log full.csv"})
         CHECK(shell(place, std::string("\"$H\" solve room.obj --steps 1 -o a.csv ") + option) == 3);
@@ -185,7 +185,7 @@ TEST_CASE("a closed stdout or stderr is an error to report, or none at all") {
     CHECK(shell(place, "\"$H\" info room.obj >&-") == 3);
     CHECK(shell(place, "\"$H\" --help >&-") == 3);
     CHECK(shell(place, "\"$H\" solve --help >/dev/full") == 3);
-    CHECK_THAT(place.read("talk.txt"), Contains("standard output: cannot be written"));
+    CHECK_THAT(place.read("stderr.txt"), Contains("standard output: cannot be written"));
     CHECK(shell(place, "mkfifo pipe && { exec 3<>pipe; exec 4>pipe; exec 3<&-; "
                        "\"$H\" info room.obj >&4; }") == 3); // nobody reads
     // No output file takes the number of a closed one, and what is said goes nowhere.

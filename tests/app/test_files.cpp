@@ -186,11 +186,11 @@ TEST_CASE("an error in a scene from a pipe names the line, and the pipe is not o
     const auto expected = place.hemilux("solve scene.obj" + arguments);
     REQUIRE(expected.code == 2);
     REQUIRE_THAT(expected.err, Contains("scene.obj:"));
-    Running run(place, "solve pipe.obj" + arguments, place.path("talk.txt").c_str());
+    Running run(place, "solve pipe.obj" + arguments, place.path("stderr.txt").c_str());
     place.write("pipe.obj", text); // waits for the program to read
     CHECK(test::wait_until([&] { return run.ended(); }));
     CHECK(run.wait() == 2);
-    std::string message = place.read("talk.txt");
+    std::string message = place.read("stderr.txt");
     const std::size_t name = message.find("pipe.obj:");
     REQUIRE(name != std::string::npos);
     message.replace(name, 4, "scene");
@@ -209,13 +209,13 @@ TEST_CASE("a signal ends a wait for the reader of an output") {
     CAPTURE(signal, has_reader, command);
     const int reader =
         has_reader ? open(place.path("pipe.csv").c_str(), O_RDONLY | O_NONBLOCK) : -1;
-    Running run(place, command, place.path("talk.txt").c_str());
+    Running run(place, command, place.path("stderr.txt").c_str());
     const bool solves = command.starts_with("solve");
     REQUIRE(test::wait_until([&] { return place.has(solves ? "a.json" : "a.csv"); }));
     run.send(signal);
     CHECK(test::wait_until([&] { return run.ended(); }));
     CHECK(run.wait() == 128 + signal);
-    CHECK_THAT(place.read("talk.txt"), Contains("left out pipe.csv"));
+    CHECK_THAT(place.read("stderr.txt"), Contains("left out pipe.csv"));
     CHECK(place.has(solves ? "a.json" : "a.csv"));
     if (reader >= 0)
         close(reader);
@@ -231,7 +231,7 @@ TEST_CASE("a signal ends the reading of a scene or a reference for every subcomm
         GENERATE("density slow.obj -o a.svg", "formfactors slow.obj -o a.csv",
                  "compare slow.obj -o compared", "solve room.obj -o a.csv --reference slow.csv");
     CAPTURE(command);
-    Running run(place, command, place.path("talk.txt").c_str());
+    Running run(place, command, place.path("stderr.txt").c_str());
     const std::string pipe = command.ends_with("slow.csv") ? "slow.csv" : "slow.obj";
     int writer = -1;
     CHECK(test::wait_until([&] {
@@ -257,12 +257,12 @@ TEST_CASE("a signal ends the rendering of a picture and leaves the other outputs
                   "huge/error.svg"));
     CAPTURE(command);
     Running run(place, std::string(command) + " --threads 1 --size 4096x4096 >table.txt",
-                place.path("talk.txt").c_str());
+                place.path("stderr.txt").c_str());
     REQUIRE(test::wait_until([&] { return place.has(other); }));
     run.send(SIGTERM);
     CHECK(test::wait_until([&] { return run.ended(); }));
     CHECK(run.wait() == 143);
-    CHECK_THAT(place.read("talk.txt"), Contains("left out huge"));
+    CHECK_THAT(place.read("stderr.txt"), Contains("left out huge"));
     CHECK(place.has(other));
     CHECK_FALSE(place.has("huge.png"));
     CHECK_FALSE(place.has("huge/reference.png"));

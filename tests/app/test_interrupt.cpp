@@ -44,15 +44,15 @@ TEST_CASE("Ctrl-C writes what was computed and ends with 130") {
                 "solve room.obj --steps 4000000000 -v -o a.csv -o a.png --size 16x12 "
                 "--steps-log steps.csv --method " +
                     method,
-                place.path("talk.txt").c_str());
-    REQUIRE(wait_for(place, "talk.txt", "step 2:"));
+                place.path("stderr.txt").c_str());
+    REQUIRE(wait_for(place, "stderr.txt", "step 2:"));
     run.interrupt();
     CHECK(run.wait() == 130);
-    CHECK_THAT(place.read("talk.txt"), Contains("interrupted; the outputs hold"));
+    CHECK_THAT(place.read("stderr.txt"), Contains("interrupted; the outputs hold"));
     CHECK(place.has("a.csv"));
     // A slow machine may take longer for the picture than it is given.
     CHECK(place.has("a.png") !=
-          Contains("interrupted; left out a.png").match(place.read("talk.txt")));
+          Contains("interrupted; left out a.png").match(place.read("stderr.txt")));
     CHECK_THAT(place.read("steps.csv"), Contains(method + ",0,2,"));
 }
 
@@ -63,13 +63,13 @@ TEST_CASE("Ctrl-C before the first step is done leaves emission alone, and says 
         GENERATE("hemisphere", "stratified", "progressive-monte-carlo", "matrix");
     CAPTURE(method);
     Running run(place, "solve room.obj --max-edge .1 --rays 1e8 -v -o a.csv --method " + method,
-                place.path("talk.txt").c_str());
-    REQUIRE(wait_for(place, "talk.txt", "BVH:"));
+                place.path("stderr.txt").c_str());
+    REQUIRE(wait_for(place, "stderr.txt", "BVH:"));
     // Within the step, on most machines; it takes hours on any.
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     run.interrupt();
     CHECK(run.wait() == 130);
-    CHECK_THAT(place.read("talk.txt"), Contains("emission alone"));
+    CHECK_THAT(place.read("stderr.txt"), Contains("emission alone"));
     CHECK_THAT(place.read("a.csv"), Contains(",10,8,6,10,8,6,") && Contains(",0,0,0,0,0,0,"));
 }
 
@@ -79,11 +79,11 @@ TEST_CASE("Ctrl-C ends a comparison with the files and the table of what was don
     Running run(place,
                 "compare room.obj -o a --methods hemisphere,stratified --runs 9 --budget-rays 1e9 "
                 "--reference-error .05 --size 16x12 -v >table.txt",
-                place.path("talk.txt").c_str());
-    REQUIRE(wait_for(place, "talk.txt", "stratified, run 1, step 2:"));
+                place.path("stderr.txt").c_str());
+    REQUIRE(wait_for(place, "stderr.txt", "stratified, run 1, step 2:"));
     run.interrupt();
     CHECK(run.wait() == 130);
-    CHECK_THAT(place.read("talk.txt"), Contains("interrupted; the results are those"));
+    CHECK_THAT(place.read("stderr.txt"), Contains("interrupted; the results are those"));
     CHECK_THAT(place.read("a/error.csv"), Contains("stratified,0,2,"));
     CHECK_THAT(place.read("table.txt"), Contains("hemisphere  ") && Contains("stratified  "));
     CHECK(place.has("a/stratified_difference.png"));
@@ -93,11 +93,11 @@ TEST_CASE("Ctrl-C before there is a reference ends a comparison without one") {
     const Workplace place;
     place.write_room();
     Running run(place, "compare room.obj -o a --max-edge .05 --rays 1e7 -v",
-                place.path("talk.txt").c_str());
-    REQUIRE(wait_for(place, "talk.txt", "BVH:"));
+                place.path("stderr.txt").c_str());
+    REQUIRE(wait_for(place, "stderr.txt", "BVH:"));
     run.interrupt();
     CHECK(run.wait() == 130);
-    CHECK_THAT(place.read("talk.txt"), Contains("before there was a reference"));
+    CHECK_THAT(place.read("stderr.txt"), Contains("before there was a reference"));
     CHECK_FALSE(place.has("a/reference.csv"));
 }
 

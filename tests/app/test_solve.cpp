@@ -40,9 +40,9 @@ TEST_CASE("each output appears, whole and by its extension") {
     const auto steps = lines_of(place.read("steps.csv"));
     REQUIRE(steps.size() == 4);
     CHECK(steps[0] == "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,"
-                      "true_error_rest");
+                      "true_error_rest,total_error");
     CHECK(steps[3].rfind("hemisphere,0,3,", 0) == 0);
-    CHECK(steps[3].ends_with(",,,")); // no reference, no true errors
+    CHECK(steps[3].ends_with(",,,,")); // no reference, no true errors
     for (const char* text : {"hemisphere: 96 patches, 3 steps", "rays/s", "estimated error",
                              "balance", "wrote p.png", "wrote steps.csv"})
         CHECK_THAT(outcome.err, Contains(text));
@@ -53,9 +53,9 @@ TEST_CASE("-q is silent and -v tells of every step") {
     const Workplace place;
     place.write_room();
     CHECK(place.hemilux("solve room.obj --steps 2 -q -o a.csv").err.empty());
-    const std::string talk = place.hemilux("solve room.obj --steps 2 -v -o a.csv").err;
+    const std::string printed = place.hemilux("solve room.obj --steps 2 -v -o a.csv").err;
     for (const char* text : {"24 patches", "BVH:", "step 1: ", "step 2: ", "memory:"})
-        CHECK_THAT(talk, Contains(text));
+        CHECK_THAT(printed, Contains(text));
 }
 
 TEST_CASE("the same seed gives the same bytes whatever the number of threads") {
@@ -89,7 +89,7 @@ TEST_CASE("a reference gives true errors, apart for the detail groups") {
     REQUIRE(outcome.code == 0);
     CHECK_THAT(outcome.err, Contains("true error") && Contains("detail") && Contains("z-scores"));
     for (const std::string& row : lines_of(place.read("steps.csv")))
-        CHECK(std::count(row.begin(), row.end(), ',') == 8);
+        CHECK(std::count(row.begin(), row.end(), ',') == 9);
     const std::string last = lines_of(place.read("steps.csv")).back();
     std::vector<double> fields;
     std::istringstream stream(last);

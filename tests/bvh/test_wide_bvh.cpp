@@ -104,25 +104,25 @@ void check_answers(const WideBvh& wide_bvh, const Tracer& referee, const std::ve
     CHECK(found.occluded == 0);
 }
 
-bool same(const std::optional<Hit>& a, const Struck& b) {
+bool same(const std::optional<Hit>& a, const FacetHit& b) {
     return a ? a->facet == b.facet && a->front == b.front : b.facet == none;
 }
 
 /// How many rays are answered differently when many are asked at once.
 void check_streams(const WideBvh& bvh, const std::vector<Ray>& rays) {
-    std::vector<Struck> struck(rays.size());
+    std::vector<FacetHit> hits(rays.size());
     std::vector<std::uint8_t> occluded(rays.size());
     std::vector<std::uint32_t> targets;
     for (std::size_t k = 0; k < rays.size(); ++k)
         targets.push_back(static_cast<std::uint32_t>(k % 7));
-    bvh.closest_stream(rays, struck);
+    bvh.closest_stream(rays, hits);
     bvh.occluded_stream(rays, targets, occluded);
     int closest_differ = 0, occluded_differ = 0;
     for (std::size_t k = 0; k < rays.size(); ++k) {
         const auto hit = bvh.closest(rays[k]);
-        closest_differ += !same(hit, struck[k]);
+        closest_differ += !same(hit, hits[k]);
         if (hit)
-            CHECK(bvh.locate(rays[k], struck[k].facet).t == hit->t);
+            CHECK(bvh.locate(rays[k], hits[k].facet).t == hit->t);
         occluded_differ += bvh.occluded(rays[k], targets[k]) != (occluded[k] != 0);
     }
     CHECK(closest_differ == 0);

@@ -186,12 +186,12 @@ TEST_CASE("the steps log leaves empty what is not known") {
     const TemporaryFolder folder;
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     const std::vector<StepRow> rows{
-        {"hemisphere", 1, {1, 64000, 0.5, unknown}, std::nullopt},
-        {"hemisphere", 1, {2, 128000, 1.5, 0.25}, RelativeError{0.125, unknown, 0.0625}}};
+        {"hemisphere", 1, {1, 64000, 0.5, unknown}, std::nullopt, std::nullopt},
+        {"hemisphere", 1, {2, 128000, 1.5, 0.25}, RelativeError{0.125, unknown, 0.0625}, 0.5}};
     write_steps_log(folder.path("log.csv"), rows);
     CHECK(content_of(folder.path("log.csv")) ==
           "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,"
-          "true_error_rest\n"
-          "hemisphere,1,1,64000,0.5,,,,\n"
-          "hemisphere,1,2,128000,1.5,0.25,0.125,,0.0625\n");
+          "true_error_rest,total_error\n"
+          "hemisphere,1,1,64000,0.5,,,,,\n"
+          "hemisphere,1,2,128000,1.5,0.25,0.125,,0.0625,0.5\n");
 }

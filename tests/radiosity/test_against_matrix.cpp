@@ -189,7 +189,7 @@ TEST_CASE("Plain Monte Carlo has its known error on the lit cube", "[slow]") {
 }
 
 TEST_CASE("The reference reports its own error", "[slow]") {
-    // Its spread is that of 8 replicates.
+    // Its spread is that of 8 batches.
     constexpr int runs = 40;
     const Model model(test::room_with_block());
     const Solution fine = test::reference(model, .001);

@@ -30,7 +30,7 @@ double mean_share_found(int parts) {
                 for (std::size_t t = 0; t < samples; ++t)
                     products[s * samples + t] += (off[s] - mean) * (off[t] - mean);
         }
-        inverse += 1 / error_parts(products, samples) / draws;
+        inverse += 1 / effective_freedom(products, samples) / draws;
     }
     return inverse;
 }
@@ -43,7 +43,7 @@ TEST_CASE("The parts of an error are found from the products of few samples") {
     CHECK(1 / mean_share_found(30) == Approx(30).epsilon(.25));
     CHECK(1 / mean_share_found(1000) > 500);
     const std::vector<double> nothing(16, 0.0);
-    CHECK(error_parts(nothing, 4) == std::numeric_limits<double>::infinity());
+    CHECK(effective_freedom(nothing, 4) == std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("An error of many parts is well known, one of few is not") {
@@ -60,8 +60,8 @@ TEST_CASE("An error of many parts is well known, one of few is not") {
     for (const char* name : {"gathering", "hemisphere", "matrix"}) {
         const Solution s = test::solve(model, *find_method(name), {}, test::steps(3));
         const ErrorSpread spread = error_spread(model.mesh, s);
-        CAPTURE(name, spread.parts);
-        CHECK(spread.parts > 1);
+        CAPTURE(name, spread.freedom);
+        CHECK(spread.freedom > 1);
         CHECK(spread.uncertainty() > 0);
         CHECK(spread.uncertainty() < .5);
     }
@@ -90,7 +90,7 @@ TEST_CASE("Reported errors differ between seeds about as much as they say", "[sl
 }
 
 TEST_CASE("A step that happens to show many parts of an error does not undo what others showed") {
-    CHECK(believed_parts(std::nullopt, 40) == 40);
-    CHECK(believed_parts(3.0, 40) == 3);
-    CHECK(believed_parts(3.0, 2) == 2);
+    CHECK(believed_freedom(std::nullopt, 40) == 40);
+    CHECK(believed_freedom(3.0, 40) == 3);
+    CHECK(believed_freedom(3.0, 2) == 2);
 }

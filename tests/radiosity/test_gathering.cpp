@@ -3,7 +3,7 @@
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/gathering/direct_light.h"
-#include "radiosity/gathering/ray_deal.h"
+#include "radiosity/gathering/ray_allocation.h"
 #include "radiosity/gathering/small_emitters.h"
 #include "radiosity/linear/conjugate_gradients.h"
 #include "radiosity/saving/state.h"
@@ -115,12 +115,12 @@ TEST_CASE("Rays are the same whether traced at once or in parts") {
     }
 }
 
-TEST_CASE("Rays are dealt by weight, in powers of two, and none is taken back") {
+TEST_CASE("Rays are allocated by weight, in powers of two, and none is taken back") {
     std::vector<double> weights;
     for (int i = 0; i < 1000; ++i)
         weights.push_back(i % 10 == 0 ? 0 : 1e-9 * std::exp(std::sin(7.0 * i)));
     const std::vector<std::uint32_t> none_yet(weights.size(), 0);
-    const std::vector<std::uint32_t> rays = deal_rays(weights, 64, none_yet);
+    const std::vector<std::uint32_t> rays = allocate_rays(weights, 64, none_yet);
     double sum = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         sum += rays[i];
@@ -130,13 +130,13 @@ TEST_CASE("Rays are dealt by weight, in powers of two, and none is taken back") 
     CHECK(sum / 900 > 48);
     CHECK(sum / 900 <= 64);
     std::vector<double> turned(weights.rbegin(), weights.rend());
-    const auto more = deal_rays(turned, 128, rays);
+    const auto more = allocate_rays(turned, 128, rays);
     for (std::size_t i = 0; i < weights.size(); ++i)
         CHECK((turned[i] == 0 || more[i] >= rays[i]));
     // One that outweighs all others is held back, and so are the others.
     weights.assign(100, 1e-12);
     weights[7] = 1;
-    const auto uneven = deal_rays(weights, 64, std::vector<std::uint32_t>(100, 0));
+    const auto uneven = allocate_rays(weights, 64, std::vector<std::uint32_t>(100, 0));
     CHECK(uneven[7] == 512);
     CHECK(uneven[8] >= 8);
 }

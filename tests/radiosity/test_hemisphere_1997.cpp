@@ -34,22 +34,22 @@ CountedTriangle random_counted(Rng& rng) {
     return result;
 }
 
-struct Dealer {
+struct Allocator {
     SolveOptions options;
     Monitor monitor;
     Hemisphere hemisphere{0};
     std::unique_ptr<Strategy> strategy;
 
-    explicit Dealer(const Model& model, bool literal = false) {
+    explicit Allocator(const Model& model, bool literal = false) {
         options.literal = literal;
         const SolverInput input{model.mesh, model.bvh, options, monitor};
         strategy = find_method("hemisphere-1997")->strategy(input, hemisphere, Workers(1));
     }
-    /// What is dealt is the same for all patches, and kept until the next step.
-    [[nodiscard]] Dealing deal(std::uint64_t step) const {
+    /// What is allocated is the same for all patches, and kept until the next step.
+    [[nodiscard]] Allocation allocate(std::uint64_t step) const {
         strategy->begin_step(step);
-        DealtCells memory;
-        return strategy->deal(0, memory);
+        AllocatedCells memory;
+        return strategy->allocate(0, memory);
     }
 };
 
@@ -107,32 +107,32 @@ TEST_CASE("The four triangles fill their parent") {
 
 TEST_CASE("Each step has four times as many triangles, until plain refinement follows") {
     const Model model(test::room_with_block());
-    const Dealer dealer(model);
-    CHECK(dealer.deal(0).cells.size() == 4 * 16);
-    CHECK(dealer.deal(1).cells.size() == 4 * 64);
-    CHECK(dealer.deal(2).cells.size() == 4 * 256);
+    const Allocator allocator(model);
+    CHECK(allocator.allocate(0).cells.size() == 4 * 16);
+    CHECK(allocator.allocate(1).cells.size() == 4 * 64);
+    CHECK(allocator.allocate(2).cells.size() == 4 * 256);
     for (const std::uint64_t step : {3u, 4u, 100u}) {
-        const Dealing dealing = dealer.deal(step);
-        REQUIRE(dealing.cells.size() == 1);
-        CHECK(dealing.cells[0] == whole_hemisphere);
+        const Allocation allocation = allocator.allocate(step);
+        REQUIRE(allocation.cells.size() == 1);
+        CHECK(allocation.cells[0] == whole_hemisphere);
     }
     // Counted: 41 directions for each sub-patch, a float vector and a byte each.
-    CHECK(dealer.strategy->density_rays() == 4 * 41 * model.mesh.patches().size());
-    CHECK(dealer.strategy->density_bytes() == 13 * dealer.strategy->density_rays());
+    CHECK(allocator.strategy->density_rays() == 4 * 41 * model.mesh.patches().size());
+    CHECK(allocator.strategy->density_bytes() == 13 * allocator.strategy->density_rays());
 }
 
 TEST_CASE("In a convex room all counts are equal, and edges are halved") {
     const Model model(test::furnace_box(2, .5));
-    const Dealer dealer(model);
+    const Allocator allocator(model);
     const Hemisphere regular(3);
     for (const std::uint64_t step : {0u, 1u, 2u}) {
-        dealer.strategy->begin_step(step);
+        allocator.strategy->begin_step(step);
         const int level = static_cast<int>(step) + 1;
         const std::size_t begin = Hemisphere::cells_up_to(level - 1);
         const std::size_t cells = Hemisphere::cells_up_to(level) - begin;
         double worst = 0;
         for (std::size_t k = 0; k < 4 * cells; ++k) {
-            const auto own = dealer.strategy->private_cell(7, static_cast<std::uint16_t>(k));
+            const auto own = allocator.strategy->private_cell(7, static_cast<std::uint16_t>(k));
             REQUIRE(own);
             for (std::size_t v = 0; v < 3; ++v)
                 worst = std::max(
@@ -150,15 +150,16 @@ TEST_CASE("Rays start in sub-patches that fill the patch") {
     const auto last = static_cast<std::uint32_t>(scene.vertices.size()) - 1;
     scene.facets.push_back({{last, 0, 1, 1}, 0, 0, 0});
     const Model model(scene);
-    const Dealer dealer(model);
-    dealer.strategy->begin_step(0);
+    const Allocator allocator(model);
+    allocator.strategy->begin_step(0);
     for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i) {
         const Patch& patch = model.mesh.patches()[i];
         double area = 0;
         Vec3 centre(0.0);
         for (std::uint16_t piece = 0; piece < 4; ++piece) {
             const Polygon part =
-                dealer.strategy->private_cell(i, static_cast<std::uint16_t>(16 * piece))->origins;
+                allocator.strategy->private_cell(i, static_cast<std::uint16_t>(16 * piece))
+                    ->origins;
             CHECK(glm::dot(part.normal(), patch.normal) == Approx(1));
             area += part.area();
             centre += part.area() * part.centre();
@@ -171,12 +172,12 @@ TEST_CASE("Rays start in sub-patches that fill the patch") {
 TEST_CASE("Triangles are small where surfaces are many") {
     // Solid angle and density of surfaces, seen from the floor of a room with a block in it.
     const Model model(test::room_with_block());
-    const Dealer dealer(model);
-    dealer.strategy->begin_step(1);
+    const Allocator allocator(model);
+    allocator.strategy->begin_step(1);
     double smallest = 10, largest = 0;
     for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i)
         for (std::uint16_t cell = 0; cell < 256; ++cell) {
-            const auto own = dealer.strategy->private_cell(i, cell);
+            const auto own = allocator.strategy->private_cell(i, cell);
             smallest = std::min(smallest, own->shape.solid_angle());
             largest = std::max(largest, own->shape.solid_angle());
         }
@@ -187,12 +188,12 @@ TEST_CASE("Triangles are small where surfaces are many") {
 
 TEST_CASE("As printed, power goes by solid angle and every triangle gets a ray") {
     const Model model(test::room_with_block());
-    const Dealer dealer(model, true);
-    const Dealing dealing = dealer.deal(2);
+    const Allocator allocator(model, true);
+    const Allocation allocation = allocator.allocate(2);
     double power = 0;
-    for (std::size_t k = 0; k < dealing.cells.size(); ++k) {
-        CHECK(dealing.rays(k) * dealer.options.rays == Approx(1));
-        const auto own = dealer.strategy->private_cell(3, dealing.cells[k]);
+    for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
+        CHECK(allocation.rays(k) * allocator.options.rays == Approx(1));
+        const auto own = allocator.strategy->private_cell(3, allocation.cells[k]);
         power += own->power;
         CHECK(own->power == Approx(own->shape.solid_angle() / (2 * std::numbers::pi) *
                                    own->origins.area() / model.mesh.patches()[3].area)

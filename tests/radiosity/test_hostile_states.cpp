@@ -1,7 +1,7 @@
 // States that no solver has saved: bytes and numbers changed at many places, as a checkpoint with a
 // right checksum may hold them. Each is refused, or the run goes on to finite numbers.
 
-#include "radiosity/linear/energy_closing.h"
+#include "radiosity/linear/energy_ledger.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/solving/solve_error.h"
 #include "support/catch.h"

@@ -1,8 +1,8 @@
 // What a small file or a large option may cost: counted, or ended by the time of the run.
 #include "radiosity/sampling/rng.h"
+#include "radiosity/scene/coplanar_layers.h"
 #include "radiosity/scene/coplanar_overlaps.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/scene/stacked_facets.h"
 #include "radiosity/solving/time_limit.h"
 #include "support/after_streams.h"
 
@@ -74,7 +74,7 @@ TEST_CASE("Facets in one place make no more pairs than the few that are kept") {
     CHECK(overlaps.complete);
     CHECK(overlaps.buried.size() == 30'000 - 2 * kept_alike);
     CHECK(overlaps.pairs.size() == kept_alike * (2 * kept_alike - 1));
-    CHECK(find_stacks(scene, local(scene)).covered == 30'000 - 2);
+    CHECK(find_coplanar_layers(scene, local(scene)).covered == 30'000 - 2);
     const Mesh mesh(scene);
     CHECK(mesh.is_laid_apart());
     CHECK(mesh.patches().size() == 30'001);

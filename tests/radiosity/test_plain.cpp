@@ -41,7 +41,7 @@ void check_same(const Model& model, const Method& method, const SolveOptions& op
     CHECK(plain.hits == engine.hits);
     CHECK(plain.variance == engine.variance);
     CHECK(plain.unseen == engine.unseen);
-    CHECK(plain.error_parts == engine.error_parts);
+    CHECK(plain.effective_freedom == engine.effective_freedom);
     CHECK(plain.steps == engine.steps);
     CHECK(plain.rays_energy == engine.rays_energy);
     CHECK(plain.rays_density == engine.rays_density);

@@ -1,5 +1,5 @@
 // The hemisphere guided by what is seen: unbiased, honest, and the same for any number of threads.
-#include "radiosity/guiding/seen_guide.h"
+#include "radiosity/guiding/visibility_guide.h"
 
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/sampling/workers.h"
@@ -43,12 +43,12 @@ struct Guided {
     }
     /// Rays for the power of a cell, compared with the mean of all power.
     [[nodiscard]] std::vector<double> densities(std::uint32_t patch) const {
-        DealtCells memory;
-        const Dealing dealing = strategy->deal(patch, memory);
+        AllocatedCells memory;
+        const Allocation allocation = strategy->allocate(patch, memory);
         std::vector<double> result;
-        for (std::size_t k = 0; k < dealing.cells.size(); ++k)
-            result.push_back(strategy->rays_for_power(patch) * dealing.rays(k) /
-                             power_share(hemisphere, dealing.cells[k], false));
+        for (std::size_t k = 0; k < allocation.cells.size(); ++k)
+            result.push_back(strategy->rays_for_power(patch) * allocation.rays(k) /
+                             power_share(hemisphere, allocation.cells[k], false));
         return result;
     }
 };
@@ -84,7 +84,7 @@ Scene room_with_crowd() {
 /// Any numbers of rays for the power of a patch.
 class Uneven final : public Strategy {
   public:
-    Dealing deal(std::uint32_t, DealtCells& memory) const override {
+    Allocation allocate(std::uint32_t, AllocatedCells& memory) const override {
         memory.clear();
         memory.add(whole_hemisphere, 1);
         return memory.view();
@@ -114,14 +114,14 @@ TEST_CASE("Guided by what is seen, no triangle starves and the shares sum to 1")
                 SolveOptions options = guided(guide);
                 options.depth = depth;
                 const Guided made(model, options, even_light(model));
-                DealtCells memory;
+                AllocatedCells memory;
                 double most = 0, rays_of_all = 0, power_of_all = 0;
                 for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i) {
-                    const Dealing dealing = made.strategy->deal(i, memory);
+                    const Allocation allocation = made.strategy->allocate(i, memory);
                     double power = 0, rays = 0, least = 1;
-                    for (std::size_t k = 0; k < dealing.cells.size(); ++k) {
-                        power += power_share(made.hemisphere, dealing.cells[k], false);
-                        rays += dealing.rays(k);
+                    for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
+                        power += power_share(made.hemisphere, allocation.cells[k], false);
+                        rays += allocation.rays(k);
                     }
                     for (const double density : made.densities(i)) {
                         least = std::min(least, density);
@@ -150,9 +150,9 @@ TEST_CASE("What hits tell moves rays of both patches, after the step") {
             smallest = i;
     REQUIRE(smallest != 5);
     constexpr std::size_t t = 11, back = 20;
-    DealtCells memory;
-    const Dealing dealing = strategy.deal(5, memory);
-    const std::uint16_t cell = dealing.cells[t], arrival = dealing.cells[back];
+    AllocatedCells memory;
+    const Allocation allocation = strategy.allocate(5, memory);
+    const std::uint16_t cell = allocation.cells[t], arrival = allocation.cells[back];
     const auto before = made.densities(5), before_there = made.densities(smallest);
     StateWriter untaught, interrupted, taught;
     strategy.save(untaught);

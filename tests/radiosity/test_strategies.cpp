@@ -14,13 +14,13 @@ using test::Model;
 
 namespace {
 
-struct Dealer {
+struct Allocator {
     SolveOptions options;
     Monitor monitor;
     Hemisphere hemisphere;
     std::unique_ptr<Strategy> strategy;
 
-    Dealer(const Model& model, const Method& method, const SolveOptions& wanted)
+    Allocator(const Model& model, const Method& method, const SolveOptions& wanted)
         : options(wanted), hemisphere(wanted.depth) {
         const SolverInput input{model.mesh, model.bvh, options, monitor};
         strategy = method.strategy(input, hemisphere, Workers(1));
@@ -28,34 +28,36 @@ struct Dealer {
 };
 
 /// What one cell got, and the power that Lambert's law gives it.
-struct Dealt {
+struct Allocated {
     double power, rays, due;
 };
 
-std::vector<Dealt> deal(const Model& model, const Dealer& dealer, std::uint32_t patch) {
-    DealtCells memory;
-    const Dealing dealing = dealer.strategy->deal(patch, memory);
-    REQUIRE(dealing.cells.size() == dealing.rays_up_to.size());
-    std::vector<Dealt> result;
-    for (std::size_t k = 0; k < dealing.cells.size(); ++k) {
-        const std::uint16_t cell = dealing.cells[k];
-        if (const auto own = dealer.strategy->private_cell(patch, cell))
-            result.push_back({own->power, dealing.rays(k),
+std::vector<Allocated> allocate(const Model& model, const Allocator& allocator,
+                                std::uint32_t patch) {
+    AllocatedCells memory;
+    const Allocation allocation = allocator.strategy->allocate(patch, memory);
+    REQUIRE(allocation.cells.size() == allocation.rays_up_to.size());
+    std::vector<Allocated> result;
+    for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
+        const std::uint16_t cell = allocation.cells[k];
+        if (const auto own = allocator.strategy->private_cell(patch, cell))
+            result.push_back({own->power, allocation.rays(k),
                               own->shape.projected_solid_angle() / std::numbers::pi *
                                   own->origins.area() / model.mesh.patches()[patch].area});
         else if (cell == whole_hemisphere)
-            result.push_back({1, dealing.rays(k), 1});
+            result.push_back({1, allocation.rays(k), 1});
         else
             result.push_back(
-                {power_share(dealer.hemisphere, cell, dealer.options.literal), dealing.rays(k),
-                 dealer.hemisphere.cells()[cell].projected_solid_angle / std::numbers::pi});
+                {power_share(allocator.hemisphere, cell, allocator.options.literal),
+                 allocation.rays(k),
+                 allocator.hemisphere.cells()[cell].projected_solid_angle / std::numbers::pi});
     }
     return result;
 }
 
 /// Calls test(cells) for many patches of several scenes, depths, thresholds and steps.
 template <class Test>
-void for_all_deals(const Method& method, bool literal, const Test& test_cells) {
+void for_all_allocations(const Method& method, bool literal, const Test& test_cells) {
     for (const Scene& scene :
          {test::room_with_block(), test::open_scene(), test::furnace_l_shape(.5)}) {
         const Model model(scene);
@@ -65,11 +67,11 @@ void for_all_deals(const Method& method, bool literal, const Test& test_cells) {
                 options.depth = depth;
                 options.threshold = threshold;
                 options.literal = literal;
-                const Dealer dealer(model, method, options);
+                const Allocator allocator(model, method, options);
                 for (const std::uint64_t step : {0u, 2u, 5u}) {
-                    dealer.strategy->begin_step(step);
+                    allocator.strategy->begin_step(step);
                     for (std::uint32_t i = 0; i < model.mesh.patches().size(); i += 5)
-                        test_cells(deal(model, dealer, i));
+                        test_cells(allocate(model, allocator, i));
                 }
             }
     }
@@ -84,9 +86,9 @@ TEST_CASE("Shares of power and rays sum to 1, and follow Lambert's law") {
         INFO(method->name);
         // Triangles that shrink where surfaces are get equal rays, however large they are.
         const double fewest_rays = method->name == "hemisphere-1997" ? 1e-3 : .1;
-        for_all_deals(*method, false, [&](const std::vector<Dealt>& cells) {
+        for_all_allocations(*method, false, [&](const std::vector<Allocated>& cells) {
             double power = 0, rays = 0, worst = 0, least = 1;
-            for (const Dealt& cell : cells) {
+            for (const Allocated& cell : cells) {
                 power += cell.power;
                 rays += cell.rays;
                 worst = std::max(worst, std::abs(cell.power - cell.due));
@@ -101,15 +103,15 @@ TEST_CASE("Shares of power and rays sum to 1, and follow Lambert's law") {
 }
 
 TEST_CASE("Running sums in floats leave no cell without rays, and give none where none are due") {
-    DealtCells memory;
+    AllocatedCells memory;
     memory.add(0, 1 - 1e-9);
     for (std::uint16_t cell = 1; cell < 1000; ++cell)
         memory.add(cell, cell % 2 == 0 ? 0 : 1e-12);
-    const Dealing dealing = memory.view();
-    CHECK(dealing.rays(0) == Approx(1).epsilon(1e-7));
+    const Allocation allocation = memory.view();
+    CHECK(allocation.rays(0) == Approx(1).epsilon(1e-7));
     for (std::size_t k = 1; k < 1000; ++k)
-        CHECK((dealing.rays(k) > 0) == (k % 2 != 0));
-    CHECK(dealing.rays_up_to.back() < 1 + 1e-4F);
+        CHECK((allocation.rays(k) > 0) == (k % 2 != 0));
+    CHECK(allocation.rays_up_to.back() < 1 + 1e-4F);
 }
 
 TEST_CASE("The printed rule breaks Lambert's law by what was measured elsewhere") {
@@ -124,9 +126,9 @@ TEST_CASE("The printed rule breaks Lambert's law by what was measured elsewhere"
     }
     CHECK(lowest == Approx(.51).margin(.005));
     CHECK(highest == Approx(3.80).margin(.005));
-    for_all_deals(*find_method("hemisphere"), true, [&](const std::vector<Dealt>& cells) {
+    for_all_allocations(*find_method("hemisphere"), true, [&](const std::vector<Allocated>& cells) {
         sum = 0;
-        for (const Dealt& cell : cells)
+        for (const Allocated& cell : cells)
             sum += cell.power;
         CHECK(sum == Approx(1).epsilon(1e-12)); // so a balance of energy does not see it
     });
@@ -134,14 +136,14 @@ TEST_CASE("The printed rule breaks Lambert's law by what was measured elsewhere"
 
 TEST_CASE("Guidance sends rays where surfaces were counted") {
     const Model model(test::room_with_block());
-    const Dealer guided(model, *find_method("hemisphere"), {});
-    const Dealer plain(model, *find_method("stratified"), {});
+    const Allocator guided(model, *find_method("hemisphere"), {});
+    const Allocator plain(model, *find_method("stratified"), {});
     double difference = 0;
     for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i) {
-        const std::vector<Dealt> cells = deal(model, guided, i);
+        const std::vector<Allocated> cells = allocate(model, guided, i);
         REQUIRE(cells.size() == 64);
-        REQUIRE(deal(model, plain, i).size() == 64);
-        for (const Dealt& cell : cells)
+        REQUIRE(allocate(model, plain, i).size() == 64);
+        for (const Allocated& cell : cells)
             difference = std::max(difference, cell.rays / cell.power);
     }
     CHECK(difference > 1.5);

@@ -76,13 +76,13 @@ Told ask_one(const Tracer& tracer, const Ray& ray) {
 }
 
 std::vector<Told> ask_stream(const Tracer& tracer, const std::vector<Ray>& rays) {
-    std::vector<Struck> struck(rays.size());
+    std::vector<FacetHit> hits(rays.size());
     std::vector<std::uint8_t> blocked(rays.size());
-    tracer.closest_stream(rays, struck);
+    tracer.closest_stream(rays, hits);
     tracer.occluded_stream(rays, std::vector<std::uint32_t>(rays.size(), none), blocked);
     std::vector<Told> told;
     for (std::size_t k = 0; k < rays.size(); ++k)
-        told.push_back({struck[k].facet, tracer.count(rays[k]), struck[k].front, blocked[k] != 0});
+        told.push_back({hits[k].facet, tracer.count(rays[k]), hits[k].front, blocked[k] != 0});
     return told;
 }
 

@@ -1,7 +1,7 @@
 // Scenes that have no solution, or none in doubles: said with patch and step instead of an endless
 // run or an infinite number; and scenes of reflectance 1 that do have one.
+#include "radiosity/solving/lossless_component.h"
 #include "radiosity/solving/solve_error.h"
-#include "radiosity/solving/trapped_light.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -145,7 +145,8 @@ TEST_CASE("A closed room of reflectance 1 has no solution: it is named") {
     for (const Scene& scene : {test::furnace_l_shape(1), test::sphere(1, 3, 1, 1)}) {
         const Model model(scene);
         Monitor monitor;
-        const auto trapped = find_trapped_light(model.mesh, model.bvh, 1, 3e5, Workers(2), monitor);
+        const auto trapped =
+            find_lossless_component(model.mesh, model.bvh, 1, 3e5, Workers(2), monitor);
         REQUIRE(trapped);
         CHECK(trapped->patches.size() == scene.facets.size());
         CHECK(trapped->channel == 0);
@@ -225,10 +226,11 @@ TEST_CASE("A lamp that few rays would find is a way out") {
                    1);
     const Model lit(scene);
     Monitor monitor;
-    CHECK_FALSE(find_trapped_light(lit.mesh, lit.bvh, 1, 3e5, Workers(2), monitor));
+    CHECK_FALSE(find_lossless_component(lit.mesh, lit.bvh, 1, 3e5, Workers(2), monitor));
     scene.materials[1].reflectance = Vec3(1.0);
     const Model closed(scene);
-    const auto trapped = find_trapped_light(closed.mesh, closed.bvh, 1, 3e5, Workers(2), monitor);
+    const auto trapped =
+        find_lossless_component(closed.mesh, closed.bvh, 1, 3e5, Workers(2), monitor);
     REQUIRE(trapped);
     CHECK(trapped->patches.size() == 24 + 1);
     CHECK(trapped->rays >= 300'000);

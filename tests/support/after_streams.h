@@ -20,7 +20,7 @@ class AfterStreams final : public Tracer {
         return tracer_.occluded(ray, target);
     }
     [[nodiscard]] std::uint32_t count(const Ray& ray) const override { return tracer_.count(ray); }
-    void closest_stream(std::span<const Ray> rays, std::span<Struck> out) const override {
+    void closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const override {
         if (--left_ == 0)
             what_();
         tracer_.closest_stream(rays, out);

@@ -43,7 +43,7 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
                              "energy rays to show in it [0]")
         .group(output_group);
     add_camera_options(command, settings.view);
-    add_talk_options(command, settings.talk);
+    add_verbosity_options(command, settings.verbosity);
     command.end_help_with(examples);
     return command;
 }

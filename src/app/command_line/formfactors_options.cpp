@@ -50,7 +50,7 @@ Command add_formfactors_command(Arguments& program, FormFactorSettings& settings
         .repeatable()
         .required()
         .group(output_group);
-    add_talk_options(command, settings.talk);
+    add_verbosity_options(command, settings.verbosity);
     command.end_help_with(examples);
     return command;
 }

@@ -124,17 +124,17 @@ void add_view_options(Command command, ViewSettings& view) {
         .group(output_group);
 }
 
-void add_talk_options(Command command, Talk& talk) {
-    const auto set = [&talk](Talk value) {
-        return [&talk, value] {
-            if (talk != Talk::normal)
+void add_verbosity_options(Command command, Verbosity& verbosity) {
+    const auto set = [&verbosity](Verbosity value) {
+        return [&verbosity, value] {
+            if (verbosity != Verbosity::normal)
                 throw UsageError("-q and -v contradict each other");
-            talk = value;
+            verbosity = value;
         };
     };
-    const std::string group = "Talk";
-    command.add_action("-q,--quiet", set(Talk::quiet), "say nothing but errors").group(group);
-    command.add_action("-v,--verbose", set(Talk::verbose), "a line per step, and details")
+    const std::string group = "Verbosity";
+    command.add_action("-q,--quiet", set(Verbosity::quiet), "say nothing but errors").group(group);
+    command.add_action("-v,--verbose", set(Verbosity::verbose), "a line per step, and details")
         .group(group);
     command.add_version("--version", "hemilux " HEMILUX_VERSION, "print the version").group(group);
     command.add_help("-h,--help", "print this").group(group);

@@ -21,6 +21,6 @@ void add_camera_options(Command command, ViewSettings& view);
 /// The same with --exposure.
 void add_view_options(Command command, ViewSettings& view);
 /// -q, -v, --version, --help.
-void add_talk_options(Command command, Talk& talk);
+void add_verbosity_options(Command command, Verbosity& verbosity);
 
 } // namespace hemilux

@@ -68,8 +68,8 @@ void add_method_option(Command command, const Method*& method) {
 }
 
 /// All that --methods may name.
-std::vector<Entrant> possible_entrants() {
-    std::vector<Entrant> list;
+std::vector<MethodVariant> possible_variants() {
+    std::vector<MethodVariant> list;
     for (const Method* const method : methods()) {
         list.push_back({std::string(method->name), method, {}});
         if (method->guided)
@@ -81,23 +81,23 @@ std::vector<Entrant> possible_entrants() {
     return list;
 }
 
-Entrant entrant_by_name(std::string_view name) {
+MethodVariant variant_by_name(std::string_view name) {
     std::vector<std::string> names;
-    for (const Entrant& entrant : possible_entrants()) {
-        if (entrant.name == name)
-            return entrant;
-        names.push_back(entrant.name);
+    for (const MethodVariant& variant : possible_variants()) {
+        if (variant.name == name)
+            return variant;
+        names.push_back(variant.name);
     }
     throw UsageError("--methods: " + unknown_name("method", name, names));
 }
 
 /// Names with commas between them.
-std::vector<Entrant> entrants_from(std::string_view text) {
-    std::vector<Entrant> list;
+std::vector<MethodVariant> variants_from(std::string_view text) {
+    std::vector<MethodVariant> list;
     for (bool more = true; more;) {
         const std::size_t comma = text.find(',');
-        list.push_back(entrant_by_name(text.substr(0, comma)));
-        if (std::ranges::count(list, list.back().name, &Entrant::name) > 1)
+        list.push_back(variant_by_name(text.substr(0, comma)));
+        if (std::ranges::count(list, list.back().name, &MethodVariant::name) > 1)
             throw UsageError("--methods: '" + list.back().name + "' is named twice");
         more = comma != std::string_view::npos;
         if (more)
@@ -106,18 +106,18 @@ std::vector<Entrant> entrants_from(std::string_view text) {
     return list;
 }
 
-void add_methods_option(Command command, std::vector<Entrant>& list) {
+void add_methods_option(Command command, std::vector<MethodVariant>& list) {
     std::string with_guides;
-    for (const Entrant& entrant : possible_entrants())
-        if (entrant.guide)
-            with_guides += (with_guides.empty() ? "" : ", ") + entrant.name;
-        else if (entrant.method->unbiased || entrant.method->role == Role::standard)
-            list.push_back(entrant);
+    for (const MethodVariant& variant : possible_variants())
+        if (variant.guide)
+            with_guides += (with_guides.empty() ? "" : ", ") + variant.name;
+        else if (variant.method->unbiased || variant.method->role == Role::standard)
+            list.push_back(variant);
     command
         .add_value("--methods", "NAME,NAME,...",
                    "what to compare, see below; also " + with_guides + " [" +
                        std::string(method_of(Role::standard).name) + " and all that are unbiased]",
-                   [&list](const std::string& text) { list = entrants_from(text); })
+                   [&list](const std::string& text) { list = variants_from(text); })
         .group("Method");
 }
 
@@ -258,6 +258,11 @@ void add_reference_options(Command command, CompareSettings& settings) {
     add_number(command, "--reference-error", "X", settings.reference_error, positive,
                "estimated relative error of the " + method + " method [.002]")
         .group(comparison_group);
+    command
+        .add_flag("--total", settings.total,
+                  "curves and gains by the error of the light itself: also that a patch has one "
+                  "value; the table has both errors")
+        .group(comparison_group);
     add_detail_option(command, settings.detail);
 }
 
@@ -345,7 +350,7 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_output_options(command, settings);
     add_checkpoint_options(command, settings.checkpoint);
     add_comparison_options(command, settings);
-    add_talk_options(command, settings.talk);
+    add_verbosity_options(command, settings.verbosity);
     command.end_help_with(methods_text() + solve_examples + exit_codes);
     return command;
 }
@@ -355,7 +360,7 @@ Command add_compare_command(Arguments& program, CompareSettings& settings) {
         program.add_command("compare", "error against run time of several methods, side by side");
     add_scene_options(command, settings.scene);
     add_memory_option(command, settings.scene);
-    add_methods_option(command, settings.entrants);
+    add_methods_option(command, settings.variants);
     add_method_options(command, settings.options);
     add_own_options(command, settings.options);
     add_budget_options(command, settings);
@@ -367,7 +372,7 @@ Command add_compare_command(Arguments& program, CompareSettings& settings) {
         .required()
         .group(output_group);
     add_view_options(command, settings.view);
-    add_talk_options(command, settings.talk);
+    add_verbosity_options(command, settings.verbosity);
     command.end_help_with(methods_text() + compare_examples + exit_codes);
     return command;
 }
@@ -376,7 +381,7 @@ Command add_info_command(Arguments& program, InfoSettings& settings) {
     const Command command = program.add_command(
         "info", "what was read from a scene, what is doubtful in it, what it does not need");
     add_scene_options(command, settings.scene);
-    add_talk_options(command, settings.talk);
+    add_verbosity_options(command, settings.verbosity);
     command.end_help_with(std::string(info_examples) + exit_codes);
     return command;
 }

@@ -11,9 +11,9 @@
 #include "app/settings/method_options.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
+#include "app/terminal/log.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/summary.h"
-#include "app/terminal/talk.h"
 #include "io/files/error.h"
 #include "radiosity/sampling/rng.h"
 
@@ -28,7 +28,7 @@ namespace {
 constexpr double reference_share = 1.0 / 3;
 
 bool wants_bar(const CompareSettings& settings) {
-    return settings.talk != Talk::quiet && stderr_is_terminal();
+    return settings.verbosity != Verbosity::quiet && stderr_is_terminal();
 }
 
 /// The matrix method until it is good enough or interrupted, with random numbers that no run has.
@@ -47,8 +47,8 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
     const std::unique_ptr<Solver> solver = method.make(input);
     run(*solver, input, stop, [&](const StepRecord& record, const Solution&) {
         progress.step_done(record);
-        if (settings.talk == Talk::verbose)
-            progress.say("reference, " +
+        if (settings.verbosity == Verbosity::verbose)
+            progress.log("reference, " +
                          step_text({std::string(method.name), 0, record, std::nullopt}));
     });
     const Solution& solution = solver->solution();
@@ -64,19 +64,31 @@ double own_error(const Mesh& mesh, const Reference& reference) {
     return estimated_error(mesh, solution);
 }
 
-std::vector<MethodRuns> run_with_progress(const Contest& contest,
+std::vector<MethodRuns> run_with_progress(const Comparison& comparison,
                                           std::optional<SolveError>& fault) {
     std::atomic<double> share_done{0};
     Progress progress(
-        contest.monitor, [&](const ProgressState&) { return share_done.load(); },
-        wants_bar(contest.settings));
-    return run_methods(contest, fault, [&](const StepRow& row, double share) {
+        comparison.monitor, [&](const ProgressState&) { return share_done.load(); },
+        wants_bar(comparison.settings));
+    return run_methods(comparison, fault, [&](const StepRow& row, double share) {
         share_done = share;
         const std::string topic = row.method + formatted(", run %u", row.run + 1);
         progress.set_topic(topic);
-        if (contest.settings.talk == Talk::verbose)
-            progress.say(topic + ", " + step_text(row));
+        if (comparison.settings.verbosity == Verbosity::verbose)
+            progress.log(topic + ", " + step_text(row));
     });
+}
+
+/// The light that the reference gives at points of the surfaces; empty where it is not asked for.
+std::optional<KnownLight> find_light(const CompareSettings& settings, const Mesh& mesh,
+                                     const Tracer& tracer, const Reference& reference,
+                                     const StopFlag& interrupted) {
+    constexpr std::size_t points = 1 << 15;
+    if (!settings.total)
+        return std::nullopt;
+    return std::optional<KnownLight>(std::in_place, mesh, tracer, reference.radiosity, points,
+                                     hash_words({settings.options.seed, 0x6c69676874u}),
+                                     Workers(settings.options.threads), interrupted);
 }
 
 /// Methods that were interrupted before their first step have nothing to show.
@@ -86,45 +98,47 @@ void drop_empty(std::vector<MethodRuns>& results) {
     std::erase_if(results, [](const MethodRuns& result) { return result.runs.empty(); });
 }
 
-void judge_reference(const Contest& contest, std::span<const MethodSummary> summaries) {
-    const double own = own_error(contest.mesh, contest.reference);
-    say(contest.settings.talk, Talk::normal, "the reference's own error: " + percent(own));
+void judge_reference(const Comparison& comparison, std::span<const MethodSummary> summaries) {
+    const double own = own_error(comparison.mesh, comparison.reference);
+    log_line(comparison.settings.verbosity, Verbosity::normal,
+             "the reference's own error: " + percent(own));
     for (const MethodSummary& summary : summaries)
         if (own > reference_share * summary.error.all)
-            say(contest.settings.talk, Talk::normal,
-                "warning: that is much of the " + percent(summary.error.all) + " of " +
-                    summary.label + "; --reference-error asks for a better one");
+            log_line(comparison.settings.verbosity, Verbosity::normal,
+                     "warning: that is much of the " + percent(summary.error.all) + " of " +
+                         summary.label + "; --reference-error asks for a better one");
 }
 
-int finish(const Contest& contest, std::vector<MethodRuns> results) {
-    const Talk talk = contest.settings.talk;
+int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
+    const Verbosity verbosity = comparison.settings.verbosity;
     drop_empty(results);
     WriteReport report;
     if (!results.empty()) {
-        const auto summaries = summarise(results, contest.settings.options.literal);
-        report = write_comparison(contest, results, summaries);
-        judge_reference(contest, summaries);
+        const auto summaries = summarise(results, comparison.settings.options.literal);
+        report = write_comparison(comparison, results, summaries);
+        judge_reference(comparison, summaries);
         std::cout << summary_table(summaries) << std::flush;
         if (const std::string note = gain_note(summaries); !note.empty())
-            say(talk, Talk::normal, note);
+            log_line(verbosity, Verbosity::normal, note);
         if (!std::cout)
             throw OutputError("standard output", "cannot be written");
     }
-    report.say(talk);
-    if (contest.monitor.interrupted)
-        say(talk, Talk::quiet,
-            results.empty() ? "interrupted before the first step of a method was done"
-                            : "interrupted; the results are those of the steps that were done");
+    report.log(verbosity);
+    if (comparison.monitor.interrupted)
+        log_line(verbosity, Verbosity::quiet,
+                 results.empty()
+                     ? "interrupted before the first step of a method was done"
+                     : "interrupted; the results are those of the steps that were done");
     if (!report.failed.empty())
         return exit_output;
-    return contest.monitor.interrupted ? exit_code_of_signal() : exit_done;
+    return comparison.monitor.interrupted ? exit_code_of_signal() : exit_done;
 }
 
 /// Fills in the lines of the faces as soon as they are known.
 int run_comparison(const CompareSettings& settings, std::vector<std::uint32_t>& face_lines) {
     std::vector<const Method*> methods;
-    for (const Entrant& entrant : settings.entrants)
-        methods.push_back(entrant.method);
+    for (const MethodVariant& variant : settings.variants)
+        methods.push_back(variant.method);
     if (settings.reference.empty())
         methods.push_back(&method_of(Role::reference));
     check_own_options(settings.options, methods);
@@ -132,8 +146,9 @@ int run_comparison(const CompareSettings& settings, std::vector<std::uint32_t>& 
     const RunFiles files = check_files(settings);
     Monitor monitor;
     InterruptGuard guard;
-    LoadedMesh loaded = load_mesh(settings.scene, files, settings.options, methods, settings.talk,
-                                  bytes_of_compared_pictures(settings.view.size));
+    LoadedMesh loaded =
+        load_mesh(settings.scene, files, settings.options, methods, settings.verbosity,
+                  bytes_of_compared_pictures(settings.view.size));
     face_lines = std::move(loaded.face_lines);
     const Mesh& mesh = loaded.mesh;
     check_camera(settings.view, mesh);
@@ -146,23 +161,26 @@ int run_comparison(const CompareSettings& settings, std::vector<std::uint32_t>& 
     const Needs& needs = prepared.needs;
     const auto& [tracer, tree] = prepared.made;
     guard.watch(monitor.interrupted);
-    say(settings.talk, Talk::verbose, tracer_text(tree, prepared.seconds));
+    log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, prepared.seconds));
     if (!reference)
         reference = compute_reference(settings, mesh, *tracer, needs, monitor);
     if (!reference) {
-        say(settings.talk, Talk::quiet, "interrupted before there was a reference");
+        log_line(settings.verbosity, Verbosity::quiet, "interrupted before there was a reference");
         return exit_code_of_signal();
     }
     reference->detail = std::move(detail);
-    const Contest contest{mesh, *tracer, settings, *reference, monitor, needs};
+    const std::optional<KnownLight> light =
+        find_light(settings, mesh, *tracer, *reference, monitor.interrupted);
+    const Comparison comparison{mesh,    *tracer, settings, *reference, light ? &*light : nullptr,
+                                monitor, needs};
     if (settings.reference.empty()) {
-        const WriteReport report = write_reference(contest);
-        report.say(settings.talk);
+        const WriteReport report = write_reference(comparison);
+        report.log(settings.verbosity);
         if (!report.failed.empty())
             return exit_output;
     }
     std::optional<SolveError> fault;
-    const int code = finish(contest, run_with_progress(contest, fault));
+    const int code = finish(comparison, run_with_progress(comparison, fault));
     if (fault && code == exit_done)
         throw SolveError(*fault);
     return code;

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string path_in(const Contest& contest, const std::string& name) {
-    return (fs::path(contest.settings.folder) / name).string();
+std::string path_in(const Comparison& comparison, const std::string& name) {
+    return (fs::path(comparison.settings.folder) / name).string();
 }
 
 std::vector<StepRow> all_rows(std::span<const MethodRuns> results) {
@@ -38,13 +38,13 @@ MeanCurve in_per_cent(MeanCurve curve) {
     return curve;
 }
 
-Chart chart_of(const Contest& contest, std::span<const MethodSummary> summaries) {
-    const CompareSettings& settings = contest.settings;
+Chart chart_of(const Comparison& comparison, std::span<const MethodSummary> summaries) {
+    const CompareSettings& settings = comparison.settings;
     Chart chart;
     chart.title = fs::path(settings.scene.path).filename().string() + ": " +
-                  counted(contest.mesh.patches().size(), "patch", "patches") + ", mean of " +
+                  counted(comparison.mesh.patches().size(), "patch", "patches") + ", mean of " +
                   counted(settings.runs, "run", "runs");
-    chart.y_label = "relative error, %";
+    chart.y_label = settings.total ? "relative error of the light itself, %" : "relative error, %";
     Panel by_seconds{"seconds, preprocessing included", {}};
     Panel by_rays{"rays, density rays included", {}};
     for (const MethodSummary& summary : summaries) {
@@ -56,38 +56,39 @@ Chart chart_of(const Contest& contest, std::span<const MethodSummary> summaries)
     return chart;
 }
 
-void write_chart(const Contest& contest, std::span<const MethodSummary> summaries,
+void write_chart(const Comparison& comparison, std::span<const MethodSummary> summaries,
                  WriteReport& report) {
-    const std::string path = path_in(contest, "error.svg");
-    report.attempt(path, [&] { write_atomically(path, chart_svg(chart_of(contest, summaries))); });
+    const std::string path = path_in(comparison, "error.svg");
+    report.attempt(path,
+                   [&] { write_atomically(path, chart_svg(chart_of(comparison, summaries))); });
 }
 
-void write_pictures(const Contest& contest, std::span<const MethodRuns> results,
+void write_pictures(const Comparison& comparison, std::span<const MethodRuns> results,
                     WriteReport& report) {
-    const ViewSettings& view = contest.settings.view;
-    const Reference& reference = contest.reference;
-    const Camera camera = camera_of(view, contest.mesh, contest.tracer, reference.radiosity);
-    const PictureTime time(contest.monitor.interrupted);
+    const ViewSettings& view = comparison.settings.view;
+    const Reference& reference = comparison.reference;
+    const Camera camera = camera_of(view, comparison.mesh, comparison.tracer, reference.radiosity);
+    const PictureTime time(comparison.monitor.interrupted);
     const auto picture = [&](std::span<const Vec3> radiosity) {
-        return render_view(view, contest.mesh, contest.tracer, radiosity, camera,
-                           contest.settings.options.threads, time);
+        return render_view(view, comparison.mesh, comparison.tracer, radiosity, camera,
+                           comparison.settings.options.threads, time);
     };
     const Image truth = picture(reference.radiosity);
     const double exposure = exposure_of(view, truth);
     const auto write = [&](const std::string& name, const Image& image, double factor) {
-        const std::string path = path_in(contest, name);
+        const std::string path = path_in(comparison, name);
         report.attempt(path, [&] { write_png(path, image, factor); });
     };
     write("reference.png", truth, exposure);
     std::vector<std::vector<float>> differences;
     for (const MethodRuns& result : results) {
         const Image image = picture(result.runs.front().radiosity);
-        write(result.entrant.name + ".png", image, exposure);
+        write(result.variant.name + ".png", image, exposure);
         differences.push_back(luminance_difference(image, truth, exposure));
     }
     const DifferenceScale scale = common_scale(differences);
     for (std::size_t i = 0; i < results.size(); ++i)
-        write(results[i].entrant.name + "_difference.png",
+        write(results[i].variant.name + "_difference.png",
               false_colour(differences[i], truth.width, truth.height, scale), 1);
 }
 
@@ -107,9 +108,9 @@ void make_folder(const std::string& folder) {
 
 RunFiles check_files(const CompareSettings& settings) {
     std::vector<std::string> names{"error.csv", "error.svg", "reference.png"};
-    for (const Entrant& entrant : settings.entrants)
+    for (const MethodVariant& variant : settings.variants)
         for (const char* const end : {".png", "_difference.png"})
-            names.push_back(entrant.name + end);
+            names.push_back(variant.name + end);
     if (settings.reference.empty())
         names.push_back("reference.csv");
     for (std::string& name : names)
@@ -122,27 +123,27 @@ RunFiles check_files(const CompareSettings& settings) {
     return files;
 }
 
-WriteReport write_comparison(const Contest& contest, std::span<const MethodRuns> results,
+WriteReport write_comparison(const Comparison& comparison, std::span<const MethodRuns> results,
                              std::span<const MethodSummary> summaries) {
     WriteReport report;
-    const std::string log = path_in(contest, "error.csv");
+    const std::string log = path_in(comparison, "error.csv");
     report.attempt(log, [&] { write_steps_log(log, all_rows(results)); });
-    write_chart(contest, summaries, report);
+    write_chart(comparison, summaries, report);
     try {
-        write_pictures(contest, results, report);
+        write_pictures(comparison, results, report);
     } catch (const Interrupted&) {
-        report.left_out.push_back(path_in(contest, "*.png"));
+        report.left_out.push_back(path_in(comparison, "*.png"));
     }
     return report;
 }
 
-WriteReport write_reference(const Contest& contest) {
+WriteReport write_reference(const Comparison& comparison) {
     WriteReport report;
-    const std::string path = path_in(contest, "reference.csv");
+    const std::string path = path_in(comparison, "reference.csv");
     report.attempt(path, [&] {
-        write_patch_table(path, contest.mesh, contest.reference.radiosity,
-                          contest.reference.standard_error,
-                          Workers(contest.settings.options.threads));
+        write_patch_table(path, comparison.mesh, comparison.reference.radiosity,
+                          comparison.reference.standard_error,
+                          Workers(comparison.settings.options.threads));
     });
     return report;
 }

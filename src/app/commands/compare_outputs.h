@@ -21,11 +21,11 @@ void make_folder(const std::string& folder);
 /// error.csv, error.svg, reference.png, and METHOD.png with METHOD_difference.png from
 /// the first run of each method. All pictures have one camera and one exposure, all differences one
 /// scale.
-[[nodiscard]] WriteReport write_comparison(const Contest& contest,
+[[nodiscard]] WriteReport write_comparison(const Comparison& comparison,
                                            std::span<const MethodRuns> results,
                                            std::span<const MethodSummary> summaries);
 
 /// reference.csv, for use with --reference.
-[[nodiscard]] WriteReport write_reference(const Contest& contest);
+[[nodiscard]] WriteReport write_reference(const Comparison& comparison);
 
 } // namespace hemilux

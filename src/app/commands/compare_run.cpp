@@ -13,28 +13,29 @@ namespace hemilux {
 namespace {
 
 /// The budget as given, or the usual number of rays.
-Budget budget_of(const Contest& contest) {
-    Budget budget = contest.settings.budget;
+Budget budget_of(const Comparison& comparison) {
+    Budget budget = comparison.settings.budget;
     if (!budget.rays && !budget.seconds)
-        budget.rays = Budget::default_steps * contest.settings.options.rays *
-                      static_cast<double>(contest.mesh.patches().size());
+        budget.rays = Budget::default_steps * comparison.settings.options.rays *
+                      static_cast<double>(comparison.mesh.patches().size());
     return budget;
 }
 
 /// A method at work. Its time is the sum of its own steps and of what it does before the first.
 class Runner {
   public:
-    Runner(const Contest& contest, const Entrant& entrant, std::uint32_t run, const Budget& budget)
-        : contest_(contest), entrant_(entrant), run_(run), budget_(budget),
-          options_(with_memory(contest.settings.options, contest.settings.scene)) {
-        options_.rays = rays_of_step(options_.rays, budget.seconds, *entrant.method,
-                                     contest.mesh.patches().size());
+    Runner(const Comparison& comparison, const MethodVariant& variant, std::uint32_t run,
+           const Budget& budget)
+        : comparison_(comparison), variant_(variant), run_(run), budget_(budget),
+          options_(with_memory(comparison.settings.options, comparison.settings.scene)) {
+        options_.rays = rays_of_step(options_.rays, budget.seconds, *variant.method,
+                                     comparison.mesh.patches().size());
         options_.seed += run;
-        options_.literal = options_.literal && entrant.method->has_literal;
-        options_.guide = entrant.guide.value_or(options_.guide);
+        options_.literal = options_.literal && variant.method->has_literal;
+        options_.guide = variant.guide.value_or(options_.guide);
         const Stopwatch preparing;
-        solver_ = entrant.method->make(
-            {contest.mesh, contest.tracer, options_, contest.monitor, contest.needs});
+        solver_ = variant.method->make(
+            {comparison.mesh, comparison.tracer, options_, comparison.monitor, comparison.needs});
         seconds_ = preparing.seconds();
     }
 
@@ -42,9 +43,9 @@ class Runner {
     bool step() {
         const double before = used();
         const Stopwatch stepping;
-        const TimeLimit limit(contest_.monitor.interrupted, seconds_left());
+        const TimeLimit limit(comparison_.monitor.interrupted, seconds_left());
         if (!solver_->step()) {
-            cut_short_ = !contest_.monitor.interrupted.load();
+            cut_short_ = !comparison_.monitor.interrupted.load();
             return false;
         }
         seconds_ += stepping.seconds();
@@ -93,13 +94,15 @@ class Runner {
     [[nodiscard]] StepRow row() const {
         const Solution& solution = solver_->solution();
         const auto step = static_cast<std::uint32_t>(result_.rows.size() + 1);
-        return {entrant_.name, run_,
-                StepRecord{step, rays(), seconds_, estimated_error(contest_.mesh, solution)},
-                contest_.reference.error(contest_.mesh, solution.radiosity)};
+        return {variant_.name, run_,
+                StepRecord{step, rays(), seconds_, estimated_error(comparison_.mesh, solution)},
+                comparison_.reference.error(comparison_.mesh, solution.radiosity),
+                comparison_.light ? std::optional(comparison_.light->error(solution.radiosity))
+                                  : std::nullopt};
     }
 
-    const Contest& contest_;
-    const Entrant& entrant_;
+    const Comparison& comparison_;
+    const MethodVariant& variant_;
     std::uint32_t run_;
     Budget budget_;
     SolveOptions options_;
@@ -121,39 +124,39 @@ double mean_share(const Runners& runners, std::size_t of) {
 
 /// One run of all methods, each until its budget is used up or all are interrupted. The runners
 /// are filled in as they are made, so that they remain when a step cannot be done.
-void run_once(const Contest& contest, std::uint32_t run, Runners& runners,
+void run_once(const Comparison& comparison, std::uint32_t run, Runners& runners,
               const std::function<void(const StepRow&, double share)>& after_step) {
-    const Budget budget = budget_of(contest);
-    const std::vector<Entrant>& entrants = contest.settings.entrants;
-    for (const Entrant& entrant : entrants) {
-        if (contest.monitor.interrupted)
+    const Budget budget = budget_of(comparison);
+    const std::vector<MethodVariant>& variants = comparison.settings.variants;
+    for (const MethodVariant& variant : variants) {
+        if (comparison.monitor.interrupted)
             return;
-        runners.push_back(std::make_unique<Runner>(contest, entrant, run, budget));
+        runners.push_back(std::make_unique<Runner>(comparison, variant, run, budget));
     }
-    while (!contest.monitor.interrupted) {
+    while (!comparison.monitor.interrupted) {
         const auto least = std::ranges::min_element(
             runners, {}, [](const auto& runner) { return runner->share(); });
         if ((*least)->done())
             break;
         if (!(*least)->step())
             continue;
-        after_step((*least)->last_row(), mean_share(runners, entrants.size()));
+        after_step((*least)->last_row(), mean_share(runners, variants.size()));
     }
 }
 
 } // namespace
 
 std::vector<MethodRuns>
-run_methods(const Contest& contest, std::optional<SolveError>& fault,
+run_methods(const Comparison& comparison, std::optional<SolveError>& fault,
             const std::function<void(const StepRow&, double share)>& after_step) {
     std::vector<MethodRuns> results;
-    for (const Entrant& entrant : contest.settings.entrants)
-        results.push_back({entrant, {}});
-    const std::uint32_t runs = contest.settings.runs;
-    for (std::uint32_t run = 0; run < runs && !contest.monitor.interrupted && !fault; ++run) {
+    for (const MethodVariant& variant : comparison.settings.variants)
+        results.push_back({variant, {}});
+    const std::uint32_t runs = comparison.settings.runs;
+    for (std::uint32_t run = 0; run < runs && !comparison.monitor.interrupted && !fault; ++run) {
         Runners runners;
         try {
-            run_once(contest, run, runners, [&](const StepRow& row, double share) {
+            run_once(comparison, run, runners, [&](const StepRow& row, double share) {
                 after_step(row, (run + share) / runs);
             });
         } catch (const SolveError& error) {

@@ -5,6 +5,7 @@
 #include "app/loading/reference.h"
 #include "app/settings/settings.h"
 #include "io/results/tables.h"
+#include "radiosity/final_gather/known_light.h"
 #include "radiosity/solving/solve_error.h"
 
 #include <functional>
@@ -12,7 +13,7 @@
 
 namespace hemilux {
 
-/// One run of one entrant.
+/// One run of one variant.
 struct MethodRun {
     std::vector<StepRow> rows;
     std::vector<Vec3> radiosity; ///< at the end of the budget
@@ -20,18 +21,19 @@ struct MethodRun {
     bool complete = false; ///< not interrupted
 };
 
-/// All runs of one entrant; those that were begun.
+/// All runs of one variant; those that were begun.
 struct MethodRuns {
-    Entrant entrant;
+    MethodVariant variant;
     std::vector<MethodRun> runs;
 };
 
 /// What the runs have in common; all of it outlives them.
-struct Contest {
+struct Comparison {
     const Mesh& mesh;
     const Tracer& tracer;
     const CompareSettings& settings;
     const Reference& reference;
+    const KnownLight* light; ///< none: errors are those on the patches
     Monitor& monitor;
     const Needs& needs;
 };
@@ -39,7 +41,7 @@ struct Contest {
 /// `after_step` is told the share of all runs that is done, 0 to 1.
 /// `fault`: what kept a step from being done; the results are then those of the steps before.
 [[nodiscard]] std::vector<MethodRuns>
-run_methods(const Contest& contest, std::optional<SolveError>& fault,
+run_methods(const Comparison& comparison, std::optional<SolveError>& fault,
             const std::function<void(const StepRow&, double share)>& after_step);
 
 } // namespace hemilux

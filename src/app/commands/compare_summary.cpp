@@ -45,7 +45,7 @@ std::vector<ErrorCurve> curves_of(const std::vector<const MethodRun*>& runs, Fig
     for (const MethodRun* const run : runs) {
         ErrorCurve& points = curves.emplace_back();
         for (const StepRow& row : run->rows)
-            append(points, {x(row), row.error->all});
+            append(points, {x(row), row.total_error.value_or(row.error->all)});
     }
     return curves;
 }
@@ -54,12 +54,15 @@ MethodSummary summarise(const MethodRuns& result, bool literal) {
     const std::vector<const MethodRun*> runs = runs_that_count(result);
     MethodSummary summary;
     summary.label =
-        result.entrant.name + (literal && result.entrant.method->has_literal ? " (literal)" : "");
+        result.variant.name + (literal && result.variant.method->has_literal ? " (literal)" : "");
     summary.rays = mean(runs, rays_of);
     summary.seconds = mean(runs, seconds_of);
     summary.error = {geometric_mean(runs, [](const StepRow& row) { return row.error->all; }),
                      geometric_mean(runs, [](const StepRow& row) { return row.error->detail; }),
                      geometric_mean(runs, [](const StepRow& row) { return row.error->rest; })};
+    if (runs.front()->rows.back().total_error)
+        summary.total_error =
+            geometric_mean(runs, [](const StepRow& row) { return *row.total_error; });
     summary.estimated_error =
         geometric_mean(runs, [](const StepRow& row) { return row.record.estimated_error; });
     summary.runs = runs.size();
@@ -91,18 +94,24 @@ std::string gain(const std::optional<Gain>& x) {
     return *x->standard_error == 0 ? times : times + formatted(" +- %.2f", *x->standard_error);
 }
 
+/// Before `error %`, where there is one.
+constexpr std::ptrdiff_t total_column = 3;
+
 std::vector<std::string> table_row(const MethodSummary& s) {
-    return {s.label,
-            std::isfinite(s.rays) ? short_count(s.rays) : "-",
-            number("%.3g", s.seconds),
-            number("%.3g", 100 * s.error.all),
-            number("%.3g", 100 * s.error.detail),
-            number("%.3g", 100 * s.error.rest),
-            number("%.3g", 100 * s.estimated_error),
-            number("%.2f", s.estimated_error / s.error.all),
-            gain(s.gain_seconds),
-            gain(s.gain_rays),
-            s.bytes_density > 0 ? byte_size(s.bytes_density) : "-"};
+    std::vector<std::string> row = {s.label,
+                                    std::isfinite(s.rays) ? short_count(s.rays) : "-",
+                                    number("%.3g", s.seconds),
+                                    number("%.3g", 100 * s.error.all),
+                                    number("%.3g", 100 * s.error.detail),
+                                    number("%.3g", 100 * s.error.rest),
+                                    number("%.3g", 100 * s.estimated_error),
+                                    number("%.2f", s.estimated_error / s.error.all),
+                                    gain(s.gain_seconds),
+                                    gain(s.gain_rays),
+                                    s.bytes_density > 0 ? byte_size(s.bytes_density) : "-"};
+    if (s.total_error)
+        row.insert(row.begin() + total_column, number("%.3g", 100 * *s.total_error));
+    return row;
 }
 
 /// Columns two blanks apart, the first flush left, the others flush right.
@@ -129,7 +138,7 @@ std::vector<MethodSummary> summarise(std::span<const MethodRuns> results, bool l
     for (const MethodRuns& result : results)
         summaries.push_back(summarise(result, literal));
     const auto base = std::ranges::find(results, method_of(Role::baseline).name,
-                                        [](const MethodRuns& r) { return r.entrant.name; });
+                                        [](const MethodRuns& r) { return r.variant.name; });
     if (base == results.end())
         return summaries;
     const MethodSummary yardstick = summaries[static_cast<std::size_t>(base - results.begin())];
@@ -148,6 +157,8 @@ std::string summary_table(std::span<const MethodSummary> summaries) {
     std::vector<std::vector<std::string>> rows{{"method", "rays", "seconds", "error %", "detail %",
                                                 "rest %", "estimated %", "estimated/error",
                                                 "time gain", "ray gain", "density bytes"}};
+    if (!summaries.empty() && summaries.front().total_error)
+        rows.front().insert(rows.front().begin() + total_column, "total %");
     for (const MethodSummary& summary : summaries)
         rows.push_back(table_row(summary));
     return aligned(rows);

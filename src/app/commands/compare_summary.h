@@ -22,9 +22,10 @@ struct MethodSummary {
     std::string label;
     double rays = 0, seconds = 0;
     RelativeError error;
+    std::optional<double> total_error; ///< with --total, which the curves and gains are then of
     double estimated_error = 0;
     std::uint64_t bytes_density = 0;
-    std::vector<ErrorCurve> runs_by_seconds, runs_by_rays; ///< true error
+    std::vector<ErrorCurve> runs_by_seconds, runs_by_rays; ///< true error, or total
     MeanCurve by_seconds, by_rays;                         ///< mean of these
     std::size_t runs = 0;                                  ///< that count
     std::optional<Gain> gain_seconds, gain_rays;

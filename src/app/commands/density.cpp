@@ -7,7 +7,7 @@
 #include "app/settings/extension.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
-#include "app/terminal/talk.h"
+#include "app/terminal/log.h"
 #include "bvh/wide/wide_bvh.h"
 #include "io/drawings/density_picture.h"
 #include "io/drawings/hemisphere_svg.h"
@@ -66,26 +66,27 @@ std::uint32_t patch_to_draw(const Preprocessed& made, const PatchDensities& dens
         return *settings.patch;
     const auto largest = std::ranges::max_element(densities.spread);
     const auto patch = static_cast<std::uint32_t>(largest - densities.spread.begin());
-    say(settings.talk, Talk::normal,
+    log_line(
+        settings.verbosity, Verbosity::normal,
         formatted("patch %u has the largest spread of densities; --patch draws another", patch));
     return patch;
 }
 
-/// Directions of energy rays as the paper's method deals them, in the hemisphere's frame.
+/// Directions of energy rays as the paper's method allocates them, in the hemisphere's frame.
 std::vector<Vec3> energy_rays(const Preprocessed& made, std::uint32_t patch) {
     const SolveOptions& options = made.settings.options;
     const SolverInput input{made.mesh, made.tracer, options, made.monitor};
     const auto strategy =
         method_of(Role::paper).strategy(input, made.hemisphere, Workers(options.threads));
-    DealtCells memory;
-    const Dealing dealing = strategy->deal(patch, memory);
+    AllocatedCells memory;
+    const Allocation allocation = strategy->allocate(patch, memory);
     Rng rng(hash_words({options.seed, patch}));
     std::vector<Vec3> rays;
     double due = rng.uniform(); // whole numbers of rays by systematic rounding
-    for (std::size_t k = 0; k < dealing.cells.size(); ++k) {
-        due += dealing.rays(k) * made.settings.rays;
+    for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
+        due += allocation.rays(k) * made.settings.rays;
         for (; due >= 1; due -= 1)
-            rays.push_back(made.hemisphere.cells()[dealing.cells[k]].shape.sample_rejection(
+            rays.push_back(made.hemisphere.cells()[allocation.cells[k]].shape.sample_rejection(
                 [&] { return rng.uniform(); }));
     }
     return rays;
@@ -147,13 +148,13 @@ void check_patch(const DensitySettings& settings, const Mesh& mesh) {
                                    *settings.patch, patches - 1));
 }
 
-void say_summary(const Preprocessed& made, const PatchDensities& densities) {
+void log_summary(const Preprocessed& made, const PatchDensities& densities) {
     const auto [least, most] = std::ranges::minmax(densities.mean);
-    say(made.settings.talk, Talk::normal,
-        counted(densities.mean.size(), "patch", "patches") + ", " +
-            short_count(static_cast<double>(made.map.rays())) + " density rays, " +
-            byte_size(made.map.bytes()) +
-            formatted("; mean density of a patch %.3g to %.3g", least, most));
+    log_line(made.settings.verbosity, Verbosity::normal,
+             counted(densities.mean.size(), "patch", "patches") + ", " +
+                 short_count(static_cast<double>(made.map.rays())) + " density rays, " +
+                 byte_size(made.map.bytes()) +
+                 formatted("; mean density of a patch %.3g to %.3g", least, most));
 }
 
 } // namespace
@@ -163,7 +164,7 @@ int density(const DensitySettings& settings) {
     check(settings);
     Monitor monitor;
     InterruptGuard guard;
-    const Mesh mesh = load_geometry(settings.scene, files, settings.talk);
+    const Mesh mesh = load_geometry(settings.scene, files, settings.verbosity);
     check_camera(settings.view, mesh);
     check_patch(settings, mesh);
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
@@ -172,12 +173,12 @@ int density(const DensitySettings& settings) {
     const DensityMap map(mesh, bvh, hemisphere, settings.options.threshold,
                          Workers(settings.options.threads), monitor);
     if (monitor.interrupted) {
-        say(settings.talk, Talk::quiet, "interrupted; nothing was written");
+        log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();
     }
     const Preprocessed made{settings, mesh, bvh, hemisphere, map, monitor};
     const PatchDensities densities = summarise(made);
-    say_summary(made, densities);
+    log_summary(made, densities);
     std::optional<std::uint32_t> patch;
     if (std::ranges::any_of(settings.outputs, is_svg))
         patch = patch_to_draw(made, densities);
@@ -189,7 +190,7 @@ int density(const DensitySettings& settings) {
             else
                 write_picture(made, densities, path);
         });
-    report.say(settings.talk);
+    report.log(settings.verbosity);
     return report.exit_code(monitor.interrupted);
 }
 

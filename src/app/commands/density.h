@@ -12,7 +12,7 @@ struct DensitySettings {
     std::uint32_t rays = 0;             ///< energy rays to show in it
     ViewSettings view;
     std::vector<std::string> outputs; ///< .svg: a hemisphere; .png: mean densities
-    Talk talk = Talk::normal;
+    Verbosity verbosity = Verbosity::normal;
 };
 
 /// Returns the exit code or throws UsageError, InputError or OutputError.

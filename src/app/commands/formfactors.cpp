@@ -7,7 +7,7 @@
 #include "app/settings/extension.h"
 #include "app/settings/method_options.h"
 #include "app/settings/text.h"
-#include "app/terminal/talk.h"
+#include "app/terminal/log.h"
 #include "bvh/wide/wide_bvh.h"
 #include "io/results/factor_table.h"
 #include "io/results/npy.h"
@@ -29,8 +29,10 @@ void check_size(const FormFactorSettings& settings, std::size_t patches) {
     check_exact(settings.options, patches);
 }
 
-void say_quality(Talk talk, const MatrixQuality& quality) {
-    const auto line = [talk](const std::string& text) { say(talk, Talk::normal, text); };
+void log_quality(Verbosity verbosity, const MatrixQuality& quality) {
+    const auto line = [verbosity](const std::string& text) {
+        log_line(verbosity, Verbosity::normal, text);
+    };
     line(counted(quality.entries, "factor", "factors") +
          formatted(" above 0, from %.3g to %.6g", quality.least, quality.most));
     line(formatted("rows: |sum - 1 + lost| %.2g on average, %.2g at most", quality.closure_mean,
@@ -48,17 +50,17 @@ std::optional<SparseMatrix> compute(const FormFactorSettings& settings, const Me
     const std::uint64_t traced = samples.trace_up_to(settings.rays, workers, monitor);
     if (monitor.interrupted)
         return std::nullopt;
-    say(settings.talk, Talk::normal,
-        counted(mesh.patches().size(), "patch", "patches") + ", " +
-            short_count(static_cast<double>(traced)) + " rays");
+    log_line(settings.verbosity, Verbosity::normal,
+             counted(mesh.patches().size(), "patch", "patches") + ", " +
+                 short_count(static_cast<double>(traced)) + " rays");
     if (!settings.options.exact)
         return samples.matrix();
     const ExactFormFactors exact(mesh, workers, monitor);
     if (monitor.interrupted)
         return std::nullopt;
-    say(settings.talk, Talk::normal,
-        counted(exact.exact_pairs(), "pair", "pairs") + " by contour integration, " +
-            grouped(exact.sampled_pairs()) + " by rays");
+    log_line(settings.verbosity, Verbosity::normal,
+             counted(exact.exact_pairs(), "pair", "pairs") + " by contour integration, " +
+                 grouped(exact.sampled_pairs()) + " by rays");
     return exact.matrix(samples);
 }
 
@@ -68,7 +70,7 @@ int formfactors(const FormFactorSettings& settings) {
     const RunFiles files = check_files(settings.outputs, settings.scene.path);
     Monitor monitor;
     InterruptGuard guard;
-    const Mesh mesh = load_geometry(settings.scene, files, settings.talk);
+    const Mesh mesh = load_geometry(settings.scene, files, settings.verbosity);
     check_size(settings, mesh.patches().size());
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted);
@@ -76,10 +78,10 @@ int formfactors(const FormFactorSettings& settings) {
     SampledFormFactors samples(mesh, bvh, {}, settings.options.seed);
     const auto matrix = compute(settings, mesh, samples, workers, monitor);
     if (!matrix) {
-        say(settings.talk, Talk::quiet, "interrupted; nothing was written");
+        log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();
     }
-    say_quality(settings.talk, judge_matrix(*matrix, mesh, samples));
+    log_quality(settings.verbosity, assess_matrix(*matrix, mesh, samples));
     WriteReport report;
     for (const std::string& path : settings.outputs)
         report.attempt(path, [&] {
@@ -88,7 +90,7 @@ int formfactors(const FormFactorSettings& settings) {
             else
                 write_factor_table(path, *matrix, &monitor.interrupted);
         });
-    report.say(settings.talk);
+    report.log(settings.verbosity);
     return report.exit_code(monitor.interrupted);
 }
 

@@ -10,7 +10,7 @@ struct FormFactorSettings {
     SolveOptions options;      ///< seed, threads, exact
     std::uint32_t rays = 4096; ///< per patch; a power of two
     std::vector<std::string> outputs;
-    Talk talk = Talk::normal;
+    Verbosity verbosity = Verbosity::normal;
 
     static constexpr std::size_t most_dense = 20'000; ///< patches
 };

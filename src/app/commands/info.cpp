@@ -4,7 +4,7 @@
 #include "app/loading/load.h"
 #include "app/loading/sides.h"
 #include "app/settings/exit_code.h"
-#include "app/terminal/talk.h"
+#include "app/terminal/log.h"
 #include "io/files/error.h"
 #include "io/files/printable.h"
 #include "io/scene_files/inspect.h"
@@ -35,7 +35,7 @@ Scene with_sides(Scene scene, Sides sides) {
 int info(const InfoSettings& settings) {
     ReadResult read = load_scene(settings.scene, {});
     for (const std::string& warning : read.warnings)
-        say(settings.talk, Talk::normal, "warning: " + warning);
+        log_line(settings.verbosity, Verbosity::normal, "warning: " + warning);
     print(describe(inspect(read)));
     if (!read.scene.facets.empty()) {
         const Mesh mesh =

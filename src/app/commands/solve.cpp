@@ -16,10 +16,10 @@
 #include "app/settings/method_options.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
+#include "app/terminal/log.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
-#include "app/terminal/talk.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/solving/error_spread.h"
@@ -88,12 +88,12 @@ std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverI
     }
 }
 
-void say_lost_light(const SolveSettings& settings, const Results& results) {
+void log_lost_light(const SolveSettings& settings, const Results& results) {
     const LightShares light = find_light_shares(results.mesh, results.tracer);
     const std::string text =
         lost_light_text(results.mesh, results.solution.radiosity, light, settings.scene.sides);
     if (!text.empty())
-        say(settings.talk, Talk::normal, "warning: " + text);
+        log_line(settings.verbosity, Verbosity::normal, "warning: " + text);
 }
 
 /// The last words; returns the exit code.
@@ -101,27 +101,29 @@ int finish(const SolveSettings& settings, const Results& results, const WriteRep
            const std::optional<Reference>& reference, const RunNotes& notes, bool interrupted) {
     WriteReport report = write_results(settings, results);
     report.add(of_steps);
-    say(settings.talk, Talk::normal, run_text(results.statistics));
+    log_line(settings.verbosity, Verbosity::normal, run_text(results.statistics));
     for (const std::string& note : notes.texts(results.statistics.error_sampling, interrupted))
-        say(settings.talk, Talk::normal, "warning: " + note);
+        log_line(settings.verbosity, Verbosity::normal, "warning: " + note);
     if (results.solution.steps > 0)
-        say_lost_light(settings, results);
+        log_lost_light(settings, results);
     else if (!interrupted)
-        say(settings.talk, Talk::quiet,
+        log_line(
+            settings.verbosity, Verbosity::quiet,
             "warning: the time ended before the first step was done; the outputs hold emission "
             "alone; a longer --time or fewer --rays give a solution");
-    say(settings.talk, Talk::verbose, memory_text(results.statistics));
+    log_line(settings.verbosity, Verbosity::verbose, memory_text(results.statistics));
     if (reference) {
         const Solution& solution = results.solution;
-        say(settings.talk, Talk::normal,
-            error_text(reference->error(results.mesh, solution.radiosity)));
-        say(settings.talk, Talk::normal,
-            z_scores_text(
-                z_scores(results.mesh, solution, reference->radiosity, reference->standard_error)));
+        log_line(settings.verbosity, Verbosity::normal,
+                 error_text(reference->error(results.mesh, solution.radiosity)));
+        log_line(settings.verbosity, Verbosity::normal,
+                 z_scores_text(z_scores(results.mesh, solution, reference->radiosity,
+                                        reference->standard_error)));
     }
-    report.say(settings.talk);
+    report.log(settings.verbosity);
     if (interrupted)
-        say(settings.talk, Talk::quiet,
+        log_line(
+            settings.verbosity, Verbosity::quiet,
             results.solution.steps > 0
                 ? "interrupted; the outputs hold " +
                       counted(results.solution.steps, "step", "steps")
@@ -143,10 +145,11 @@ int solve(const SolveSettings& settings) {
 
     Workers(settings.options.threads).start();
     const std::optional<Checkpoint> resumed = read_resumed(settings);
-    LoadedMesh loaded = load_mesh(settings.scene, files, settings.options, methods, settings.talk,
-                                  std::ranges::any_of(settings.outputs, is_picture, &Output::kind)
-                                      ? bytes_of_picture(settings.view.size)
-                                      : 0);
+    LoadedMesh loaded =
+        load_mesh(settings.scene, files, settings.options, methods, settings.verbosity,
+                  std::ranges::any_of(settings.outputs, is_picture, &Output::kind)
+                      ? bytes_of_picture(settings.view.size)
+                      : 0);
     const Mesh& mesh = loaded.mesh;
     check_camera(settings.view, mesh);
     check_exact(settings.options, mesh.patches().size());
@@ -155,7 +158,7 @@ int solve(const SolveSettings& settings) {
     Prepared prepared = prepare(loaded, settings.options);
     const auto& [tracer, tree] = prepared.made;
     statistics.seconds_bvh = prepared.seconds;
-    say(settings.talk, Talk::verbose, tracer_text(tree, statistics.seconds_bvh));
+    log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, statistics.seconds_bvh));
     const Needs& needs = prepared.needs;
     SolveOptions options = with_memory(settings.options, settings.scene);
     const SolverInput input{mesh, *tracer, options, monitor, needs};
@@ -178,11 +181,11 @@ int solve(const SolveSettings& settings) {
     if (!settings.reference.empty())
         reference = read_reference(settings.reference, mesh, std::move(detail));
     Progress progress(monitor, share_of(stop, *settings.method),
-                      settings.talk != Talk::quiet && stderr_is_terminal());
+                      settings.verbosity != Verbosity::quiet && stderr_is_terminal());
     const Stopwatch solving;
     const std::unique_ptr<Solver> solver =
         divided.begun && !resumed ? std::move(divided.begun) : begin();
-    say_rays_of_step(settings.talk, settings.options.rays, options.rays);
+    log_rays_of_step(settings.verbosity, settings.options.rays, options.rays);
     std::vector<StepRow> rows;
     Before before = divided.before;
     before.seconds += statistics.seconds_divide; // a time limit is of both
@@ -201,8 +204,8 @@ int solve(const SolveSettings& settings) {
         progress.step_done(record);
         if (settings.every_step)
             step_pictures.write(solution.radiosity, record.step);
-        if (settings.talk == Talk::verbose)
-            progress.say(step_text(rows.back()));
+        if (settings.verbosity == Verbosity::verbose)
+            progress.log(step_text(rows.back()));
         checkpointer.step_done(rows, record.seconds);
     };
     bool completed = false;
@@ -242,9 +245,9 @@ int solve(const SolveSettings& settings) {
         end_at_once(code);
     if (!fault || code != exit_done)
         return code;
-    say(settings.talk, Talk::quiet,
-        std::string("hemilux: ") + fault->what() + "\nthe outputs hold " +
-            counted(solver->solution().steps, "step", "steps") + " before that");
+    log_line(settings.verbosity, Verbosity::quiet,
+             std::string("hemilux: ") + fault->what() + "\nthe outputs hold " +
+                 counted(solver->solution().steps, "step", "steps") + " before that");
     return exit_input;
 }
 

@@ -5,9 +5,9 @@
 #include "app/settings/memory.h"
 #include "app/settings/names.h"
 #include "app/settings/text.h"
+#include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
-#include "app/terminal/talk.h"
 #include "io/files/error.h"
 #include "io/scene_files/inspect.h"
 #include "radiosity/sampling/workers.h"
@@ -123,27 +123,28 @@ Prepared prepare(LoadedMesh& loaded, const SolveOptions& options) {
 }
 
 LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
-                     const SolveOptions& options, std::span<const Method* const> methods, Talk talk,
-                     double bytes_of_pictures) {
+                     const SolveOptions& options, std::span<const Method* const> methods,
+                     Verbosity verbosity, double bytes_of_pictures) {
     const Stopwatch reading;
     check_memory_to_read(settings.path, settings.memory);
     ReadResult read = load_scene(settings, files);
-    say_warnings(talk, read.warnings);
+    log_warnings(verbosity, read.warnings);
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
     MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods);
     need.pictures = bytes_of_pictures;
     check_memory(need, settings.memory, settings.path);
     const Stopwatch dividing;
-    SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, talk);
+    SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, verbosity);
     LoadedMesh loaded{std::move(sided.mesh), std::move(sided.made), seconds, dividing.seconds(),
                       std::move(read.face_lines)};
     if (!loaded.mesh.is_laid_apart())
-        say(talk, Talk::normal,
+        log_line(
+            verbosity, Verbosity::normal,
             "warning: " + settings.path +
                 ": very many faces lie over each other in one plane; for some of them it was not "
                 "found out which of two covers the other, and rays meet either");
-    say(talk, Talk::verbose, mesh_text(loaded.mesh));
+    log_line(verbosity, Verbosity::verbose, mesh_text(loaded.mesh));
     return loaded;
 }
 

@@ -37,7 +37,7 @@ struct LoadedMesh {
 /// would need more than they may.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                                    const SolveOptions& options,
-                                   std::span<const Method* const> methods, Talk talk,
+                                   std::span<const Method* const> methods, Verbosity verbosity,
                                    double bytes_of_pictures);
 
 struct Prepared {

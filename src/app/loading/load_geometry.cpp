@@ -2,19 +2,19 @@
 
 #include "app/loading/load.h"
 #include "app/loading/sides.h"
+#include "app/terminal/log.h"
 #include "app/terminal/summary.h"
-#include "app/terminal/talk.h"
 #include "io/files/error.h"
 
 namespace hemilux {
 
-Mesh load_geometry(const SceneSettings& settings, const RunFiles& files, Talk talk) {
+Mesh load_geometry(const SceneSettings& settings, const RunFiles& files, Verbosity verbosity) {
     ReadResult read = load_scene(settings, files);
-    say_warnings(talk, read.warnings);
+    log_warnings(verbosity, read.warnings);
     if (read.scene.facets.empty())
         throw InputError(settings.path, "there is no face with an area");
-    Mesh mesh = divide_with_sides(std::move(read.scene), settings, {}, talk).mesh;
-    say(talk, Talk::verbose, mesh_text(mesh));
+    Mesh mesh = divide_with_sides(std::move(read.scene), settings, {}, verbosity).mesh;
+    log_line(verbosity, Verbosity::verbose, mesh_text(mesh));
     return mesh;
 }
 

@@ -7,6 +7,7 @@ namespace hemilux {
 
 /// Reads and divides, with warnings and figures as the user wants them. Throws InputError,
 /// UsageError.
-[[nodiscard]] Mesh load_geometry(const SceneSettings& settings, const RunFiles& files, Talk talk);
+[[nodiscard]] Mesh load_geometry(const SceneSettings& settings, const RunFiles& files,
+                                 Verbosity verbosity);
 
 } // namespace hemilux

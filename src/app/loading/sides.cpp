@@ -3,7 +3,7 @@
 #include "app/loading/load.h"
 #include "app/settings/names.h"
 #include "app/settings/text.h"
-#include "app/terminal/talk.h"
+#include "app/terminal/log.h"
 #include "geometry/polygon.h"
 
 #include <algorithm>
@@ -62,18 +62,19 @@ std::string doubt_text(const Orientation& found, const Scene& scene) {
            names_of(found.groups_in_doubt, scene) + ")";
 }
 
-void say_sides(const Orientation& found, const Scene& scene, Sides sides, Talk talk) {
+void log_sides(const Orientation& found, const Scene& scene, Sides sides, Verbosity verbosity) {
     const std::string fell = percent(found.light.backs) + " of the emitted light ";
     if (found.faces > 0 && sides == Sides::automatic)
-        say(talk, Talk::normal,
-            "turned " + faces_text(found, scene) + ", which looked away from the light; " + fell +
-                "fell on backs; --sides front trusts the file");
+        log_line(verbosity, Verbosity::normal,
+                 "turned " + faces_text(found, scene) + ", which looked away from the light; " +
+                     fell + "fell on backs; --sides front trusts the file");
     else if (found.faces > 0)
-        say(talk, Talk::normal,
-            "warning: " + faces_text(found, scene) + " look away from the light; " + fell +
-                "falls on backs, which absorb it; --sides auto turns these faces");
+        log_line(verbosity, Verbosity::normal,
+                 "warning: " + faces_text(found, scene) + " look away from the light; " + fell +
+                     "falls on backs, which absorb it; --sides auto turns these faces");
     if (found.in_doubt > 0)
-        say(talk, Talk::normal,
+        log_line(
+            verbosity, Verbosity::normal,
             "note: " + doubt_text(found, scene) +
                 " may look away from the light, or be meant to; they stay as they are; --sides "
                 "both lets both sides emit and reflect");
@@ -112,10 +113,10 @@ std::string line(std::string name, const std::string& text) {
 } // namespace
 
 SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings, const SolveOptions& options,
-                            Talk talk) {
+                            Verbosity verbosity) {
     if (settings.sides == Sides::both) {
         if (emitted_power(scene) > 0)
-            say(talk, Talk::normal, both_sides_text(scene));
+            log_line(verbosity, Verbosity::normal, both_sides_text(scene));
         return {divide_scene(std::move(scene), settings), {}};
     }
     const auto divide = [&](Scene sided) {
@@ -125,7 +126,7 @@ SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings, const So
     };
     SidedMesh sided = divide(std::move(scene));
     const Orientation found = find_orientation(sided.mesh, *sided.made.tracer);
-    say_sides(found, sided.mesh.scene(), settings.sides, talk);
+    log_sides(found, sided.mesh.scene(), settings.sides, verbosity);
     if (found.faces == 0 || settings.sides != Sides::automatic)
         return sided;
     Scene turned = sided.mesh.scene();

@@ -19,7 +19,7 @@ struct SidedMesh {
 /// Divides the faces and turns them where --sides says so; says on stderr what was turned, what
 /// looks away all the same, or what lamps emit that shine to both sides. Throws as divide_scene().
 [[nodiscard]] SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings,
-                                          const SolveOptions& options, Talk talk);
+                                          const SolveOptions& options, Verbosity verbosity);
 
 /// Lines of `info`: names on the left, figures on the right. What is as it should be gets no line.
 [[nodiscard]] std::string describe(const Orientation& orientation, const Scene& scene, Sides sides);

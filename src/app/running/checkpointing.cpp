@@ -1,7 +1,7 @@
 #include "app/running/checkpointing.h"
 
 #include "app/settings/exit_code.h"
-#include "app/terminal/talk.h"
+#include "app/terminal/log.h"
 #include "io/files/error.h"
 #include "io/results/csv.h"
 #include "radiosity/saving/state.h"
@@ -143,7 +143,7 @@ void Checkpointer::write(const std::vector<StepRow>& rows, double seconds) {
     if (!report_.written.empty())
         steps_written_ = solver_.solution().steps;
     else if (first_failure && !report_.failed.empty())
-        say(settings_.talk, Talk::normal, "warning: " + report_.failed.front());
+        log_line(settings_.verbosity, Verbosity::normal, "warning: " + report_.failed.front());
 }
 
 } // namespace hemilux

@@ -1,8 +1,8 @@
 #include "app/running/division.h"
 
 #include "app/settings/text.h"
+#include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
-#include "app/terminal/talk.h"
 #include "radiosity/division/adaptive_division.h"
 #include "radiosity/final_gather/division_error.h"
 #include "radiosity/final_gather/light_within_patches.h"
@@ -83,8 +83,8 @@ Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, const SolverI
     const AdaptiveDivision division = division_of(settings, mesh.patches().size());
     if (settings.method == &method_of(Role::standard) && !settings.plain) {
         divided.begun = begin();
-        StopRule rough = settings.stop;
-        rough.error = rough_error(division);
+        StopRule rough = rough_stop(division, mesh.patches().size());
+        rough.steps = settings.stop.steps;
         run(*divided.begun, input, rough, [&](const StepRecord& record, const Solution&) {
             divided.before = {record.step, record.seconds};
         });
@@ -98,7 +98,7 @@ Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, const SolverI
         divided.patches = divide_where_light_changes(
             mesh, input.tracer, divided.rough, division, monitor, [&](const DivisionRound& round) {
                 statistics.rays_divide += round.rays;
-                say(settings.talk, Talk::verbose, round_text(round));
+                log_line(settings.verbosity, Verbosity::verbose, round_text(round));
             });
     if (divided.patches && divided.begun)
         statistics.rays_divide += divided.begun->solution().rays_energy;

@@ -30,8 +30,8 @@ extern "C" void on_interrupt(int signal) {
     }
     if (!flag) {
         constexpr std::string_view text = "hemilux: interrupted before there was a result\n";
-        pollfd talk{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
-        if (poll(&talk, 1, 0) > 0) // else nobody reads what is said
+        pollfd stderr_fd{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+        if (poll(&stderr_fd, 1, 0) > 0) // else nobody reads what is said
             (void)!write(STDERR_FILENO, text.data(), text.size());
     }
     _exit(of_shells + signal);

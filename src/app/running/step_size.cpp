@@ -1,7 +1,7 @@
 #include "app/running/step_size.h"
 
 #include "app/settings/text.h"
-#include "app/terminal/talk.h"
+#include "app/terminal/log.h"
 
 #include <algorithm>
 
@@ -23,9 +23,10 @@ double rays_of_step(double rays, std::optional<double> seconds, const Method& me
     return std::min(rays, most);
 }
 
-void say_rays_of_step(Talk talk, double rays, double rays_of_step) {
+void log_rays_of_step(Verbosity verbosity, double rays, double rays_of_step) {
     if (rays_of_step < rays)
-        say(talk, Talk::normal,
+        log_line(
+            verbosity, Verbosity::normal,
             formatted("warning: a step takes %.4g rays per patch instead of %.4g, so that the time "
                       "is enough for some steps",
                       rays_of_step, rays));

@@ -13,6 +13,6 @@ namespace hemilux {
 [[nodiscard]] double rays_of_step(double rays, std::optional<double> seconds, const Method& method,
                                   std::size_t patches);
 /// A warning where these are fewer.
-void say_rays_of_step(Talk talk, double rays, double rays_of_step);
+void log_rays_of_step(Verbosity verbosity, double rays, double rays_of_step);
 
 } // namespace hemilux

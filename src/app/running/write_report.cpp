@@ -2,7 +2,7 @@
 
 #include "app/running/signals.h"
 #include "app/settings/exit_code.h"
-#include "app/terminal/talk.h"
+#include "app/terminal/log.h"
 #include "io/files/error.h"
 
 #include <new>
@@ -36,13 +36,13 @@ int WriteReport::exit_code(bool interrupted) const {
     return interrupted ? exit_code_of_signal() : exit_done;
 }
 
-void WriteReport::say(Talk talk) const {
+void WriteReport::log(Verbosity verbosity) const {
     for (const std::string& path : written)
-        hemilux::say(talk, Talk::normal, "wrote " + path);
+        hemilux::log_line(verbosity, Verbosity::normal, "wrote " + path);
     for (const std::string& path : left_out)
-        hemilux::say(talk, Talk::quiet, "interrupted; left out " + path);
+        hemilux::log_line(verbosity, Verbosity::quiet, "interrupted; left out " + path);
     for (const std::string& message : failed)
-        hemilux::say(talk, Talk::quiet, "hemilux: " + message);
+        hemilux::log_line(verbosity, Verbosity::quiet, "hemilux: " + message);
 }
 
 } // namespace hemilux

@@ -20,7 +20,7 @@ struct WriteReport {
     /// A failure counts more than an interruption.
     [[nodiscard]] int exit_code(bool interrupted) const;
     /// Tells the user.
-    void say(Talk talk) const;
+    void log(Verbosity verbosity) const;
 };
 
 } // namespace hemilux

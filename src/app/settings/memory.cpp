@@ -28,7 +28,7 @@ constexpr double bytes_per_solution = 225;
 /// grow.
 constexpr double bytes_per_factor = 32;
 /// Independent matrices that `matrix` keeps to know its error.
-constexpr double replicates = 8;
+constexpr double batches = 8;
 /// What `gathering` may use for its rays where --memory says nothing: a scene of a million patches
 /// then stays within 4 GiB.
 constexpr std::uint64_t usual_transport = std::uint64_t{5} << 29;
@@ -77,7 +77,7 @@ double bytes_of(const Method& method, const SolveOptions& options, double patche
     else if (method.work.densities)
         bytes += bytes_per_leaf * patches * static_cast<double>(leaves(options.depth));
     if (method.work.pairs && method.work.linear_systems)
-        bytes += replicates * bytes_per_factor * patches * std::min(patches, options.rays);
+        bytes += batches * bytes_per_factor * patches * std::min(patches, options.rays);
     else if (method.work.pairs)
         bytes += bytes_per_factor * patches * std::min(patches, options.rays);
     return bytes + bytes_of_volleys;

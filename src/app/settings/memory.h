@@ -23,7 +23,7 @@ struct MemoryNeed {
     double scene = 0;    ///< as read
     double mesh = 0;     ///< patches
     double tree = 0;     ///< for the rays
-    double pairs = 0;    ///< of facets in one plane, until they are laid apart
+    double pairs = 0;    ///< of facets in one plane, until they are offset
     double analysis = 0; ///< which sides face the light, what light may reach
     double method = 0;   ///< of several, the greediest
     double pictures = 0; ///< while they are written

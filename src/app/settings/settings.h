@@ -33,7 +33,7 @@ struct SceneSettings {
 inline constexpr std::array<const char*, 3> guide_names = {"density", "visible", "learned"};
 
 /// How much is said on stderr.
-enum class Talk { quiet, normal, verbose };
+enum class Verbosity { quiet, normal, verbose };
 
 /// The view of a picture.
 struct ViewSettings {
@@ -63,7 +63,7 @@ struct SolveSettings {
     std::string reference;             ///< path of a patch table; empty: none
     std::vector<std::string> detail;   ///< groups; empty: those that begin with `detail`
     CheckpointSettings checkpoint;
-    Talk talk = Talk::normal;
+    Verbosity verbosity = Verbosity::normal;
 };
 
 /// What each run of each method may use: one of the two.
@@ -75,7 +75,7 @@ struct Budget {
 
 /// A method as `compare` names it: `hemisphere-visible` and `hemisphere-learned` are hemisphere
 /// with another guide.
-struct Entrant {
+struct MethodVariant {
     std::string name;
     const Method* method = nullptr;
     std::optional<Guide> guide; ///< empty: as --guide says
@@ -83,21 +83,22 @@ struct Entrant {
 
 struct CompareSettings {
     SceneSettings scene;
-    std::vector<Entrant> entrants;
+    std::vector<MethodVariant> variants;
     SolveOptions options; ///< run r has the seed plus r; `literal` is for methods that have it
     Budget budget;
     std::uint32_t runs = 3;
     std::string reference;         ///< path of a patch table; empty: computed by `matrix`
     double reference_error = .002; ///< estimated error at which it is good enough
+    bool total = false;            ///< errors are those of the light itself, division included
     ViewSettings view;
     std::string folder;
     std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
-    Talk talk = Talk::normal;
+    Verbosity verbosity = Verbosity::normal;
 };
 
 struct InfoSettings {
     SceneSettings scene;
-    Talk talk = Talk::normal;
+    Verbosity verbosity = Verbosity::normal;
 };
 
 } // namespace hemilux

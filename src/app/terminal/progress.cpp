@@ -1,7 +1,7 @@
 #include "app/terminal/progress.h"
 
 #include "app/settings/text.h"
-#include "app/terminal/talk.h"
+#include "app/terminal/log.h"
 #include "io/files/printable.h"
 
 #include <algorithm>
@@ -93,10 +93,10 @@ void Progress::set_topic(const std::string& topic) {
     state_.topic = topic;
 }
 
-void Progress::say(const std::string& line) {
+void Progress::log(const std::string& line) {
     const std::scoped_lock lock(mutex_);
     erase();
-    if (can_say())
+    if (can_log())
         std::fprintf(stderr, "%s\n", printable_message(line).c_str());
 }
 

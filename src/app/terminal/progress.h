@@ -53,7 +53,7 @@ class Progress {
     /// What stands before the phase.
     void set_topic(const std::string& topic);
     /// A line on stderr that stays, above the bar.
-    void say(const std::string& line);
+    void log(const std::string& line);
     /// Takes the bar away for good.
     void close();
 

@@ -17,7 +17,7 @@ struct Space {
 /// Whether the kernels are to be asked.
 enum class Fit {
     good,
-    misses, ///< surely, or it is no ray at all
+    misses, ///< certainly, or it is no ray at all
     too_far ///< from so far away that even doubles round coarsely: every facet is tried
 };
 
@@ -26,7 +26,7 @@ enum class Fit {
 /// More than the error of a scaled distance apart from its own rounding.
 inline constexpr double distance_slack = 0x1p-30;
 
-/// Sure bounds of a distance in scaled units; it may be infinite.
+/// Certain bounds of a distance in scaled units; it may be infinite.
 [[nodiscard]] inline float below(const FloatRay& scaled, double t) {
     const double at = (t - scaled.skipped) * scaled.per_unit;
     return static_cast<float>(std::isinf(at) ? at : at - std::abs(at) * 0x1p-22 - distance_slack);

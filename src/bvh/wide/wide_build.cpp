@@ -230,10 +230,10 @@ class Builder {
     }
 
     /// A quad whose halves a ray might both strike: where it is not planar and convex, and the
-    /// sieve would not be unsure of such rays anyway. Its hits are always decided in doubles.
+    /// filter would not be uncertain of such rays anyway. Its hits are always decided in doubles.
     ///
     /// A ray that strikes both halves meets one from the front and one from behind, so its sine to
-    /// either plane is at most the angle between the normals. The sieve is sure only where that
+    /// either plane is at most the angle between the normals. The filter is certain only where that
     /// sine, times the length of e1 x e2, is more than twice its error bound.
     [[nodiscard]] bool is_doubtful(const FacetCorners& c) const {
         if (c[2] == c[3])

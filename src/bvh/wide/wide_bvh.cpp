@@ -17,7 +17,7 @@ using wide::flag;
 using wide::FloatRay;
 using wide::Nearest;
 
-/// What the judge needs to decide in doubles.
+/// What the exact test needs to decide in doubles.
 struct Query {
     const FacetSoup& soup;
     std::span<const Ray> rays;
@@ -47,7 +47,7 @@ void closer(void* context, unsigned k, std::uint32_t slot, Nearest& nearest) {
                    best.front};
 }
 
-bool struck(void* context, unsigned k, std::uint32_t slot) {
+bool hits(void* context, unsigned k, std::uint32_t slot) {
     const Query& query = *static_cast<const Query*>(context);
     Hit hit{};
     return query.hit<EdgeRule::inclusive>(k, slot & ~flag, query.rays[k].t_max, hit);
@@ -61,13 +61,13 @@ bool counts(void* context, unsigned k, std::uint32_t slot) {
            hit.second_half == ((slot & flag) != 0);
 }
 
-Struck struck_at(const Nearest& nearest) {
+FacetHit hit_record(const Nearest& nearest) {
     if (nearest.slot == wide::no_facet)
         return {};
     return {nearest.slot & ~flag, nearest.front != 0};
 }
 
-wide::Judge judge(Query& query) { return {&query, closer, struck, counts}; }
+wide::ExactTest exact(Query& query) { return {&query, closer, hits, counts}; }
 
 } // namespace
 
@@ -87,7 +87,7 @@ std::optional<Hit> WideBvh::closest(const Ray& ray) const {
         return std::nullopt;
     Query query{soup_, {&ray, 1}, {&scaled, 1}};
     Nearest nearest = nothing_before(scaled, ray.t_max);
-    kernels_->closest(tree(), scaled, 0, nearest, judge(query));
+    kernels_->closest(tree(), scaled, 0, nearest, exact(query));
     return nearest.slot == wide::no_facet ? std::nullopt
                                           : std::optional(locate(ray, nearest.slot & ~flag));
 }
@@ -101,7 +101,7 @@ bool WideBvh::occluded(const Ray& ray, std::uint32_t target) const {
         return false;
     Query query{soup_, {&ray, 1}, {&scaled, 1}};
     return kernels_->occluded(tree(), scaled, 0, below(scaled, ray.t_max), above(scaled, ray.t_max),
-                              target, judge(query));
+                              target, exact(query));
 }
 
 std::uint32_t WideBvh::count(const Ray& ray) const {
@@ -113,7 +113,7 @@ std::uint32_t WideBvh::count(const Ray& ray) const {
         return 0;
     Query query{soup_, {&ray, 1}, {&scaled, 1}};
     return kernels_->count(tree(), scaled, 0, below(scaled, ray.t_max), above(scaled, ray.t_max),
-                           judge(query));
+                           exact(query));
 }
 
 Hit WideBvh::locate(const Ray& ray, std::uint32_t facet) const {
@@ -156,9 +156,9 @@ struct WideBvh::Block {
     }
 };
 
-void WideBvh::closest_stream(std::span<const Ray> rays, std::span<Struck> out) const {
+void WideBvh::closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const {
     if (built_.leaves.size() == 0) {
-        std::fill_n(out.begin(), rays.size(), Struck{});
+        std::fill_n(out.begin(), rays.size(), FacetHit{});
         return;
     }
     for (; !rays.empty(); rays = rays.subspan(std::min(rays.size(), Block::size))) {
@@ -166,10 +166,10 @@ void WideBvh::closest_stream(std::span<const Ray> rays, std::span<Struck> out) c
         Block block(*this, now);
         Query query{soup_, now, block.scaled};
         kernels_->closest_stream(tree(), block.scaled.data(), static_cast<unsigned>(now.size()),
-                                 block.nearest.data(), judge(query));
+                                 block.nearest.data(), exact(query));
         for (std::size_t k = 0; k < now.size(); ++k) {
             if (block.fit[k] != Fit::too_far)
-                out[k] = struck_at(block.nearest[k]);
+                out[k] = hit_record(block.nearest[k]);
             else if (const auto hit = closest(now[k]))
                 out[k] = {hit->facet, hit->front};
             else
@@ -190,7 +190,7 @@ void WideBvh::occluded_stream(std::span<const Ray> rays, std::span<const std::ui
         Block block(*this, now);
         Query query{soup_, now, block.scaled};
         kernels_->occluded_stream(tree(), block.scaled.data(), static_cast<unsigned>(now.size()),
-                                  block.nearest.data(), &targets[begin], &out[begin], judge(query));
+                                  block.nearest.data(), &targets[begin], &out[begin], exact(query));
         for (std::size_t k = 0; k < now.size(); ++k)
             if (block.fit[k] == Fit::too_far)
                 out[begin + k] = occluded(now[k], targets[begin + k]);

@@ -25,7 +25,7 @@ class WideBvh final : public Tracer {
     [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override;
     [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target = none) const override;
     [[nodiscard]] std::uint32_t count(const Ray& ray) const override;
-    void closest_stream(std::span<const Ray> rays, std::span<Struck> out) const override;
+    void closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const override;
     void occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
                          std::span<std::uint8_t> out) const override;
     [[nodiscard]] Hit locate(const Ray& ray, std::uint32_t facet) const override;

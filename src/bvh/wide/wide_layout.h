@@ -2,17 +2,19 @@
 // How the wide tree lies in memory, and what its kernels are told. Plain data only: this header is
 // compiled with several instruction sets, so it may define no function that the linker could merge.
 //
-// The kernels see the scene in floats, scaled into [-1,1]^3, and only *sift*: with bounds on every
-// rounding error they say "surely missed", "surely struck" or "unsure". What is unsure is decided
-// in doubles by the same code as in the scalar BVH. So all engines, instruction sets and forms of a
-// question give the same answers to the last bit, and the arithmetic of the sieve is free.
+// The kernels see the scene in floats, scaled into [-1,1]^3, and only *filter*: with bounds on
+// every rounding error they say "certainly missed", "certainly hit" or "uncertain". What is
+// uncertain is decided in doubles by the same code as in the scalar BVH. So all engines,
+// instruction sets and forms of a question give the same answers to the last bit, and the filter's
+// arithmetic is free.
 
 #include <cstdint>
 
 namespace hemilux::wide {
 
-/// The kernels' error bound (kernels/sieve.h) is the first times E (|A| + E + the second), with E
-/// the largest component of a triangle's edges and A where the ray's origin sees its corner.
+/// The kernels' error bound (kernels/conservative_test.h) is the first times E (|A| + E + the
+/// second), with E the largest component of a triangle's edges and A where the ray's origin sees
+/// its corner.
 inline constexpr float error_share = 80 * 0x1p-24f, error_offset = 0.15f;
 
 inline constexpr unsigned width = 8;
@@ -30,7 +32,7 @@ struct alignas(64) Node {
 };
 
 /// Up to eight triangles: one corner and the two edges from it. Unused slots have edges of zero,
-/// which no ray strikes; slots with edges of NaN are always unsure.
+/// which no ray strikes; slots with edges of NaN are always uncertain.
 struct alignas(64) Leaf {
     float corner[3][width], edge1[3][width], edge2[3][width];
     std::uint32_t slot[width]; ///< facet, with `flag` for the second half of a quad
@@ -52,41 +54,41 @@ inline constexpr unsigned stack_size = (width - 1) * max_depth + 1;
 struct alignas(64) FloatRay {
     float origin[3], direction[3];
     float inverse[3];            ///< of the direction, never infinite
-    float t_min_low, t_min_high; ///< sure bounds
+    float t_min_low, t_min_high; ///< certain bounds
     std::uint32_t from;
     double skipped, per_unit; ///< the kernels' t is (t - skipped) * per_unit
 };
 
-/// Sure bounds of the nearest distance so far, and which slot it belongs to.
+/// Certain bounds of the nearest distance so far, and which slot it belongs to.
 struct Nearest {
     float low, high;
     std::uint32_t slot;
     std::uint32_t front;
 };
 
-/// Decides in doubles what the kernels are unsure of. `ray` counts within the query.
-struct Judge {
+/// Decides in doubles what the kernels are uncertain of. `ray` counts within the query.
+struct ExactTest {
     void* query;
     /// A slot that may be struck: updates `nearest`.
     void (*closer)(void* query, unsigned ray, std::uint32_t slot, Nearest& nearest);
     /// Whether a slot is struck (inclusive edges), and counts (half-open edges).
-    bool (*struck)(void* query, unsigned ray, std::uint32_t slot);
+    bool (*hits)(void* query, unsigned ray, std::uint32_t slot);
     bool (*counts)(void* query, unsigned ray, std::uint32_t slot);
 };
 
-/// The kernels of one instruction set. In the streams the judge is told a ray by its place.
+/// The kernels of one instruction set. In the streams the exact test knows a ray by its place.
 struct Kernels {
     const char* name;
-    void (*closest)(const Tree&, const FloatRay&, unsigned ray, Nearest&, const Judge&);
+    void (*closest)(const Tree&, const FloatRay&, unsigned ray, Nearest&, const ExactTest&);
     bool (*occluded)(const Tree&, const FloatRay&, unsigned ray, float t_low, float t_high,
-                     std::uint32_t target, const Judge&);
+                     std::uint32_t target, const ExactTest&);
     std::uint32_t (*count)(const Tree&, const FloatRay&, unsigned ray, float t_low, float t_high,
-                           const Judge&);
+                           const ExactTest&);
     void (*closest_stream)(const Tree&, const FloatRay* rays, unsigned count, Nearest*,
-                           const Judge&);
+                           const ExactTest&);
     /// t[k] bounds the farthest distance of ray k; blocked[k] becomes 0 or 1.
     void (*occluded_stream)(const Tree&, const FloatRay* rays, unsigned count, const Nearest* t,
-                            const std::uint32_t* targets, std::uint8_t* blocked, const Judge&);
+                            const std::uint32_t* targets, std::uint8_t* blocked, const ExactTest&);
 };
 
 } // namespace hemilux::wide

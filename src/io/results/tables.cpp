@@ -26,7 +26,8 @@ constexpr std::string_view gradient_header =
     ",gradient_r_x,gradient_r_y,gradient_r_z,gradient_g_x,gradient_g_y,gradient_g_z,gradient_b_x,"
     "gradient_b_y,gradient_b_z\n";
 constexpr std::string_view steps_header =
-    "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,true_error_rest\n";
+    "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,true_error_rest,"
+    "total_error\n";
 
 /// Some rows are written to the file while others are put into words: so many at once, about 4 MB.
 constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64;
@@ -140,6 +141,7 @@ void write_steps_log(const std::string& path, std::span<const StepRow> rows) {
         add_if_known(text, error.all);
         add_if_known(text, error.detail);
         add_if_known(text, error.rest);
+        add_if_known(text, row.total_error.value_or(absent));
         text += '\n';
     }
     write_atomically(path, text);

@@ -42,7 +42,8 @@ struct StepRow {
     std::string method;
     std::uint32_t run = 0; ///< which of several runs with different seeds
     StepRecord record{};
-    std::optional<RelativeError> error; ///< against a reference, if there is one
+    std::optional<RelativeError> error{}; ///< against a reference, if there is one
+    std::optional<double> total_error{}; ///< against the light itself (known_light.h), if asked for
 };
 
 /// What is absent or NaN stays an empty field. Throws OutputError.

@@ -1,8 +1,8 @@
 #include "io/scene_files/inspect.h"
 
 #include "geometry/polygon.h"
+#include "radiosity/scene/coplanar_layers.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/scene/stacked_facets.h"
 #include "radiosity/sides/welded_edges.h"
 #include "radiosity/solving/check_input.h"
 
@@ -100,7 +100,8 @@ SceneInfo inspect(const ReadResult& read) {
     const EdgeCounts edges = count_edges(scene);
     info.open_edges = edges.open;
     info.nonmanifold_edges = edges.nonmanifold;
-    const Stacks stacks = find_stacks(scene, LocalFrame::of(scene).to_local(scene.vertices));
+    const CoplanarLayers stacks =
+        find_coplanar_layers(scene, LocalFrame::of(scene).to_local(scene.vertices));
     info.covered_facets = stacks.covered;
     info.all_compared = stacks.complete;
     info.degenerate_faces = read.degenerate_faces;

@@ -23,7 +23,7 @@ struct SceneInfo {
     /// Edges of exactly one facet, and those of three or more, vertices at equal positions being
     /// one. A closed scene has no open edges, unless vertices lie on edges of other facets.
     std::size_t open_edges = 0, nonmanifold_edges = 0;
-    std::size_t covered_facets = 0; ///< stacked_facets.h
+    std::size_t covered_facets = 0; ///< coplanar_layers.h
     bool all_compared = true;       ///< else some more may be covered
     std::size_t degenerate_faces = 0, nonplanar_faces = 0, concave_faces = 0;
 

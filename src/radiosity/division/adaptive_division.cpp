@@ -131,8 +131,12 @@ class Division {
 
 } // namespace
 
-double rough_error(const AdaptiveDivision& options) {
-    return std::min(most_rough_error, options.error);
+StopRule rough_stop(const AdaptiveDivision& options, std::size_t patches) {
+    constexpr std::uint64_t rays_of_patch = 4096, least_rays = 4'000'000;
+    return {.steps = {},
+            .seconds = {},
+            .error = std::min(most_rough_error, options.error),
+            .rays = least_rays + rays_of_patch * patches};
 }
 
 Solution rough_solution(const Mesh& mesh, const Tracer& tracer, const AdaptiveDivision& options,
@@ -141,15 +145,11 @@ Solution rough_solution(const Mesh& mesh, const Tracer& tracer, const AdaptiveDi
     SolveOptions solve;
     solve.seed = options.seed;
     solve.threads = options.threads;
-    solve.aim = rough_error(options);
+    const StopRule stop = rough_stop(options, mesh.patches().size());
+    solve.aim = stop.error.value_or(0);
     solve.memory = options.memory;
     const auto solver = find_method("gathering")->make({mesh, tracer, solve, monitor, needs});
-    constexpr std::uint64_t rays_of_patch = 4096, least_rays = 4'000'000;
-    run(*solver, {mesh, tracer, solve, monitor, needs},
-        {.steps = {},
-         .seconds = {},
-         .error = solve.aim,
-         .rays = least_rays + rays_of_patch * mesh.patches().size()});
+    run(*solver, {mesh, tracer, solve, monitor, needs}, stop);
     return solver->solution();
 }
 

@@ -34,8 +34,8 @@ struct DivisionRound {
     std::uint64_t rays; ///< of the rough solution, where there was a new one, and of the points
 };
 
-/// Of a solution that is good enough to divide by.
-[[nodiscard]] double rough_error(const AdaptiveDivision& options);
+/// When a solution is good enough to divide by, or cannot be made so.
+[[nodiscard]] StopRule rough_stop(const AdaptiveDivision& options, std::size_t patches);
 
 /// A solution that is good enough to divide by, of the mesh as it is. No steps: none was found.
 [[nodiscard]] Solution rough_solution(const Mesh& mesh, const Tracer& tracer,

@@ -74,7 +74,7 @@ double product_over_surface(const Mesh& mesh, const Solution& solution, FinalGat
 /// itself; of what they err together only what a reflection takes away, as the gathers err with
 /// them.
 double seen_share(const Mesh& mesh, const Solution& solution) {
-    const double common = 1 / std::max(error_spread(mesh, solution).parts, 1.0);
+    const double common = 1 / std::max(error_spread(mesh, solution).freedom, 1.0);
     const double taken_away = 1 - mean_reflectance(mesh);
     return 1 - common + common * taken_away * taken_away;
 }
@@ -124,7 +124,7 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
         return result;
     FinalGather gather(mesh, tracer, solution);
     const double known = seen_variance(mesh, solution) / size;
-    const double parts = std::max(error_spread(mesh, solution).parts, 1.0);
+    const double freedom = std::max(error_spread(mesh, solution).freedom, 1.0);
     Rounds rounds;
     while (rounds.count < least_rounds || gather.rays() < options.most_rays) {
         const double product = product_over_surface(
@@ -137,7 +137,7 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
         if (rounds.count >= least_rounds && rounds.uncertainty() <= enough)
             break;
     }
-    set_error(result, rounds, {known, known * std::sqrt(2 / parts)});
+    set_error(result, rounds, {known, known * std::sqrt(2 / freedom)});
     result.points = rounds.count * points_per_round;
     result.rays = gather.rays();
     return result;

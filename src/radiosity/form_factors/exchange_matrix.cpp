@@ -14,7 +14,7 @@ namespace {
 /// Each takes most of what is missing away. In open scenes no symmetric matrix may agree with all
 /// that was lost, and no number would be enough.
 constexpr int scalings = 6;
-/// Of the whole, from the mean of what its sets were scaled by.
+/// Of the whole, from the mean of what its batches were scaled by.
 constexpr int scalings_of_all = 3;
 
 /// Fewer entries are read sooner than other threads would be called.
@@ -37,66 +37,66 @@ double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
 
 } // namespace
 
-ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& set)
+ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& batch)
     : scale_(mesh.patches().size(), 1.0), lost_(mesh.patches().size()) {
     for (const Patch& patch : mesh.patches())
         area_.push_back(patch.area);
-    find_lost(set);
-    store(set);
+    find_lost(batch);
+    store(batch);
     close(scalings, Workers(1));
 }
 
-ExchangeMatrix::ExchangeMatrix(std::vector<ExchangeMatrix> sets, const Workers& workers)
-    : scale_(sets[0].scale_.size()), area_(std::move(sets[0].area_)), rays_(area_.size()),
+ExchangeMatrix::ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers)
+    : scale_(batches[0].scale_.size()), area_(std::move(batches[0].area_)), rays_(area_.size()),
       lost_(area_.size()) {
-    find_lost(sets);
-    for (const ExchangeMatrix& set : sets)
+    find_lost(batches);
+    for (const ExchangeMatrix& batch : batches)
         for (std::size_t i = 0; i < scale_.size(); ++i)
-            scale_[i] += set.scale_[i] / static_cast<double>(sets.size());
+            scale_[i] += batch.scale_[i] / static_cast<double>(batches.size());
     std::vector<SparseRows> rows;
-    for (ExchangeMatrix& set : sets)
-        rows.push_back(std::move(set.rows_));
-    sets.clear();
+    for (ExchangeMatrix& batch : batches)
+        rows.push_back(std::move(batch.rows_));
+    batches.clear();
     rows_ = SparseRows(std::move(rows), workers);
     close(scalings_of_all, workers);
 }
 
-void ExchangeMatrix::find_lost(const RayCounts& set) {
+void ExchangeMatrix::find_lost(const RayCounts& batch) {
     for (std::uint32_t i = 0; i < lost_.size(); ++i) {
-        rays_.push_back(set.rays(i));
+        rays_.push_back(batch.rays(i));
         if (rays_[i] > 0)
-            lost_[i] = {set.escaped(i) / rays_[i], set.absorbed(i) / rays_[i]};
+            lost_[i] = {batch.escaped(i) / rays_[i], batch.absorbed(i) / rays_[i]};
     }
 }
 
-void ExchangeMatrix::find_lost(std::span<const ExchangeMatrix> sets) {
-    const auto count = static_cast<double>(sets.size());
-    for (const ExchangeMatrix& set : sets)
+void ExchangeMatrix::find_lost(std::span<const ExchangeMatrix> batches) {
+    const auto count = static_cast<double>(batches.size());
+    for (const ExchangeMatrix& batch : batches)
         for (std::size_t i = 0; i < lost_.size(); ++i) {
-            rays_[i] += set.rays_[i];
-            lost_[i].escaped += set.lost_[i].escaped / count;
-            lost_[i].absorbed += set.lost_[i].absorbed / count;
+            rays_[i] += batch.rays_[i];
+            lost_[i].escaped += batch.lost_[i].escaped / count;
+            lost_[i].absorbed += batch.lost_[i].absorbed / count;
         }
 }
 
 /// First in each row stands what the patch saw, then by what it was seen.
-void ExchangeMatrix::store(const RayCounts& set) {
+void ExchangeMatrix::store(const RayCounts& batch) {
     const auto n = static_cast<std::uint32_t>(area_.size());
     std::vector<double> rays_per_area(n);
     std::vector<std::uint32_t> sizes(n);
     for (std::uint32_t i = 0; i < n; ++i) {
         rays_per_area[i] = area_[i] > 0 ? rays_[i] / area_[i] : 0;
-        sizes[i] += static_cast<std::uint32_t>(set.row(i).size());
-        for (const RayCounts::Count& count : set.row(i))
+        sizes[i] += static_cast<std::uint32_t>(batch.row(i).size());
+        for (const RayCounts::Count& count : batch.row(i))
             ++sizes[count.patch];
     }
     rows_ = SparseRows(std::move(sizes));
     std::vector<MatrixEntry*> next(n);
     for (std::uint32_t i = 0; i < n; ++i)
-        next[i] = rows_.to_write(i) + set.row(i).size();
+        next[i] = rows_.to_write(i) + batch.row(i).size();
     for (std::uint32_t i = 0; i < n; ++i) {
         MatrixEntry* seen = rows_.to_write(i);
-        for (const auto& [j, hits] : set.row(i)) {
+        for (const auto& [j, hits] : batch.row(i)) {
             const auto value = static_cast<float>(hits / (rays_per_area[i] + rays_per_area[j]));
             *seen++ = {j, value};
             *next[j]++ = {i, value};

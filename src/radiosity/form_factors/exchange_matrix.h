@@ -9,7 +9,7 @@
 // closed and S is symmetric to the last bits, no energy is made or lost between patches, however
 // reflective, and furnaces are exact.
 //
-// Stored is S before it is scaled, so that the S of several sets is their mean.
+// Stored is S before it is scaled, so that the S of several batches is their mean.
 
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/form_factors/sampled_form_factors.h"
@@ -25,10 +25,10 @@ namespace hemilux {
 class ExchangeMatrix {
   public:
     ExchangeMatrix() = default;
-    /// Of the rays of one set.
-    ExchangeMatrix(const Mesh& mesh, const RayCounts& set);
-    /// Of the rays of several sets, where each patch shot as many in one as in the others.
-    ExchangeMatrix(std::vector<ExchangeMatrix> sets, const Workers& workers);
+    /// Of the rays of one batch.
+    ExchangeMatrix(const Mesh& mesh, const RayCounts& batch);
+    /// Of the rays of several batches, where each patch shot as many in one as in the others.
+    ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers);
 
     /// y_i = sum_j F_ij x_j
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
@@ -61,30 +61,30 @@ class ExchangeMatrix {
     /// What patch i exchanges with others; a value is S before it is scaled.
     [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const { return rows_.row(i); }
     /// By patch.
-    [[nodiscard]] std::span<const LostShare> lost() const { return lost_; }
+    [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }
     /// Those that the patch shot itself.
     [[nodiscard]] std::span<const double> rays() const { return rays_; }
     [[nodiscard]] std::uint64_t bytes() const { return rows_.entries() * sizeof(MatrixEntry); }
 
   private:
-    void find_lost(const RayCounts& set);
-    void find_lost(std::span<const ExchangeMatrix> sets);
-    void store(const RayCounts& set);
+    void find_lost(const RayCounts& batch);
+    void find_lost(std::span<const ExchangeMatrix> batches);
+    void store(const RayCounts& batch);
     void close(int times, const Workers& workers);
     [[nodiscard]] std::vector<double> due(const Workers& workers) const;
     void find_scale(std::span<const double> due, int times, const Workers& workers);
     [[nodiscard]] Workers readers(const Workers& workers) const;
 
     const MatrixKernels* kernels_ = &matrix_kernels();
-    /// S_ij, the same number in both rows. A column may come twice in a row of a set: as one patch
-    /// saw the other, and was seen by it.
+    /// S_ij, the same number in both rows. A column may come twice in a row of a batch: as one
+    /// patch saw the other, and was seen by it.
     SparseRows rows_;
     std::vector<double> scale_;    ///< g_i
     std::vector<double> per_area_; ///< g_i / A_i
     std::vector<double> self_;     ///< S_ii, which closes the row, not scaled
     std::vector<double> area_;
     std::vector<double> rays_;
-    std::vector<LostShare> lost_;
+    std::vector<EscapeFraction> lost_;
 };
 
 } // namespace hemilux

@@ -19,8 +19,8 @@ double entry(const SparseMatrix& matrix, std::uint32_t i, std::uint32_t j) {
                : 0.0;
 }
 
-void judge_rows(const SparseMatrix& matrix, const SampledFormFactors& samples,
-                MatrixQuality& quality) {
+void assess_rows(const SparseMatrix& matrix, const SampledFormFactors& samples,
+                 MatrixQuality& quality) {
     const auto rows = static_cast<std::uint32_t>(matrix.rows());
     for (std::uint32_t i = 0; i < rows; ++i) {
         double sum = 0;
@@ -33,7 +33,7 @@ void judge_rows(const SparseMatrix& matrix, const SampledFormFactors& samples,
             quality.most = std::max(quality.most, f);
             ++quality.entries;
         }
-        const LostShare lost = samples.lost(i);
+        const EscapeFraction lost = samples.lost(i);
         const double closure = std::abs(sum - 1 + lost.escaped + lost.absorbed);
         quality.closure_mean += closure / rows;
         quality.closure_most = std::max(quality.closure_most, closure);
@@ -41,7 +41,7 @@ void judge_rows(const SparseMatrix& matrix, const SampledFormFactors& samples,
     }
 }
 
-void judge_pairs(const SparseMatrix& matrix, const Mesh& mesh, MatrixQuality& quality) {
+void assess_pairs(const SparseMatrix& matrix, const Mesh& mesh, MatrixQuality& quality) {
     const auto patches = mesh.patches();
     double difference = 0, whole = 0;
     for (std::uint32_t i = 0; i < patches.size(); ++i)
@@ -60,11 +60,11 @@ void judge_pairs(const SparseMatrix& matrix, const Mesh& mesh, MatrixQuality& qu
 
 } // namespace
 
-MatrixQuality judge_matrix(const SparseMatrix& matrix, const Mesh& mesh,
-                           const SampledFormFactors& samples) {
+MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
+                            const SampledFormFactors& samples) {
     MatrixQuality quality;
-    judge_rows(matrix, samples, quality);
-    judge_pairs(matrix, mesh, quality);
+    assess_rows(matrix, samples, quality);
+    assess_pairs(matrix, mesh, quality);
     return quality;
 }
 

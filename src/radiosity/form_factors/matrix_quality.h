@@ -20,7 +20,7 @@ struct MatrixQuality {
 };
 
 /// `samples` tell how much of each row is lost.
-[[nodiscard]] MatrixQuality judge_matrix(const SparseMatrix& matrix, const Mesh& mesh,
-                                         const SampledFormFactors& samples);
+[[nodiscard]] MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
+                                          const SampledFormFactors& samples);
 
 } // namespace hemilux

@@ -17,10 +17,11 @@ namespace hemilux {
 namespace {
 
 /// A pair that is worth fewer rays gets just these, in two sets of points: too few to judge by.
-constexpr double least_worth_to_adapt = 32;
+constexpr double least_importance_to_adapt = 32;
 
 /// Others get from a quarter to four times what they are worth, in four sets, whose agreement is
-/// seldom chance: until the variance is that of `worth` points with this relative variance each.
+/// seldom chance: until the variance is that of `importance` points with this relative variance
+/// each.
 constexpr double least_share = 0.25, most_share = 4;
 constexpr std::uint32_t adaptive_sets = 4;
 constexpr double relative_variance = 0.03;
@@ -104,14 +105,15 @@ double rough_factor(const Patch& from, const Patch& to) {
 }
 
 PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
-                       double worth, std::uint64_t seed, bool visibility) {
-    const bool adaptive = worth >= least_worth_to_adapt;
+                       double importance, std::uint64_t seed, bool visibility) {
+    const bool adaptive = importance >= least_importance_to_adapt;
     const std::uint32_t sets = adaptive ? adaptive_sets : 2;
-    const std::uint32_t most = points_per_set(adaptive ? most_share * worth : worth, sets);
+    const std::uint32_t most =
+        points_per_set(adaptive ? most_share * importance : importance, sets);
     const PairLook look(mesh, tracer, from, to, visibility);
     PairFactor result;
     std::array<double, adaptive_sets> sum{};
-    std::uint32_t begin = 0, end = adaptive ? points_per_set(least_share * worth, sets) : most;
+    std::uint32_t begin = 0, end = adaptive ? points_per_set(least_share * importance, sets) : most;
     for (;; begin = end, end *= 2) {
         for (std::uint32_t set = 0; set < sets; ++set) {
             SobolBlocks<4> points(hash_words({seed, from, set}));
@@ -123,7 +125,7 @@ PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t fro
             }
         }
         result.average({sum.data(), sets}, end);
-        const double allowed = relative_variance * result.factor * result.factor / worth;
+        const double allowed = relative_variance * result.factor * result.factor / importance;
         if (end >= most || result.variance <= allowed) {
             // To stop when the sets agree is to stop when they happen to: not better than allowed.
             if (adaptive)

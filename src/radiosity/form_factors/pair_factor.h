@@ -31,11 +31,11 @@ struct PairFactor {
 /// elsewhere on the patches. Rather too large than too small.
 [[nodiscard]] double rough_factor(const Patch& from, const Patch& to);
 
-/// `worth`: about how many rays are to be spent, more on pairs that see each other in part and
+/// `importance`: about how many rays are to be spent, more on pairs that see each other in part and
 /// fewer on those that see each other well; two at least. `visibility`: false where nothing can
 /// stand between two patches.
 [[nodiscard]] PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t from,
-                                     std::uint32_t to, double worth, std::uint64_t seed,
+                                     std::uint32_t to, double importance, std::uint64_t seed,
                                      bool visibility = true);
 
 } // namespace hemilux

@@ -86,13 +86,13 @@ class RayCounts::Tally {
 };
 
 /// Rays of some rows of a block that are not traced yet, and what those before have struck.
-struct RayCounts::Volley {
-    explicit Volley(std::size_t patches) : tally(patches) {}
+struct RayCounts::RayBatch {
+    explicit RayBatch(std::size_t patches) : tally(patches) {}
 
-    struct Burst {
+    struct RayGroup {
         std::uint32_t patch, rays;
     };
-    std::vector<Burst> bursts;
+    std::vector<RayGroup> groups;
     std::vector<Ray> rays;
     std::vector<std::uint32_t> receivers;
     std::uint32_t first_row = 0; ///< of the block
@@ -100,38 +100,39 @@ struct RayCounts::Volley {
     std::uint64_t traced = 0;
 };
 
-std::uint64_t RayCounts::trace_up_to(std::span<RayCounts> sets, std::span<const std::uint32_t> rays,
-                                     const Workers& workers, Monitor& monitor, double share) {
+std::uint64_t RayCounts::trace_up_to(std::span<RayCounts> batches,
+                                     std::span<const std::uint32_t> rays, const Workers& workers,
+                                     Monitor& monitor, double share) {
     std::atomic<std::uint64_t> traced{0};
     std::atomic<std::size_t> done{0};
-    const std::size_t blocks = sets[0].blocks_.size(), all = sets.size() * blocks;
+    const std::size_t blocks = batches[0].blocks_.size(), all = batches.size() * blocks;
     workers.for_chunks_with(
-        all, 1, [&] { return Volley(rays.size()); },
-        [&](Volley& volley, std::size_t k, std::size_t) {
-            sets[k / blocks].trace_block(k % blocks, rays, volley, monitor);
-            traced += volley.traced;
-            monitor.rays += std::exchange(volley.traced, 0);
+        all, 1, [&] { return RayBatch(rays.size()); },
+        [&](RayBatch& batch, std::size_t k, std::size_t) {
+            batches[k / blocks].trace_block(k % blocks, rays, batch, monitor);
+            traced += batch.traced;
+            monitor.rays += std::exchange(batch.traced, 0);
             if (share > 0)
                 monitor.step_share = share * static_cast<double>(++done) / static_cast<double>(all);
         });
     return traced;
 }
 
-void RayCounts::trace_block(std::size_t block, std::span<const std::uint32_t> rays, Volley& volley,
+void RayCounts::trace_block(std::size_t block, std::span<const std::uint32_t> rays, RayBatch& batch,
                             const Monitor& monitor) {
     const auto begin = static_cast<std::uint32_t>(block * rows_per_block);
     const auto end =
         static_cast<std::uint32_t>(std::min(rows_.size(), (block + 1) * rows_per_block));
-    volley.first_row = begin;
+    batch.first_row = begin;
     for (std::uint32_t i = begin; i < end && !monitor.interrupted; ++i)
         if (rays[i] > rows_[i].rays)
-            draw_row(i, rays[i], volley);
-    trace(volley);
-    if (volley.traced > 0)
-        store(begin, end, volley.tally);
+            draw_row(i, rays[i], batch);
+    trace(batch);
+    if (batch.traced > 0)
+        store(begin, end, batch.tally);
 }
 
-void RayCounts::draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley) {
+void RayCounts::draw_row(std::uint32_t patch, std::uint32_t end, RayBatch& batch) {
     const Patch& from = mesh_.patches()[patch];
     const PolygonSampler origins(from.shape);
     const Frame frame = Frame::from_normal(from.normal);
@@ -143,25 +144,24 @@ void RayCounts::draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley)
             const std::size_t in_block = k % samples_per_block;
             const auto count = std::min<std::size_t>(samples_per_block - in_block, last - k);
             points.move_to(k);
-            draw(from, origins, frame, points, in_block, count, volley.rays);
+            draw(from, origins, frame, points, in_block, count, batch.rays);
             k += static_cast<std::uint32_t>(count);
         }
-        volley.bursts.push_back({patch, last - first});
+        batch.groups.push_back({patch, last - first});
         rows_[patch].rays = last;
-        if (volley.rays.size() >= rays_at_a_time)
-            trace(volley);
+        if (batch.rays.size() >= rays_at_a_time)
+            trace(batch);
     }
 }
 
-void RayCounts::trace(Volley& volley) {
-    volley.receivers.clear();
-    find_receivers(volley.rays, mesh_, tracer_, volley.receivers);
-    auto next = volley.receivers.cbegin();
-    Tally& tally = volley.tally;
-    for (const auto& [patch, rays] : volley.bursts) {
-        while (volley.first_row + tally.ends().size() <= patch)
-            tally.begin_row(
-                row(volley.first_row + static_cast<std::uint32_t>(tally.ends().size())));
+void RayCounts::trace(RayBatch& batch) {
+    batch.receivers.clear();
+    find_receivers(batch.rays, mesh_, tracer_, batch.receivers);
+    auto next = batch.receivers.cbegin();
+    Tally& tally = batch.tally;
+    for (const auto& [patch, rays] : batch.groups) {
+        while (batch.first_row + tally.ends().size() <= patch)
+            tally.begin_row(row(batch.first_row + static_cast<std::uint32_t>(tally.ends().size())));
         for (const auto end = next + rays; next != end; ++next) {
             if (*next == hemilux::escaped)
                 ++rows_[patch].escaped;
@@ -171,9 +171,9 @@ void RayCounts::trace(Volley& volley) {
                 tally.add(*next);
         }
     }
-    volley.traced += volley.rays.size();
-    volley.rays.clear();
-    volley.bursts.clear();
+    batch.traced += batch.rays.size();
+    batch.rays.clear();
+    batch.groups.clear();
 }
 
 void RayCounts::store(std::uint32_t begin, std::uint32_t end, Tally& tally) {

@@ -1,6 +1,7 @@
 #pragma once
 // Which patches the cosine-distributed rays of each patch struck, and how often: what gathering
-// keeps of them. One set of well-distributed points per patch (sobol.h), which can be prolonged.
+// keeps of them. One sequence of well-distributed points per patch (sobol.h), which can be
+// prolonged.
 
 #include "bvh/tracer.h"
 #include "radiosity/sampling/workers.h"
@@ -23,7 +24,7 @@ class RayCounts {
         std::uint32_t patch, hits;
     };
 
-    /// Different seeds: independent sets. What is referred to outlives this.
+    /// Different seeds: independent batches. What is referred to outlives this.
     RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed);
 
     /// Goes on until each patch has so many rays. Returns the number traced now. Where the monitor
@@ -32,10 +33,11 @@ class RayCounts {
                               Monitor& monitor) {
         return trace_up_to({this, 1}, rays, workers, monitor, 0);
     }
-    /// The same in several sets of one mesh, so that no thread waits at the end of each. `share`:
-    /// what part of a step this is.
-    static std::uint64_t trace_up_to(std::span<RayCounts> sets, std::span<const std::uint32_t> rays,
-                                     const Workers& workers, Monitor& monitor, double share);
+    /// The same in several batches of one mesh, so that no thread waits at the end of each.
+    /// `share`: what part of a step this is.
+    static std::uint64_t trace_up_to(std::span<RayCounts> batches,
+                                     std::span<const std::uint32_t> rays, const Workers& workers,
+                                     Monitor& monitor, double share);
 
     [[nodiscard]] std::uint32_t patches() const { return static_cast<std::uint32_t>(rows_.size()); }
     /// Of this patch.
@@ -63,11 +65,11 @@ class RayCounts {
         std::uint32_t end = 0; ///< of its counts in its block
     };
     class Tally;
-    struct Volley;
-    void trace_block(std::size_t block, std::span<const std::uint32_t> rays, Volley& volley,
+    struct RayBatch;
+    void trace_block(std::size_t block, std::span<const std::uint32_t> rays, RayBatch& batch,
                      const Monitor& monitor);
-    void draw_row(std::uint32_t patch, std::uint32_t end, Volley& volley);
-    void trace(Volley& volley);
+    void draw_row(std::uint32_t patch, std::uint32_t end, RayBatch& batch);
+    void trace(RayBatch& batch);
     void store(std::uint32_t begin, std::uint32_t end, Tally& tally);
 
     const Mesh& mesh_;

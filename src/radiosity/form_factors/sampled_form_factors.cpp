@@ -78,7 +78,7 @@ std::uint64_t SampledFormFactors::trace_emitters(std::uint32_t patch, std::uint3
     return rays;
 }
 
-LostShare SampledFormFactors::lost(std::uint32_t patch) const {
+EscapeFraction SampledFormFactors::lost(std::uint32_t patch) const {
     const double n = rays_;
     return {counts_.escaped(patch) / n, counts_.absorbed(patch) / n};
 }
@@ -135,7 +135,7 @@ SparseMatrix SampledFormFactors::matrix() const {
     const double samples = emitter_samples(rays_);
     const auto merged = merged_counts();
     for (std::uint32_t i = 0; i < merged.size(); ++i) {
-        const LostShare lost_share = lost(i);
+        const EscapeFraction lost_share = lost(i);
         double rest =
             1 - lost_share.escaped - lost_share.absorbed; // of the row, for all but emitters
         for (std::size_t e = 0; e < emitters_.size(); ++e) {

@@ -37,7 +37,7 @@ struct SparseMatrix {
 };
 
 /// Shares of a patch's rays that met no patch.
-struct LostShare {
+struct EscapeFraction {
     double escaped = 0;  ///< left the scene
     double absorbed = 0; ///< fell on the back of a one-sided face
 };
@@ -57,7 +57,7 @@ class SampledFormFactors {
 
     /// F, merged and closed.
     [[nodiscard]] SparseMatrix matrix() const;
-    [[nodiscard]] LostShare lost(std::uint32_t patch) const;
+    [[nodiscard]] EscapeFraction lost(std::uint32_t patch) const;
     [[nodiscard]] std::span<const std::uint32_t> emitters() const { return emitters_; }
     /// The share of the light of one of them that arrives, by the closed form; only right if
     /// all_receive().

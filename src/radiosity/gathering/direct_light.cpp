@@ -26,7 +26,7 @@ constexpr std::size_t patches_per_chunk = 8;
 } // namespace
 
 /// Samples whose rays are not traced yet, the first `size` of each array.
-struct DirectLight::Volley {
+struct DirectLight::RayBatch {
     struct Sample {
         std::uint32_t patch, estimate, emitter;
         Vec3 light; ///< if the ray arrives
@@ -74,21 +74,21 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
     std::atomic<std::uint64_t> traced{0};
     if (!emitters_.empty())
         workers.for_chunks_with(
-            hits_.size(), patches_per_chunk, [] { return Volley(); },
-            [&](Volley& volley, std::size_t begin, std::size_t end) {
+            hits_.size(), patches_per_chunk, [] { return RayBatch(); },
+            [&](RayBatch& batch, std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
                     if (samples[i] > samples_[i])
-                        sample(static_cast<std::uint32_t>(i), samples[i], volley);
-                send(volley);
-                traced += volley.traced;
-                monitor.rays += std::exchange(volley.traced, 0);
+                        sample(static_cast<std::uint32_t>(i), samples[i], batch);
+                send(batch);
+                traced += batch.traced;
+                monitor.rays += std::exchange(batch.traced, 0);
             });
     return traced;
 }
 
-void DirectLight::sample(std::uint32_t patch, std::uint32_t end, Volley& volley) {
+void DirectLight::sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch) {
     const std::uint32_t begin = std::exchange(samples_[patch], end);
-    EmitterChoice::Cut& cut = volley.cut;
+    EmitterChoice::Cut& cut = batch.cut;
     choice_.weigh(patch, bright_[patch], cut);
     if (cut.dark())
         return;
@@ -106,40 +106,40 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, Volley& volley)
                 points.move_to(k);
                 choice_.choose(cut, points.coordinate(4), choices);
             }
-            look(patch, s, receiver, points.point(k), choices[in_block], volley);
-            if (volley.full())
-                send(volley);
+            look(patch, s, receiver, points.point(k), choices[in_block], batch);
+            if (batch.full())
+                send(batch);
         }
     }
 }
 
 void DirectLight::look(std::uint32_t patch, std::uint32_t estimate, const Shape& receiver,
                        const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
-                       Volley& volley) const {
+                       RayBatch& batch) const {
     const Emitter& emitter = lamps_[choice.emitter];
-    const std::size_t next = volley.size;
+    const std::size_t next = batch.size;
     const double factor = look_at(*receiver.patch, receiver.points, *emitter.patch, emitter.points,
-                                  {u[0], u[1], u[2], u[3]}, emitter.near, volley.rays[next]);
+                                  {u[0], u[1], u[2], u[3]}, emitter.near, batch.rays[next]);
     if (!(factor > 0))
         return;
-    volley.samples[next] = {patch, estimate, choice.emitter,
-                            factor / choice.chance * emitter.emission};
-    volley.targets[next] = emitter.patch->facet;
-    ++volley.size;
+    batch.samples[next] = {patch, estimate, choice.emitter,
+                           factor / choice.chance * emitter.emission};
+    batch.targets[next] = emitter.patch->facet;
+    ++batch.size;
 }
 
-void DirectLight::send(Volley& volley) {
-    const std::size_t size = std::exchange(volley.size, 0);
-    const std::span blocked = std::span(volley.blocked).first(size);
+void DirectLight::send(RayBatch& batch) {
+    const std::size_t size = std::exchange(batch.size, 0);
+    const std::span blocked = std::span(batch.blocked).first(size);
     if (needs_.visibility) {
-        tracer_.occluded_stream(std::span(volley.rays).first(size),
-                                std::span(volley.targets).first(size), blocked);
-        volley.traced += size;
+        tracer_.occluded_stream(std::span(batch.rays).first(size),
+                                std::span(batch.targets).first(size), blocked);
+        batch.traced += size;
     } else {
         std::ranges::fill(blocked, std::uint8_t{0});
     }
     for (std::size_t k = 0; k < size; ++k) {
-        const auto& [patch, estimate, emitter, light] = volley.samples[k];
+        const auto& [patch, estimate, emitter, light] = batch.samples[k];
         unblocked_[patch] += mean_of_channels(light);
         if (!blocked[k]) {
             sum_[patch * seeds_.size() + estimate] += light;

@@ -82,12 +82,12 @@ class DirectLight {
         Vec3 emission;
         double near; ///< from the centre, see look_at
     };
-    struct Volley;
-    void sample(std::uint32_t patch, std::uint32_t end, Volley& volley);
+    struct RayBatch;
+    void sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch);
     void look(std::uint32_t patch, std::uint32_t estimate, const Shape& receiver,
               const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
-              Volley& volley) const;
-    void send(Volley& volley);
+              RayBatch& batch) const;
+    void send(RayBatch& batch);
 
     const Mesh& mesh_;
     const Tracer& tracer_;

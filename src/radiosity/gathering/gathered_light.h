@@ -1,5 +1,5 @@
 #pragma once
-// The light that gathering has solved for: of each of its independent sets of rays, and of all
+// The light that gathering has solved for: of each of its independent batches of rays, and of all
 // together. Where rays had to be forgotten for want of memory, what they told is kept as a
 // generation, and the light is the mean of the generations.
 
@@ -16,26 +16,26 @@ class StateWriter;
 
 class GatheredLight {
   public:
-    GatheredLight(std::size_t sets, std::size_t patches)
-        : sets_(sets), solved_(sets + 1, Light(patches)) {}
+    GatheredLight(std::size_t batches, std::size_t patches)
+        : batches_(batches), solved_(batches + 1, Light(patches)) {}
 
-    [[nodiscard]] std::size_t sets() const { return sets_; }
+    [[nodiscard]] std::size_t batches() const { return batches_; }
 
-    /// Of one set.
+    /// Of one batch.
     struct Light {
         explicit Light(std::size_t patches) : incident(patches, Vec3(0.0)) {}
         std::vector<Vec3> incident; ///< arrives at each patch [W/m2]
         EnergyBalance energy;       ///< local units
     };
-    /// What the rays of the present generation tell, set by set; at last of all together.
+    /// What the rays of the present generation tell, batch by batch; at last of all together.
     [[nodiscard]] std::vector<Light>& solved() { return solved_; }
 
     /// Mean over the generations.
-    [[nodiscard]] Vec3 incident(std::size_t set, std::size_t patch) const {
-        const Vec3& now = solved_[set].incident[patch];
-        return before_.empty() ? now : (before_[set].incident[patch] + now) / generations();
+    [[nodiscard]] Vec3 incident(std::size_t batch, std::size_t patch) const {
+        const Vec3& now = solved_[batch].incident[patch];
+        return before_.empty() ? now : (before_[batch].incident[patch] + now) / generations();
     }
-    /// What each of the sets is off from their mean.
+    /// What each of the batches is off from their mean.
     template <std::size_t Sets>
     [[nodiscard]] std::array<Vec3, Sets> deviations(std::size_t patch) const {
         std::array<Vec3, Sets> off;
@@ -46,7 +46,7 @@ class GatheredLight {
             each -= mean;
         return off;
     }
-    /// Mean over the generations of what is absorbed and escapes, of all sets together.
+    /// Mean over the generations of what is absorbed and escapes, of all batches together.
     [[nodiscard]] EnergyBalance energy() const;
 
     [[nodiscard]] double generations() const { return static_cast<double>(generation_ + 1); }
@@ -60,7 +60,7 @@ class GatheredLight {
     void load(StateReader& state);
 
   private:
-    std::size_t sets_;
+    std::size_t batches_;
     std::vector<Light> solved_;
     std::vector<Light> before_; ///< sums over the generations that ended, if any
     std::uint64_t generation_ = 0;

@@ -41,7 +41,7 @@ class Account {
         lit_.resize(n);
         incident_.resize(n);
         for (std::uint32_t i = 0; i < n; ++i) {
-            incident_[i] = result.light.incident(result.light.sets(), i);
+            incident_[i] = result.light.incident(result.light.batches(), i);
             lit_[i] = any(incident_[i]) || any(result.system.emission()[i]);
             enter(i);
         }
@@ -108,15 +108,15 @@ class Account {
     /// Of the share of a patch's rays that are lost. Where few are, each is lost by chance; of many
     /// well-distributed ones only those at the edge of an opening are.
     [[nodiscard]] double variance_of_loss(std::uint32_t i) const {
-        const auto sets = static_cast<double>(result_.light.sets());
+        const auto batches = static_cast<double>(result_.light.batches());
         const double share = result_.factors.lost()[i].escaped + result_.factors.lost()[i].absorbed;
-        const double of_set = std::max(rays_[i] * std::min(share, 1 - share) / sets, 0.0);
-        return sets * std::min(of_set, std::sqrt(of_set)) / (rays_[i] * rays_[i]);
+        const double of_set = std::max(rays_[i] * std::min(share, 1 - share) / batches, 0.0);
+        return batches * std::min(of_set, std::sqrt(of_set)) / (rays_[i] * rays_[i]);
     }
     [[nodiscard]] const PartLedger& ledger(std::uint32_t i) const { return ledgers_[parts_.of[i]]; }
 
     /// If rays of the part had been lost that were not: less light in all of it, in proportion to
-    /// what else takes light away. The more were lost, the more the sets know of it themselves.
+    /// what else takes light away. The more were lost, the more the batches know of it themselves.
     [[nodiscard]] Vec3 unseen_loss(std::uint32_t i) const {
         if (result_.system.closed())
             return Vec3(0.0);
@@ -126,7 +126,7 @@ class Account {
     }
 
     /// One standard error of the light, as all of a part is the brighter the less light is lost: by
-    /// the numbers of rays that were lost, however alike the sets may be by chance.
+    /// the numbers of rays that were lost, however alike the batches may be by chance.
     [[nodiscard]] Vec3 known_loss(std::uint32_t i) const {
         if (result_.system.closed())
             return Vec3(0.0);
@@ -185,7 +185,7 @@ double raised(double together) {
     return 1 + (of_few - 1) * together;
 }
 
-/// What a patch's neighbours and itself are off in each set.
+/// What a patch's neighbours and itself are off in each batch.
 template <std::size_t Sets>
 class Window {
   public:

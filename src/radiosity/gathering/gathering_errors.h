@@ -1,8 +1,8 @@
 #pragma once
-// How far off the light of gathering may be: what its independent sets of rays show, and what none
-// of their rays has shown.
+// How far off the light of gathering may be: what its independent batches of rays show, and what
+// none of their rays has shown.
 //
-// The sets differ by the noise of what they found. Nothing differs where none of them found
+// The batches differ by the noise of what they found. Nothing differs where none of them found
 // anything: a window that no ray has left through, a lit room that no ray has reached through a
 // hole. There the rule of three holds: of N rays none of which met something, the share that would
 // meet it is below 3 / N in 95 of 100 cases (unseen_sights.h). The errors below follow
@@ -26,7 +26,7 @@ struct RowSpread;
 
 struct GatheringErrors {
     std::vector<Vec3> standard_error; ///< of the radiosity by patch [W/m2]
-    double variance = 0;  ///< by the sets: sum over patches and channels of area times variance
+    double variance = 0;  ///< by the batches: sum over patches and channels of area times variance
     double of_losses = 0; ///< the part of it that comes from how many rays were lost, by counting
     /// The same, of what random rays and what shadow rays have not seen.
     double unseen = 0, unseen_by_shadow_rays = 0;
@@ -39,7 +39,7 @@ struct GatheringResult {
     const Mesh& mesh;
     const GatheringSystem& system;
     const GatheredLight& light;
-    const ExchangeMatrix& factors; ///< of all sets
+    const ExchangeMatrix& factors; ///< of all batches
     const RowSpread& rows;
     const DirectLight& direct;
 };

@@ -1,6 +1,6 @@
 #include "radiosity/gathering/gathering_plan.h"
 
-#include "radiosity/gathering/ray_deal.h"
+#include "radiosity/gathering/ray_allocation.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
@@ -40,9 +40,9 @@ constexpr double share_of_unlit = 1.0 / 8;
 /// Black emitters count as if they reflected this: their rays tell where their light goes.
 constexpr double least_reflectance = .1;
 
-/// Throws StateError for rays that cannot have been allocated with this mean (ray_deal.h): a patch
-/// has at most about eleven times the mean, and all have more than a small part of it.
-void check_dealt(std::span<const std::uint32_t> rays, double mean) {
+/// Throws StateError for rays that cannot have been allocated with this mean (ray_allocation.h): a
+/// patch has at most about eleven times the mean, and all have more than a small part of it.
+void check_allocated(std::span<const std::uint32_t> rays, double mean) {
     constexpr double most_share = 12, least_share = 1.0 / 64;
     double sum = 0, count = 0;
     for (const std::uint32_t of_patch : rays) {
@@ -57,30 +57,30 @@ void check_dealt(std::span<const std::uint32_t> rays, double mean) {
 
 } // namespace
 
-GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps,
-                             const Pace& pace)
-    : mesh_(mesh), pace_(pace) {
+GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random,
+                             double to_emitters, const RayGoal& goal)
+    : mesh_(mesh), goal_(goal) {
     const auto patches = mesh.patches();
     first_.random = std::clamp(random, 1.0, most_rays);
-    first_.to_lamps = to_lamps > 0 ? first_.random : 0;
+    first_.to_emitters = to_emitters > 0 ? first_.random : 0;
     now_.rays.random.resize(patches.size());
-    now_.rays.to_lamps.resize(patches.size());
+    now_.rays.to_emitters.resize(patches.size());
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
         reflectance_.push_back(mesh.material(i).reflectance);
         const double reflectance = glm::length(reflectance_[i]);
         const double area = needs.power(i) ? std::pow(patches[i].area, area_exponent) : 0;
-        prior_lamp_weights_.push_back(area * reflectance);
+        prior_emitter_weights_.push_back(area * reflectance);
         prior_weights_.push_back(area * std::max(reflectance, least_reflectance));
     }
     before_ = now_;
     weights_ = learned_weights_ = prior_weights_;
-    lamp_weights_ = prior_lamp_weights_;
+    emitter_weights_ = prior_emitter_weights_;
 }
 
 void GatheringPlan::begin() {
     for (std::size_t i = 0; i < weights_.size(); ++i) {
         now_.rays.random[i] = weights_[i] > 0 ? 1 : 0;
-        now_.rays.to_lamps[i] = first_.to_lamps > 0 && lamp_weights_[i] > 0 ? 1 : 0;
+        now_.rays.to_emitters[i] = first_.to_emitters > 0 && emitter_weights_[i] > 0 ? 1 : 0;
     }
 }
 
@@ -89,73 +89,74 @@ void GatheringPlan::leave_out(const std::vector<bool>& lit) {
         return;
     for (std::size_t i = 0; i < lit.size(); ++i)
         if (!lit[i])
-            weights_[i] = lamp_weights_[i] = 0;
+            weights_[i] = emitter_weights_[i] = 0;
 }
 
-void GatheringPlan::grow(const KnownError& known, double room, const Workers& workers) {
+void GatheringPlan::grow(const ErrorSoFar& known, double room, const Workers& workers) {
     before_ = now_;
     if (has_begun()) {
         choose(known);
         now_.random = std::min(now_.random, room * before_.random);
     } else {
         now_.random = first_.random;
-        now_.to_lamps = first_.to_lamps;
+        now_.to_emitters = first_.to_emitters;
     }
     workers.for_chunks(2, 1, [&](std::size_t kind, std::size_t) {
         if (kind == 0)
-            now_.rays.random = deal_rays(weights_, now_.random, before_.rays.random);
+            now_.rays.random = allocate_rays(weights_, now_.random, before_.rays.random);
         else
-            now_.rays.to_lamps = deal_rays(lamp_weights_, now_.to_lamps, before_.rays.to_lamps);
+            now_.rays.to_emitters =
+                allocate_rays(emitter_weights_, now_.to_emitters, before_.rays.to_emitters);
     });
     const auto of_unlit =
-        std::bit_floor(static_cast<std::uint32_t>(share_of_unlit * now_.to_lamps));
-    for (std::size_t i = 0; i < lamp_weights_.size(); ++i)
-        if (lamp_weights_[i] == 0 && prior_lamp_weights_[i] > 0)
-            now_.rays.to_lamps[i] = std::max(of_unlit, before_.rays.to_lamps[i]);
+        std::bit_floor(static_cast<std::uint32_t>(share_of_unlit * now_.to_emitters));
+    for (std::size_t i = 0; i < emitter_weights_.size(); ++i)
+        if (emitter_weights_[i] == 0 && prior_emitter_weights_[i] > 0)
+            now_.rays.to_emitters[i] = std::max(of_unlit, before_.rays.to_emitters[i]);
 }
 
-void GatheringPlan::choose(const KnownError& known) {
-    const double rays = before_.random + before_.to_lamps;
+void GatheringPlan::choose(const ErrorSoFar& known) {
+    const double rays = before_.random + before_.to_emitters;
     if (!known.drained)
         return split(2 * rays, known);
-    if (!pace_.growing)
-        return split(rays + first_.random + first_.to_lamps, known);
-    if (!(pace_.aim > 0))
+    if (!goal_.growing)
+        return split(rays + first_.random + first_.to_emitters, known);
+    if (!(goal_.aim > 0))
         return split(2 * rays, known);
     double factor = least_step;
     do
         split(factor * rays, known);
-    while (!(predicted(known) <= aim_below * pace_.aim) && (factor *= try_next) <= most_growth);
+    while (!(predicted(known) <= aim_below * goal_.aim) && (factor *= try_next) <= most_growth);
 }
 
 /// So many rays in all go to the two kinds so that the error is least, as far as variances fall
 /// with the power `fall` of the rays; none is taken back.
-void GatheringPlan::split(double rays, const KnownError& known) {
+void GatheringPlan::split(double rays, const ErrorSoFar& known) {
     now_.random = rays;
-    if (!(before_.to_lamps > 0))
+    if (!(before_.to_emitters > 0))
         return;
     const auto due = [](double variance, double rays_before) {
         return std::pow(variance * std::pow(rays_before, fall), 1 / (1 + fall));
     };
     const double random =
-        due(std::max(known.variance - known.variance_from_lamps, 0.0), before_.random);
-    const double to_lamps = due(known.variance_from_lamps, before_.to_lamps);
-    const double share = random + to_lamps > 0 ? random / (random + to_lamps) : .5;
-    now_.random = std::clamp(share * rays, before_.random, rays - before_.to_lamps);
-    now_.to_lamps = rays - now_.random;
+        due(std::max(known.variance - known.variance_from_emitters, 0.0), before_.random);
+    const double to_emitters = due(known.variance_from_emitters, before_.to_emitters);
+    const double share = random + to_emitters > 0 ? random / (random + to_emitters) : .5;
+    now_.random = std::clamp(share * rays, before_.random, rays - before_.to_emitters);
+    now_.to_emitters = rays - now_.random;
 }
 
 /// The error that the planned rays will probably leave.
-double GatheringPlan::predicted(const KnownError& known) const {
+double GatheringPlan::predicted(const ErrorSoFar& known) const {
     const double of_lamps =
-        known.variance > 0 ? std::min(known.variance_from_lamps / known.variance, 1.0) : 0;
+        known.variance > 0 ? std::min(known.variance_from_emitters / known.variance, 1.0) : 0;
     double left = (1 - of_lamps) * std::pow(before_.random / now_.random, fall);
-    if (now_.to_lamps > 0)
-        left += of_lamps * std::pow(before_.to_lamps / now_.to_lamps, fall);
+    if (now_.to_emitters > 0)
+        left += of_lamps * std::pow(before_.to_emitters / now_.to_emitters, fall);
     return known.relative * std::sqrt(left);
 }
 
-bool GatheringPlan::at_most() const { return std::max(now_.random, now_.to_lamps) >= most_rays; }
+bool GatheringPlan::at_most() const { return std::max(now_.random, now_.to_emitters) >= most_rays; }
 
 /// The mean over its neighbours; of the patch itself where it has none.
 double GatheringPlan::of_neighbours(std::uint32_t patch, std::span<const double> known) const {
@@ -180,7 +181,7 @@ void GatheringPlan::mix(std::span<const double> known, std::span<const double> p
         weights[i] = trust * known[i] * prior_sum / sum + (1 - trust) * prior[i];
 }
 
-/// A ray is worth most where it takes most from the error. A patch counts by its area and its
+/// A ray is most important where it takes most from the error. A patch counts by its area and its
 /// reflectance, and the variance of random rays is the spread of the light that comes from all
 /// sides, as far as it is known; half of the weight does not trust that.
 void GatheringPlan::learn(std::span<const Vec3> variance) {
@@ -205,18 +206,18 @@ void GatheringPlan::weigh(std::span<const Vec3> variance, const std::vector<bool
 
 /// With a variance that falls as v n^-fall, the sum over patches is least for n as
 /// v^(1 / (1 + fall)), v being what one ray alone would leave.
-void GatheringPlan::weigh_lamps(std::span<const double> variance, const std::vector<bool>& lit) {
+void GatheringPlan::weigh_emitters(std::span<const double> variance, const std::vector<bool>& lit) {
     if (std::ranges::none_of(lit, std::identity{}))
         return;
-    std::vector<double> known(variance.size()), prior = prior_lamp_weights_;
+    std::vector<double> known(variance.size()), prior = prior_emitter_weights_;
     for (std::size_t i = 0; i < known.size(); ++i) {
         if (variance[i] < 0)
-            prior_lamp_weights_[i] = prior[i] = 0;
+            prior_emitter_weights_[i] = prior[i] = 0;
         if (!lit[i])
             prior[i] = 0;
         if (prior[i] > 0)
             known[i] =
-                std::pow(variance[i] * std::pow(now_.rays.to_lamps[i], fall), 1 / (1 + fall));
+                std::pow(variance[i] * std::pow(now_.rays.to_emitters[i], fall), 1 / (1 + fall));
     }
     // A patch may have missed what its neighbours have found.
     std::vector<double> smooth(known.size());
@@ -224,34 +225,34 @@ void GatheringPlan::weigh_lamps(std::span<const double> variance, const std::vec
         const double mean = of_neighbours(i, known);
         smooth[i] = prior[i] > 0 ? std::max(mean, .5 * (mean + known[i])) : 0;
     }
-    mix(smooth, prior, lamp_weights_);
+    mix(smooth, prior, emitter_weights_);
 }
 
 /// What was planned, and what is known of the patches; the rest follows from the scene.
 void GatheringPlan::save(StateWriter& state) const {
-    for (const Stage* stage : {&before_, &now_}) {
+    for (const RayBudget* stage : {&before_, &now_}) {
         state.add(stage->random);
-        state.add(stage->to_lamps);
+        state.add(stage->to_emitters);
         state.add(std::span<const std::uint32_t>(stage->rays.random));
-        state.add(std::span<const std::uint32_t>(stage->rays.to_lamps));
+        state.add(std::span<const std::uint32_t>(stage->rays.to_emitters));
     }
-    for (const std::vector<double>* weights : {&weights_, &learned_weights_, &lamp_weights_})
+    for (const std::vector<double>* weights : {&weights_, &learned_weights_, &emitter_weights_})
         state.add(std::span<const double>(*weights));
     state.add(std::uint64_t{has_learned_});
 }
 
 void GatheringPlan::load(StateReader& state) {
-    for (Stage* stage : {&before_, &now_}) {
-        for (double* mean : {&stage->random, &stage->to_lamps})
+    for (RayBudget* stage : {&before_, &now_}) {
+        for (double* mean : {&stage->random, &stage->to_emitters})
             state.get(*mean, {0, most_growth * most_rays});
         stage->rays.random.resize(weights_.size());
-        stage->rays.to_lamps.resize(weights_.size());
+        stage->rays.to_emitters.resize(weights_.size());
         state.get(std::span(stage->rays.random));
-        state.get(std::span(stage->rays.to_lamps));
-        check_dealt(stage->rays.random, stage->random);
-        check_dealt(stage->rays.to_lamps, stage->to_lamps);
+        state.get(std::span(stage->rays.to_emitters));
+        check_allocated(stage->rays.random, stage->random);
+        check_allocated(stage->rays.to_emitters, stage->to_emitters);
     }
-    if (before_.random > now_.random || before_.to_lamps > now_.to_lamps)
+    if (before_.random > now_.random || before_.to_emitters > now_.to_emitters)
         throw StateError("the plan of rays does not grow");
     // What is learned shares out the weights that the patches have by themselves.
     const auto sum_of = [](std::span<const double> prior) {
@@ -260,7 +261,7 @@ void GatheringPlan::load(StateReader& state) {
     };
     state.get(std::span(weights_), {0, sum_of(prior_weights_)});
     state.get(std::span(learned_weights_), {0, sum_of(prior_weights_)});
-    state.get(std::span(lamp_weights_), {0, sum_of(prior_lamp_weights_)});
+    state.get(std::span(emitter_weights_), {0, sum_of(prior_emitter_weights_)});
     has_learned_ = state.flag();
 }
 

@@ -17,12 +17,12 @@ class StateWriter;
 
 /// Rays of each patch.
 struct GatheringRays {
-    std::vector<std::uint32_t> random;   ///< cosine-distributed
-    std::vector<std::uint32_t> to_lamps; ///< shadow rays
+    std::vector<std::uint32_t> random;      ///< cosine-distributed
+    std::vector<std::uint32_t> to_emitters; ///< shadow rays
 };
 
 /// How many rays a step adds.
-struct Pace {
+struct RayGoal {
     /// As many as there are, or as it takes to reach `aim`; else as many as the first step had.
     bool growing = true;
     /// Relative error to be reached; 0: none is asked for.
@@ -30,19 +30,19 @@ struct Pace {
 };
 
 /// Of the solution so far.
-struct KnownError {
-    double relative = 0;            ///< as it is told
-    double variance = 0;            ///< in any unit
-    double variance_from_lamps = 0; ///< the part of it that comes from shadow rays
-    bool drained = true;            ///< the rays have seen a way out for the light
+struct ErrorSoFar {
+    double relative = 0;               ///< as it is reported
+    double variance = 0;               ///< in any unit
+    double variance_from_emitters = 0; ///< the part of it that comes from shadow rays
+    bool drained = true;               ///< the rays have seen a way out for the light
 };
 
 class GatheringPlan {
   public:
-    /// The first step's means, of one set; no `to_lamps`: there are no lamps to be reached. The
-    /// mesh outlives this.
-    GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_lamps,
-                  const Pace& pace);
+    /// The first step's means, of one batch; no `to_emitters`: there are no lamps to be reached.
+    /// The mesh outlives this.
+    GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_emitters,
+                  const RayGoal& goal);
 
     /// Plans a few rays of each patch, which tell what light can reach: leave_out.
     void begin();
@@ -51,7 +51,7 @@ class GatheringPlan {
 
     /// Plans more rays than before, at most `room` times as many random ones; `known` is not used
     /// for the first step.
-    void grow(const KnownError& known, double room, const Workers& workers);
+    void grow(const ErrorSoFar& known, double room, const Workers& workers);
     /// Less room than this is not worth a step.
     static constexpr double least_growth = 1.19;
 
@@ -73,7 +73,7 @@ class GatheringPlan {
 
     /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`:
     /// of each patch, times its area, in any unit; negative: it takes none.
-    void weigh_lamps(std::span<const double> variance, const std::vector<bool>& lit);
+    void weigh_emitters(std::span<const double> variance, const std::vector<bool>& lit);
 
     void save(StateWriter& state) const;
     /// Of a plan made with the same arguments. Throws StateError for what save() cannot have
@@ -81,27 +81,27 @@ class GatheringPlan {
     void load(StateReader& state);
 
   private:
-    struct Stage {
-        double random = 0, to_lamps = 0; ///< means over the patches that are to get more
+    struct RayBudget {
+        double random = 0, to_emitters = 0; ///< means over the patches that are to get more
         GatheringRays rays;
     };
     [[nodiscard]] double of_neighbours(std::uint32_t patch, std::span<const double> known) const;
     void learn(std::span<const Vec3> variance);
     static void mix(std::span<const double> known, std::span<const double> prior,
                     std::vector<double>& weights);
-    void choose(const KnownError& known);
-    void split(double rays, const KnownError& known);
-    [[nodiscard]] double predicted(const KnownError& known) const;
+    void choose(const ErrorSoFar& known);
+    void split(double rays, const ErrorSoFar& known);
+    [[nodiscard]] double predicted(const ErrorSoFar& known) const;
 
     const Mesh& mesh_;
-    Pace pace_;
-    Stage first_, before_, now_;
+    RayGoal goal_;
+    RayBudget first_, before_, now_;
     std::vector<Vec3> reflectance_;
-    std::vector<double> weights_, lamp_weights_; ///< what a ray is worth
-    std::vector<double> learned_weights_;        ///< of random rays, were all patches lit
+    std::vector<double> weights_, emitter_weights_; ///< importance of a ray
+    std::vector<double> learned_weights_;           ///< of random rays, were all patches lit
     bool has_learned_ = false;
-    std::vector<double> prior_weights_;      ///< of random rays, before anything is known
-    std::vector<double> prior_lamp_weights_; ///< likewise of shadow rays
+    std::vector<double> prior_weights_;         ///< of random rays, before anything is known
+    std::vector<double> prior_emitter_weights_; ///< likewise of shadow rays
 };
 
 } // namespace hemilux

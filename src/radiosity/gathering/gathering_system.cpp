@@ -10,11 +10,11 @@
 namespace hemilux {
 namespace {
 
-/// Of the standard error, what may be left where solving ends: of the sets, which tell no more than
-/// that error, and of the whole.
+/// Of the standard error, what may be left where solving ends: of the batches, which tell no more
+/// than that error, and of the whole.
 constexpr double left_of_sets = .1, left_of_all = 1e-3;
 
-/// Residuals, relative to the light: never less; and of the sets, times what a reflection takes
+/// Residuals, relative to the light: never less; and of the batches, times what a reflection takes
 /// away, never more.
 constexpr double least_residual = 1e-10, first_residual = 1e-3;
 
@@ -48,33 +48,34 @@ GatheringSystem::GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t
         seen_emission_[lamp] = Vec3(0.0);
 }
 
-/// Each set by a thread of its own; then the whole by all threads, from where their mean is.
+/// Each batch by a thread of its own; then the whole by all threads, from where their mean is.
 ExchangeMatrix GatheringSystem::solve(const Rays& rays, double error,
                                       std::vector<GatheredLight::Light>& light,
                                       const Workers& workers, const StopFlag& interrupted) const {
-    const std::size_t sets = rays.counts.size();
-    std::vector<ExchangeMatrix> parts(sets);
-    std::vector<Direct> direct(sets);
-    std::vector<Vec3> power(sets);
+    const std::size_t batches = rays.counts.size();
+    std::vector<ExchangeMatrix> parts(batches);
+    std::vector<Direct> direct(batches);
+    std::vector<Vec3> power(batches);
     const Workers alone(1);
-    workers.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
-        parts[set] = ExchangeMatrix(mesh_, rays.counts[set]);
-        direct[set].light = straight_light(parts[set], rays.direct, set, alone);
-        power[set] = power_arriving(transport(parts[set]), direct[set].light);
+    workers.for_chunks(batches, 1, [&](std::size_t batch, std::size_t) {
+        parts[batch] = ExchangeMatrix(mesh_, rays.counts[batch]);
+        direct[batch].light = straight_light(parts[batch], rays.direct, batch, alone);
+        power[batch] = power_arriving(transport(parts[batch]), direct[batch].light);
     });
     const Vec3 variance = sample_variance(power);
     std::vector<GatheredLight::Light> found = light;
     // What a residual makes of the light is no larger than its sum over all reflections.
     const double known = std::fmin(left_of_sets * error, first_residual); // unknown: the latter
     const double residual = std::max(known * lost_at_least_, least_residual);
-    workers.for_chunks(sets, 1, [&](std::size_t set, std::size_t) {
-        direct[set].variance = variance;
-        solve(parts[set], std::move(direct[set]), found[set], alone, residual, interrupted);
+    workers.for_chunks(batches, 1, [&](std::size_t batch, std::size_t) {
+        direct[batch].variance = variance;
+        solve(parts[batch], std::move(direct[batch]), found[batch], alone, residual, interrupted);
     });
     ExchangeMatrix all(std::move(parts), workers);
-    const double worth = left_of_all * average(found) * lost_at_least_;
-    solve(all, {straight_light(all, rays.direct, std::nullopt, workers), variance / double(sets)},
-          found[sets], workers, std::max(worth, least_residual), interrupted);
+    const double tolerance = left_of_all * average(found) * lost_at_least_;
+    solve(all,
+          {straight_light(all, rays.direct, std::nullopt, workers), variance / double(batches)},
+          found[batches], workers, std::max(tolerance, least_residual), interrupted);
     if (!interrupted)
         light = std::move(found);
     return all;
@@ -94,31 +95,32 @@ void GatheringSystem::solve(const ExchangeMatrix& factors, Direct direct,
     light.energy = balance_energy(transport(factors), light.incident);
 }
 
-/// Makes the last the mean of the sets; returns its relative standard error, of what is reflected.
+/// Makes the last the mean of the batches; returns its relative standard error, of what is
+/// reflected.
 double GatheringSystem::average(std::vector<GatheredLight::Light>& light) const {
-    const std::size_t sets = light.size() - 1;
+    const std::size_t batches = light.size() - 1;
     double squares = 0, size = 0;
     for (std::size_t i = 0; i < area_.size(); ++i) {
         Vec3 mean(0.0), of_squares(0.0);
-        for (std::size_t set = 0; set < sets; ++set) {
-            const Vec3& incident = light[set].incident[i];
-            mean += incident / double(sets);
-            of_squares += incident * incident / double(sets);
+        for (std::size_t batch = 0; batch < batches; ++batch) {
+            const Vec3& incident = light[batch].incident[i];
+            mean += incident / double(batches);
+            of_squares += incident * incident / double(batches);
         }
-        light[sets].incident[i] = mean;
+        light[batches].incident[i] = mean;
         const Vec3 weight = area_[i] * reflectance_[i] * reflectance_[i];
-        squares += glm::dot(weight, of_squares - mean * mean) / double(sets - 1);
+        squares += glm::dot(weight, of_squares - mean * mean) / double(batches - 1);
         size += glm::dot(weight, mean * mean);
     }
     return squares > 0 ? std::sqrt(squares / size) : 0;
 }
 
-/// The light straight from the emitters: by shadow rays, of one set or of all, and from those that
-/// shadow rays do not reach by rays at random. A patch without shadow rays has all from the latter:
-/// it is black, or they are better there.
+/// The light straight from the emitters: by shadow rays, of one batch or of all, and from those
+/// that shadow rays do not reach by rays at random. A patch without shadow rays has all from the
+/// latter: it is black, or they are better there.
 std::vector<Vec3> GatheringSystem::straight_light(const ExchangeMatrix& factors,
                                                   const DirectLight& shadow_rays,
-                                                  std::optional<std::size_t> set,
+                                                  std::optional<std::size_t> batch,
                                                   const Workers& workers) const {
     const std::size_t n = area_.size();
     std::vector<Vec3> light(n);
@@ -136,7 +138,7 @@ std::vector<Vec3> GatheringSystem::straight_light(const ExchangeMatrix& factors,
                            factors.self_factor(i) * (emission_[i] - seen_emission_[i]);
             else if (any)
                 light[i] = factors.row_times(i, some);
-            light[i] += set ? shadow_rays.irradiance(i, *set) : shadow_rays.irradiance(i);
+            light[i] += batch ? shadow_rays.irradiance(i, *batch) : shadow_rays.irradiance(i);
         }
     });
     return light;

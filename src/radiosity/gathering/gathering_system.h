@@ -1,12 +1,12 @@
 #pragma once
 // The linear system of gathering: what arrives at each patch in the end, from the rays that are
-// kept. Solved once for each of some independent sets of rays, whose spread is the error, and once
-// for all together.
+// kept. Solved once for each of some independent batches of rays, whose spread is the error, and
+// once for all together.
 
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/gathering/direct_light.h"
 #include "radiosity/gathering/gathered_light.h"
-#include "radiosity/linear/energy_closing.h"
+#include "radiosity/linear/energy_ledger.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/solving/stop_flag.h"
 
@@ -35,12 +35,12 @@ class GatheringSystem {
     /// Whether the geometry proves that no ray is lost.
     [[nodiscard]] bool closed() const { return closed_; }
 
-    /// Rays at random of each set, and shadow rays with an estimate for each.
+    /// Rays at random of each batch, and shadow rays with an estimate for each.
     struct Rays {
         std::span<const RayCounts> counts;
         const DirectLight& direct;
     };
-    /// `light`, of each set and at last of all: from what it holds, on to what the rays tell, as
+    /// `light`, of each batch and at last of all: from what it holds, on to what the rays tell, as
     /// exactly as that is worth. Returns the factors of all. `error`: the relative one of what is
     /// known so far; nan: unknown. Where it is interrupted nothing is changed.
     ExchangeMatrix solve(const Rays& rays, double error, std::vector<GatheredLight::Light>& light,
@@ -57,7 +57,8 @@ class GatheringSystem {
     [[nodiscard]] Transport transport(const ExchangeMatrix& factors) const;
     double average(std::vector<GatheredLight::Light>& light) const;
     std::vector<Vec3> straight_light(const ExchangeMatrix& factors, const DirectLight& shadow_rays,
-                                     std::optional<std::size_t> set, const Workers& workers) const;
+                                     std::optional<std::size_t> batch,
+                                     const Workers& workers) const;
 
     const Mesh& mesh_;
     std::vector<double> area_;

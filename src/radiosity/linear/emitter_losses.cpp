@@ -10,19 +10,19 @@ constexpr double most_rays_more = 1000;
 
 /// Of one emitter.
 struct TwoAccounts {
-    std::vector<double> by_rays, by_factors; ///< lost share, by replicate
+    std::vector<double> by_rays, by_factors; ///< lost share, by batch
     double sum_by_rays = 0;
 
-    TwoAccounts(std::span<const SampledFormFactors> replicates, std::size_t emitter) {
-        for (const SampledFormFactors& factors : replicates) {
-            const LostShare lost = factors.lost(factors.emitters()[emitter]);
+    TwoAccounts(std::span<const SampledFormFactors> batches, std::size_t emitter) {
+        for (const SampledFormFactors& factors : batches) {
+            const EscapeFraction lost = factors.lost(factors.emitters()[emitter]);
             by_rays.push_back(lost.escaped + lost.absorbed);
             sum_by_rays += by_rays.back();
             by_factors.push_back(1 - factors.arriving_from(emitter));
         }
     }
 
-    /// Of a share by `rays` rays, as if all replicates together had one more that was lost.
+    /// Of a share by `rays` rays, as if all batches together had one more that was lost.
     [[nodiscard]] double variance_by_rays(double rays) const {
         const double all = rays * double(by_rays.size());
         const double usual = (rays * sum_by_rays + 1) / (all + 2);
@@ -40,9 +40,9 @@ struct TwoAccounts {
 };
 
 /// Of the rays of all emitters.
-LostShare kinds_of_loss(std::span<const SampledFormFactors> replicates) {
-    LostShare kinds;
-    for (const SampledFormFactors& factors : replicates)
+EscapeFraction kinds_of_loss(std::span<const SampledFormFactors> batches) {
+    EscapeFraction kinds;
+    for (const SampledFormFactors& factors : batches)
         for (const std::uint32_t emitter : factors.emitters()) {
             kinds.escaped += factors.lost(emitter).escaped;
             kinds.absorbed += factors.lost(emitter).absorbed;
@@ -52,20 +52,20 @@ LostShare kinds_of_loss(std::span<const SampledFormFactors> replicates) {
 
 } // namespace
 
-std::vector<std::vector<EmitterLoss>> emitter_losses(std::span<const SampledFormFactors> replicates,
+std::vector<std::vector<EmitterLoss>> emitter_losses(std::span<const SampledFormFactors> batches,
                                                      double rays) {
-    std::vector<std::vector<EmitterLoss>> losses(replicates.size());
-    const LostShare kinds = kinds_of_loss(replicates);
+    std::vector<std::vector<EmitterLoss>> losses(batches.size());
+    const EscapeFraction kinds = kinds_of_loss(batches);
     const double sum = kinds.escaped + kinds.absorbed;
-    if (!replicates.front().all_receive() || !(sum > 0))
+    if (!batches.front().all_receive() || !(sum > 0))
         return losses;
-    for (std::size_t e = 0; e < replicates.front().emitters().size(); ++e) {
-        const TwoAccounts accounts(replicates, e);
+    for (std::size_t e = 0; e < batches.front().emitters().size(); ++e) {
+        const TwoAccounts accounts(batches, e);
         const double of_rays = accounts.variance_by_rays(rays);
         const double weight = of_rays / (of_rays + accounts.variance_by_factors()); // of factors
         const double more = std::min(1 / (1 - weight), most_rays_more);
         const double escaping = kinds.escaped / sum;
-        for (std::size_t r = 0; r < replicates.size(); ++r) {
+        for (std::size_t r = 0; r < batches.size(); ++r) {
             const double share = std::clamp(
                 weight * accounts.by_factors[r] + (1 - weight) * accounts.by_rays[r], 0.0, 1.0);
             losses[r].push_back({{share * escaping, share * (1 - escaping)}, rays * more});

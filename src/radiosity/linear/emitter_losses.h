@@ -13,16 +13,16 @@
 namespace hemilux {
 
 struct EmitterLoss {
-    LostShare lost;
+    EscapeFraction lost;
     double rays = 0; ///< as many would tell it as exactly
 };
 
-/// By replicate and, in their order, the emitters that these have in closed form. Each is the mean
-/// of both, weighted by the inverse of their variances: of the rays of all replicates together, and
-/// by what the replicates differ. So no weight depends on what a replicate itself has met. The rays
+/// By batch and, in their order, the emitters that these have in closed form. Each is the mean
+/// of both, weighted by the inverse of their variances: of the rays of all batches together, and
+/// by what the batches differ. So no weight depends on what a batch itself has met. The rays
 /// alone count where none of any emitter was lost, and where patches are black, which need not
-/// look. `rays`: those of a patch in each replicate.
+/// look. `rays`: those of a patch in each batch.
 [[nodiscard]] std::vector<std::vector<EmitterLoss>>
-emitter_losses(std::span<const SampledFormFactors> replicates, double rays);
+emitter_losses(std::span<const SampledFormFactors> batches, double rays);
 
 } // namespace hemilux

@@ -9,10 +9,10 @@
 // leaves S symmetric (Sinkhorn and Knopp 1967); the little that is missing then goes to S_ii. So no
 // energy is made or lost between patches. All bounces are then solved on S: no ray is traced twice.
 //
-// Four independent sets of rays give four solutions, whose spread is the standard error; the result
-// is the solution of all rays together. The engine adds what makes it fast: sparse rows, Sobol
-// points, more rays where the error is, shadow rays to small lamps, conjugate gradients. Here S is
-// dense, so a few thousand patches are the limit.
+// Four independent batches of rays give four solutions, whose spread is the standard error; the
+// result is the solution of all rays together. The engine adds what makes it fast: sparse rows,
+// Sobol points, more rays where the error is, shadow rays to small lamps, conjugate gradients. Here
+// S is dense, so a few thousand patches are the limit.
 
 #include "geometry/compensated_sum.h"
 #include "geometry/polygon_sampler.h"
@@ -32,7 +32,7 @@
 namespace hemilux::plain {
 namespace {
 
-constexpr std::size_t sets = 4;
+constexpr std::size_t batches = 4;
 constexpr int scalings = 20;
 
 /// What rays struck: row i of c belongs to those of patch i.
@@ -48,13 +48,13 @@ class Gathering final : public Solver {
         check_input(input);
         if (n_ > most_patches_of_gathering)
             throw std::invalid_argument("too many patches to keep all pairs of them");
-        counts_.assign(sets + 1, Counts(n_));
+        counts_.assign(batches + 1, Counts(n_));
         for (std::uint32_t i = 0; i < n_; ++i)
             solution_.radiosity.push_back(input.mesh.material(i).emission);
         solution_.standard_error.assign(n_, Vec3(std::numeric_limits<double>::quiet_NaN()));
         solution_.hits.assign(n_, 0);
         solution_.may_find_light = input.needs.bounces;
-        solution_.error_samples = sets;
+        solution_.error_batches = batches;
         solution_.energy.emitted = solution_.energy.unshot =
             input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
     }
@@ -62,14 +62,14 @@ class Gathering final : public Solver {
 
     /// Doubles the rays, or adds as many as in the first step.
     bool step() override {
-        const double first = std::ceil(input_.options.rays / double(sets));
+        const double first = std::ceil(input_.options.rays / double(batches));
         const double more = input_.options.growing_steps && N_ > 0 ? N_ : first;
-        for (std::size_t s = 0; s < sets; ++s)
+        for (std::size_t s = 0; s < batches; ++s)
             look_around(s, more);
         N_ += more;
         std::vector<std::vector<Vec3>> B;
-        for (std::size_t s = 0; s <= sets && !input_.monitor.interrupted; ++s)
-            B.push_back(solve(counts_[s], s < sets ? N_ : N_ * double(sets)));
+        for (std::size_t s = 0; s <= batches && !input_.monitor.interrupted; ++s)
+            B.push_back(solve(counts_[s], s < batches ? N_ : N_ * double(batches)));
         if (input_.monitor.interrupted)
             return false;
         combine(B);
@@ -78,18 +78,18 @@ class Gathering final : public Solver {
     }
 
   private:
-    /// So many rays more from each patch, for one set and for all together.
-    void look_around(std::size_t set, double rays) {
+    /// So many rays more from each patch, for one batch and for all together.
+    void look_around(std::size_t batch, double rays) {
         for (std::uint32_t i = 0; i < n_ && !input_.monitor.interrupted; ++i) {
             const Patch& patch = input_.mesh.patches()[i];
             const PolygonSampler points(patch.shape);
             const Frame frame = Frame::from_normal(patch.normal);
-            Rng random(hash_words({input_.options.seed, set, i, solution_.steps}));
+            Rng random(hash_words({input_.options.seed, batch, i, solution_.steps}));
             for (auto left = static_cast<std::uint64_t>(rays); left > 0 && patch.area > 0; --left) {
                 const std::optional<Hit> hit =
                     input_.tracer.closest(cosine_ray(patch, points, frame, random));
                 const std::uint32_t j = hit ? input_.mesh.patch_at(*hit) : none;
-                for (Counts* const to : {&counts_[set], &counts_[sets]})
+                for (Counts* const to : {&counts_[batch], &counts_[batches]})
                     ++(!hit ? to->escaped[i] : j == none ? to->absorbed[i] : to->c[i * n_ + j]);
                 solution_.hits[j == none ? i : j] += j != none;
                 ++solution_.rays_energy;
@@ -152,30 +152,31 @@ class Gathering final : public Solver {
         return B;
     }
 
-    /// `B`: of each set, then of all rays.
+    /// `B`: of each batch, then of all rays.
     void combine(const std::vector<std::vector<Vec3>>& B) {
         std::vector<Vec3> variance(n_);
-        std::array<double, sets * sets> products{};
+        std::array<double, batches * batches> products{};
         CompensatedSum<Vec3> escaped;
         double sum = 0;
         for (std::uint32_t i = 0; i < n_; ++i) {
             const double area = input_.mesh.patches()[i].area;
-            const Vec3 mean = (B[0][i] + B[1][i] + B[2][i] + B[3][i]) / double(sets);
-            for (std::size_t s = 0; s < sets; ++s) {
+            const Vec3 mean = (B[0][i] + B[1][i] + B[2][i] + B[3][i]) / double(batches);
+            for (std::size_t s = 0; s < batches; ++s) {
                 const Vec3 off = B[s][i] - mean;
-                variance[i] += off * off / double(sets * (sets - 1));
-                for (std::size_t t = 0; t < sets; ++t)
-                    products[s * sets + t] += area * glm::dot(off, B[t][i] - mean);
+                variance[i] += off * off / double(batches * (batches - 1));
+                for (std::size_t t = 0; t < batches; ++t)
+                    products[s * batches + t] += area * glm::dot(off, B[t][i] - mean);
             }
             sum += area * (variance[i].x + variance[i].y + variance[i].z);
-            escaped += area * counts_[sets].escaped[i] / (N_ * double(sets)) * B[sets][i];
+            escaped += area * counts_[batches].escaped[i] / (N_ * double(batches)) * B[batches][i];
         }
         variance = pooled_over_neighbours(input_.mesh, variance); // of four samples each
         for (std::uint32_t i = 0; i < n_; ++i)
             solution_.standard_error[i] = glm::sqrt(variance[i]);
-        solution_.radiosity = B[sets];
+        solution_.radiosity = B[batches];
         solution_.variance = sum;
-        solution_.error_parts = believed_parts(solution_.error_parts, error_parts(products, sets));
+        solution_.effective_freedom =
+            believed_freedom(solution_.effective_freedom, effective_freedom(products, batches));
         // As all rows are closed, what does not escape is absorbed.
         EnergyBalance& energy = solution_.energy;
         energy.escaped = input_.mesh.frame().area_to_world(1.0) * escaped.value();
@@ -185,8 +186,8 @@ class Gathering final : public Solver {
 
     SolverInput input_;
     std::uint32_t n_;
-    std::vector<Counts> counts_; ///< of each set, then of all
-    double N_ = 0;               ///< rays of each patch and set
+    std::vector<Counts> counts_; ///< of each batch, then of all
+    double N_ = 0;               ///< rays of each patch and batch
     Solution solution_;
 };
 

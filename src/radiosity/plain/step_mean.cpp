@@ -180,7 +180,7 @@ void StepMean::estimate_errors() {
     solution_.variance = sum;
     solution_.unseen = unseen();
     if (sum > 0)
-        solution_.error_parts = error_parts_of(of_patch, of_level);
+        solution_.effective_freedom = effective_freedom_of(of_patch, of_level);
 }
 
 Vec3 StepMean::power_leaving() const {

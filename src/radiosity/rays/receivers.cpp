@@ -9,15 +9,15 @@ namespace hemilux {
 
 void find_receivers(std::span<const Ray> rays, const Mesh& mesh, const Tracer& tracer,
                     std::vector<std::uint32_t>& receivers) {
-    std::array<Struck, rays_at_a_time> struck;
+    std::array<FacetHit, rays_at_a_time> hits;
     const std::size_t before = receivers.size();
     receivers.resize(before + rays.size());
     std::uint32_t* receiver = receivers.data() + before;
     while (!rays.empty()) {
         const std::size_t n = std::min(rays.size(), rays_at_a_time);
-        tracer.closest_stream(rays.first(n), std::span(struck).first(n));
+        tracer.closest_stream(rays.first(n), std::span(hits).first(n));
         for (std::size_t k = 0; k < n; ++k) {
-            const auto [facet, front] = struck[k];
+            const auto [facet, front] = hits[k];
             std::uint32_t patch = none;
             if (facet != none)
                 patch = mesh.is_divided(facet) ? mesh.patch_at(tracer.locate(rays[k], facet))

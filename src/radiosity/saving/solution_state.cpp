@@ -42,8 +42,8 @@ void save_solution(const Solution& solution, StateWriter& state) {
     state.add(solution.steps);
     state.add(solution.rays_energy);
     state.add(solution.bytes_transport);
-    state.add(solution.error_samples);
-    state.add(solution.error_parts.value_or(0));
+    state.add(solution.error_batches);
+    state.add(solution.effective_freedom.value_or(0));
     state.add(solution.variance.value_or(-1));
     state.add(solution.variance_of_level);
     state.add(solution.unseen);
@@ -58,9 +58,9 @@ void load_solution(Solution& solution, StateReader& state) {
     state.get(solution.steps);
     state.get(solution.rays_energy);
     state.get(solution.bytes_transport);
-    state.get(solution.error_samples, bounds::non_negative);
+    state.get(solution.error_batches, bounds::non_negative);
     const double parts = state.number({0, std::numeric_limits<double>::infinity()});
-    solution.error_parts = parts > 0 ? std::optional(parts) : std::nullopt;
+    solution.effective_freedom = parts > 0 ? std::optional(parts) : std::nullopt;
     const double variance = state.number(known_or_not);
     solution.variance = variance >= 0 ? std::optional(variance) : std::nullopt;
     state.get(solution.variance_of_level, bounds::non_negative);

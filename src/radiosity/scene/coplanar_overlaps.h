@@ -24,7 +24,7 @@ struct OverlapLimits {
     [[nodiscard]] static OverlapLimits of(const Scene& scene) {
         return {2'000'000 + 64 * scene.facets.size(), 500'000 + 8 * scene.facets.size()};
     }
-    /// What a pair takes until the facets are laid apart.
+    /// What a pair takes until the facets are offset.
     static constexpr double bytes_per_pair = 40;
 };
 

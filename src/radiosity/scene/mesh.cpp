@@ -2,7 +2,7 @@
 
 #include "geometry/numeric.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/scene/stacked_facets.h"
+#include "radiosity/scene/coplanar_layers.h"
 
 #include <algorithm>
 #include <array>
@@ -164,22 +164,22 @@ Patch Mesh::patch_from(const Polygon& shape, std::uint32_t facet, bool back) con
 
 void Mesh::lay_apart() {
     constexpr double step = 0x1p-28; // larger than what is taken for rounding elsewhere
-    const Stacks stacks = find_stacks(scene_, vertices_);
-    for (std::uint32_t f = 0; f < stacks.lift.size(); ++f) {
+    const CoplanarLayers layers = find_coplanar_layers(scene_, vertices_);
+    for (std::uint32_t f = 0; f < layers.offset.size(); ++f) {
         const Polygon shape = polygon_of(vertices_, corners_[f]);
-        if (stacks.lift[f] == 0 || !(shape.area() > 0))
+        if (layers.offset[f] == 0 || !(shape.area() > 0))
             continue;
         const bool triangle = shape.is_triangle();
-        const Vec3 way = stacks.lift[f] * step * shape.normal();
+        const Vec3 way = layers.offset[f] * step * shape.normal();
         const auto first = static_cast<std::uint32_t>(vertices_.size());
         for (const Vec3& corner : shape.corner)
             vertices_.push_back(corner + way);
         corners_[f] = {first, first + 1, first + 2, first + (triangle ? 2 : 3)};
     }
-    laid_apart_ = stacks.complete;
-    if (!stacks.buried.empty())
+    laid_apart_ = layers.complete;
+    if (!layers.buried.empty())
         corners_to_trace_ = corners_;
-    for (const std::uint32_t f : stacks.buried)
+    for (const std::uint32_t f : layers.buried)
         corners_to_trace_[f].fill(corners_[f][0]);
 }
 

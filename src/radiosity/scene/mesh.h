@@ -75,7 +75,7 @@ class Mesh {
         return material(patches_[patch]);
     }
     /// Vertices of the scene in the local frame, indexed by Facet::vertex; then those of facets
-    /// that lay in one plane over each other and were laid apart (stacked_facets.h).
+    /// that lay in one plane over each other and were offset (coplanar_layers.h).
     [[nodiscard]] std::span<const Vec3> vertices() const { return vertices_; }
     /// The frame in which the subdivided hemisphere of a patch stands: turned about the normal by
     /// an angle hashed from the patch's index, so that its vertices do not run along the edges of a
@@ -85,7 +85,7 @@ class Mesh {
     [[nodiscard]] FacetSoup soup() const;
     /// The same for a tracer, in which no ray can meet what is buried under many others.
     [[nodiscard]] FacetSoup soup_to_trace() const;
-    /// False where so many facets lie over each other that not all could be laid apart.
+    /// False where so many facets lie over each other that not all could be offset.
     [[nodiscard]] bool is_laid_apart() const { return laid_apart_; }
     /// One side of a facet as if it were not divided.
     [[nodiscard]] Patch whole_side(std::uint32_t facet, bool back) const;

@@ -3,7 +3,7 @@
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/shooting/line_of_cells.h"
+#include "radiosity/shooting/systematic_cells.h"
 #include "radiosity/solving/solve_error.h"
 
 #include <algorithm>
@@ -21,9 +21,9 @@ namespace {
 constexpr double pieces_of_rest = 32, least_piece = 256, largest_piece = 8192;
 constexpr std::uint32_t patches_per_piece = 32;
 constexpr double rays_per_batch = 2e6;
-/// Pieces that are listed at a time: a step of 1e9 rays per patch has millions.
+/// Work items that are listed at a time: a step of 1e9 rays per patch has millions.
 constexpr std::size_t most_pieces = 4096;
-/// A thread that works alone takes pieces of so many together: tracing likes many rays at once.
+/// A thread that works alone takes work items of so many together: tracing likes many rays at once.
 constexpr double rays_at_least = 4096;
 /// Fewer rays than this are traced sooner than others would have come to help.
 constexpr double rays_for_one_thread = 500;
@@ -64,7 +64,7 @@ void Bounces::begin(const StepResult& result) {
     const auto patches = input_.mesh.patches();
     unshot_.resize(patches.size());
     received_.assign(patches.size(), {});
-    struck_.assign(patches.size() / bits_of_word + 1, 0);
+    hit_.assign(patches.size() / bits_of_word + 1, 0);
     senders_.clear();
     left_ = 0;
     for (std::uint32_t i = 0; i < patches.size(); ++i)
@@ -88,22 +88,22 @@ std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
     const Workers workers = few ? Workers(1) : task_->workers;
     Place next{0, input_.options.literal ? 0 : whole_below(rays_before_[0])};
     while (cut(next) && !input_.monitor.interrupted) {
-        share_out(workers.threads() > 1 ? 0 : rays_at_least);
-        shoot_shares(workers, stream, result);
+        divide_work(workers.threads() > 1 ? 0 : rays_at_least);
+        shoot_ranges(workers, stream, result);
     }
     return result.rays - before;
 }
 
-void Bounces::shoot_shares(const Workers& workers, std::uint64_t stream, StepResult& result) {
+void Bounces::shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result) {
     const auto most = static_cast<std::size_t>(rays_per_batch / largest_piece);
-    volleys_.resize(std::min(most, shares_.size()));
-    for (std::size_t begin = 0; begin < shares_.size(); begin += most) {
-        const std::size_t count = std::min(most, shares_.size() - begin);
+    batches_.resize(std::min(most, ranges_.size()));
+    for (std::size_t begin = 0; begin < ranges_.size(); begin += most) {
+        const std::size_t count = std::min(most, ranges_.size() - begin);
         workers.for_each_in_order(
-            count, [&](std::size_t k) { fire(shares_[begin + k], stream, volleys_[k]); },
+            count, [&](std::size_t k) { shoot_range(ranges_[begin + k], stream, batches_[k]); },
             [&](std::size_t k) {
-                if (!input_.monitor.interrupted) // else volleys may not be whole
-                    collect(volleys_[k], result);
+                if (!input_.monitor.interrupted) // else batches may not be whole
+                    collect(batches_[k], result);
             });
         if (input_.monitor.interrupted)
             break;
@@ -113,62 +113,64 @@ void Bounces::shoot_shares(const Workers& workers, std::uint64_t stream, StepRes
     }
 }
 
-/// Pieces in their order to shares of so many rays at least.
-void Bounces::share_out(double rays) {
-    shares_.clear();
+/// Work items in their order to ranges of so many rays at least.
+void Bounces::divide_work(double rays) {
+    ranges_.clear();
     double from = 0;
-    for (const Piece& piece : pieces_) {
-        if (shares_.empty() || piece.to - from >= rays) {
-            const std::size_t first = shares_.empty() ? 0 : shares_.back().last;
-            shares_.push_back({first, first});
-            from = piece.from;
+    for (const WorkItem& item : items_) {
+        if (ranges_.empty() || item.to - from >= rays) {
+            const std::size_t first = ranges_.empty() ? 0 : ranges_.back().last;
+            ranges_.push_back({first, first});
+            from = item.from;
         }
-        ++shares_.back().last;
+        ++ranges_.back().last;
     }
 }
 
-void Bounces::fire(const Share& share, std::uint64_t stream, Volley& volley) const {
-    volley.bursts.clear();
-    volley.receivers.clear();
-    volley.arrivals.clear();
+void Bounces::shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const {
+    batch.groups.clear();
+    batch.receivers.clear();
+    batch.arrivals.clear();
     if (input_.monitor.interrupted)
         return;
-    for (std::size_t k = share.first; k < share.last; ++k)
-        order(pieces_[k], volley.bursts);
-    trace(stream, volley);
-    input_.monitor.rays += volley.receivers.size();
+    for (std::size_t k = range.first; k < range.last; ++k)
+        schedule(items_[k], batch.groups);
+    trace(stream, batch);
+    input_.monitor.rays += batch.receivers.size();
 }
 
-void Bounces::order(const Piece& piece, std::vector<Burst>& bursts) const {
-    thread_local DealtCells memory;
-    const auto deal = [&](std::size_t k) { return tools_.strategy->deal(senders_[k], memory); };
+void Bounces::schedule(const WorkItem& item, std::vector<RayGroup>& groups) const {
+    thread_local AllocatedCells memory;
+    const auto allocate = [&](std::size_t k) {
+        return tools_.strategy->allocate(senders_[k], memory);
+    };
     if (input_.options.literal) {
-        for (std::size_t k = piece.first; k < piece.last; ++k)
-            order_as_printed(senders_[k], piece, deal(k), bursts);
+        for (std::size_t k = item.first; k < item.last; ++k)
+            schedule_as_printed(senders_[k], item, allocate(k), groups);
         return;
     }
-    double last = whole_below(rays_before_[piece.first]);
-    for (std::size_t k = piece.first; k < piece.last; ++k) {
+    double last = whole_below(rays_before_[item.first]);
+    for (std::size_t k = item.first; k < item.last; ++k) {
         const double first = std::exchange(last, whole_below(rays_before_[k + 1]));
-        if (std::min(last, piece.to) > std::max(first, piece.from))
-            order(k, piece, deal(k), bursts);
+        if (std::min(last, item.to) > std::max(first, item.from))
+            schedule(k, item, allocate(k), groups);
     }
 }
 
 /// In the order of patches and rays, whatever thread traced them.
-void Bounces::collect(const Volley& volley, StepResult& result) {
-    const std::uint32_t* receivers = volley.receivers.data();
-    for (auto burst = volley.bursts.begin(); burst != volley.bursts.end();) {
-        const std::uint32_t patch = burst->patch;
+void Bounces::collect(const RayBatch& batch, StepResult& result) {
+    const std::uint32_t* receivers = batch.receivers.data();
+    for (auto group = batch.groups.begin(); group != batch.groups.end();) {
+        const std::uint32_t patch = group->patch;
         const Vec3 held = unshot_[patch];
         double sent = 0, lost_in_open = 0, lost_on_backs = 0; // shares of what the patch held
-        for (; burst != volley.bursts.end() && burst->patch == patch; ++burst) {
+        for (; group != batch.groups.end() && group->patch == patch; ++group) {
             const auto [rays_escaped, rays_absorbed] =
-                receive(burst->ray_power * held, {receivers, burst->rays});
-            receivers += burst->rays;
-            sent += burst->rays * burst->ray_power;
-            lost_in_open += rays_escaped * burst->ray_power;
-            lost_on_backs += rays_absorbed * burst->ray_power;
+                receive(group->ray_power * held, {receivers, group->rays});
+            receivers += group->rays;
+            sent += group->rays * group->ray_power;
+            lost_in_open += rays_escaped * group->ray_power;
+            lost_on_backs += rays_absorbed * group->ray_power;
         }
         result.sent += sent * held;
         if (lost_in_open > 0)
@@ -177,8 +179,8 @@ void Bounces::collect(const Volley& volley, StepResult& result) {
             result.absorbed += lost_on_backs * held;
     }
     if (tools_.strategy->learns())
-        teach(volley);
-    result.rays += volley.receivers.size();
+        teach(batch);
+    result.rays += batch.receivers.size();
 }
 
 /// Each brings `power`, which is Phi_ray. Returns how many escaped, and how many were absorbed.
@@ -190,20 +192,20 @@ std::array<std::uint32_t, 2> Bounces::receive(const Vec3& power,
             ++lost[receiver == escaped ? 0 : 1];
             continue;
         }
-        struck_[receiver / bits_of_word] |= std::uint64_t{1} << receiver % bits_of_word;
+        hit_[receiver / bits_of_word] |= std::uint64_t{1} << receiver % bits_of_word;
         ++received_[receiver].rays;
         received_[receiver].power += power;
     }
     return lost;
 }
 
-void Bounces::teach(const Volley& volley) const {
+void Bounces::teach(const RayBatch& batch) const {
     std::size_t ray = 0;
-    for (const Burst& burst : volley.bursts) {
-        tools_.strategy->learn(burst.patch, burst.cell,
-                               std::span(volley.receivers).subspan(ray, burst.rays),
-                               std::span(volley.arrivals).subspan(ray, burst.rays));
-        ray += burst.rays;
+    for (const RayGroup& group : batch.groups) {
+        tools_.strategy->learn(group.patch, group.cell,
+                               std::span(batch.receivers).subspan(ray, group.rays),
+                               std::span(batch.arrivals).subspan(ray, group.rays));
+        ray += group.rays;
     }
 }
 
@@ -211,8 +213,8 @@ void Bounces::teach(const Volley& volley) const {
 void Bounces::reflect(StepResult& result) {
     senders_.clear();
     left_ = 0;
-    for (std::size_t word = 0; word < struck_.size(); ++word)
-        for (std::uint64_t bits = std::exchange(struck_[word], 0); bits != 0; bits &= bits - 1) {
+    for (std::size_t word = 0; word < hit_.size(); ++word)
+        for (std::uint64_t bits = std::exchange(hit_[word], 0); bits != 0; bits &= bits - 1) {
             const auto i = static_cast<std::uint32_t>(word * bits_of_word) +
                            static_cast<std::uint32_t>(std::countr_zero(bits));
             const Arrived arrived = std::exchange(received_[i], {});
@@ -244,15 +246,15 @@ void Bounces::plan(std::uint64_t stream) {
     }
 }
 
-/// By numbers of rays, as a lamp may shoot half of a bounce. Pieces do not depend on the number of
-/// threads.
+/// By numbers of rays, as a lamp may shoot half of a bounce. Work items do not depend on the number
+/// of threads.
 bool Bounces::cut(Place& next) {
-    pieces_.clear();
+    items_.clear();
     if (input_.options.literal)
         cut_as_printed(next);
     else
         cut_line(next);
-    return !pieces_.empty();
+    return !items_.empty();
 }
 
 void Bounces::cut_line(Place& next) {
@@ -261,70 +263,71 @@ void Bounces::cut_line(Place& next) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(rays_before_, ray) -
                                           rays_before_.begin() - 1);
     };
-    for (double& from = next.ray; from < end && pieces_.size() < most_pieces;) {
+    for (double& from = next.ray; from < end && items_.size() < most_pieces;) {
         const double size =
             std::clamp(std::ceil((end - from) / pieces_of_rest), least_piece, largest_piece);
         const double to = std::min(from + size, end);
-        pieces_.push_back({sender_of(from + 1), sender_of(to) + 1, from, to});
+        items_.push_back({sender_of(from + 1), sender_of(to) + 1, from, to});
         from = to;
     }
 }
 
 /// Rays do not stand on the line: each sender has as many, which are counted from 0. Where these
-/// are many a piece is a part of them.
+/// are many an item is a part of them.
 void Bounces::cut_as_printed(Place& next) {
     const auto senders = static_cast<std::uint32_t>(senders_.size());
     const bool whole = input_.options.rays <= largest_piece;
-    while (next.sender < senders && pieces_.size() < most_pieces) {
+    while (next.sender < senders && items_.size() < most_pieces) {
         const std::uint32_t last = std::min(next.sender + (whole ? patches_per_piece : 1), senders);
         const double end = std::numeric_limits<double>::infinity();
         const bool is_last = whole || next.ray + largest_piece >= input_.options.rays;
-        pieces_.push_back({next.sender, last, next.ray, is_last ? end : next.ray + largest_piece});
+        items_.push_back({next.sender, last, next.ray, is_last ? end : next.ray + largest_piece});
         next = is_last ? Place{last, 0} : Place{next.sender, next.ray + largest_piece};
     }
 }
 
-void Bounces::order(std::size_t sender, const Piece& piece, const Dealing& dealing,
-                    std::vector<Burst>& bursts) const {
+void Bounces::schedule(std::size_t sender, const WorkItem& item, const Allocation& allocation,
+                       std::vector<RayGroup>& groups) const {
     const std::uint32_t patch = senders_[sender];
-    const LineOfCells line(dealing, rays_before_[sender], rays_before_[sender + 1]);
+    const SystematicCells line(allocation, rays_before_[sender], rays_before_[sender + 1]);
     const double before = whole_below(rays_before_[sender]);
     line.for_each_cell([&](std::uint16_t cell, double expected, double low, double high) {
-        const double first = std::max(low, piece.from), here = std::min(high, piece.to) - first;
+        const double first = std::max(low, item.from), here = std::min(high, item.to) - first;
         // Below one ray per cell, the ray that is shot carries the power of those that are not.
         const double sharing = expected >= 1 ? high - low : expected;
         if (here > 0)
-            bursts.push_back({patch, cell, ray_number(first - before),
+            groups.push_back({patch, cell, ray_number(first - before),
                               static_cast<std::uint32_t>(here), 1 / sharing});
     });
 }
 
-void Bounces::order_as_printed(std::uint32_t patch, const Piece& piece, const Dealing& dealing,
-                               std::vector<Burst>& bursts) const {
+void Bounces::schedule_as_printed(std::uint32_t patch, const WorkItem& item,
+                                  const Allocation& allocation,
+                                  std::vector<RayGroup>& groups) const {
     double before = 0;
-    for (std::size_t k = 0; k < dealing.cells.size(); ++k) {
-        const double rays = std::round(input_.options.rays * dealing.rays(k)); // N_tr
-        const double first = std::max(before, piece.from);
-        const double here = std::min(before + rays, piece.to) - first;
+    for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
+        const double rays = std::round(input_.options.rays * allocation.rays(k)); // N_tr
+        const double first = std::max(before, item.from);
+        const double here = std::min(before + rays, item.to) - first;
         if (here > 0)
-            bursts.push_back({patch, dealing.cells[k], ray_number(first),
+            groups.push_back({patch, allocation.cells[k], ray_number(first),
                               static_cast<std::uint32_t>(here), 1 / rays});
         before += rays;
     }
 }
 
-void Bounces::trace(std::uint64_t stream, Volley& volley) const {
+void Bounces::trace(std::uint64_t stream, RayBatch& batch) const {
     thread_local std::vector<Ray> memory;
     const RaySource source{input_.mesh, tools_.starts, tools_.directions, *tools_.strategy,
                            input_.options.literal};
-    BurstRays drawn(source, volley.bursts, stream, memory);
+    GroupedRays drawn(source, batch.groups, stream, memory);
     for (auto rays = drawn.next(); !rays.empty(); rays = drawn.next()) {
         if (input_.monitor.interrupted) // one lamp may shoot many millions
             return;
-        find_receivers(rays, input_.mesh, input_.tracer, volley.receivers);
+        find_receivers(rays, input_.mesh, input_.tracer, batch.receivers);
         if (tools_.strategy->learns())
-            tools_.strategy->find_arrivals(rays, std::span(volley.receivers).last(rays.size()),
-                                           volley.arrivals);
+            tools_.strategy->find_arrivals(rays, std::span(batch.receivers).last(rays.size()),
+                                           batch.arrivals);
     }
 }
 

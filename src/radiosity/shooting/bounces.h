@@ -9,7 +9,7 @@
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/rays/patch_starts.h"
 #include "radiosity/sampling/workers.h"
-#include "radiosity/shooting/burst_rays.h"
+#include "radiosity/shooting/grouped_rays.h"
 #include "radiosity/shooting/stepwise.h"
 #include "radiosity/shooting/strategy.h"
 
@@ -41,22 +41,22 @@ class Bounces {
   private:
     /// What one thread shoots at a time at least: of the rays on the line (plan) those in (from,
     /// to], which are of senders from `first` to before `last`.
-    struct Piece {
+    struct WorkItem {
         std::uint32_t first, last;
         double from, to;
     };
-    /// Where the next piece begins: behind so many rays, or, as printed, of the sender's.
+    /// Where the next item begins: behind so many rays, or, as printed, of the sender's.
     struct Place {
         std::uint32_t sender;
         double ray;
     };
-    /// Pieces that one thread takes together.
-    struct Share {
+    /// Work items that one thread takes together.
+    struct WorkRange {
         std::size_t first, last;
     };
     /// What a share shot and where each ray arrived.
-    struct Volley {
-        std::vector<Burst> bursts;
+    struct RayBatch {
+        std::vector<RayGroup> groups;
         std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
         std::vector<std::uint16_t> arrivals;  ///< from which of its cells, if the strategy learns
     };
@@ -71,25 +71,25 @@ class Bounces {
     /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
     std::uint64_t bounce(std::uint64_t stream, StepResult& result);
     void plan(std::uint64_t stream);
-    /// Lists some pieces from the place on, which is moved behind them; false if none are left.
+    /// Lists some work items from the place on, which is moved behind them; false if none are left.
     bool cut(Place& next);
     void cut_line(Place& next);
     void cut_as_printed(Place& next);
-    void share_out(double rays);
-    void shoot_shares(const Workers& workers, std::uint64_t stream, StepResult& result);
-    void fire(const Share& share, std::uint64_t stream, Volley& volley) const;
-    // What is to be drawn is added to `bursts`.
-    void order(const Piece& piece, std::vector<Burst>& bursts) const;
-    void order(std::size_t sender, const Piece& piece, const Dealing& dealing,
-               std::vector<Burst>& bursts) const;
-    void order_as_printed(std::uint32_t patch, const Piece& piece, const Dealing& dealing,
-                          std::vector<Burst>& bursts) const;
-    void trace(std::uint64_t stream, Volley& volley) const;
+    void divide_work(double rays);
+    void shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result);
+    void shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const;
+    // What is to be drawn is added to `groups`.
+    void schedule(const WorkItem& item, std::vector<RayGroup>& groups) const;
+    void schedule(std::size_t sender, const WorkItem& item, const Allocation& allocation,
+                  std::vector<RayGroup>& groups) const;
+    void schedule_as_printed(std::uint32_t patch, const WorkItem& item,
+                             const Allocation& allocation, std::vector<RayGroup>& groups) const;
+    void trace(std::uint64_t stream, RayBatch& batch) const;
 
-    void collect(const Volley& volley, StepResult& result);
+    void collect(const RayBatch& batch, StepResult& result);
     std::array<std::uint32_t, 2> receive(const Vec3& power,
                                          std::span<const std::uint32_t> receivers);
-    void teach(const Volley& volley) const;
+    void teach(const RayBatch& batch) const;
     void reflect(StepResult& result);
     void add_sender(std::uint32_t patch, const Vec3& power);
 
@@ -103,11 +103,11 @@ class Bounces {
     std::vector<Vec3> unshot_;           ///< by patch, of senders
     /// Expected rays of the senders before sender k, counted from the bounce's random offset.
     std::vector<double> rays_before_;
-    std::vector<Arrived> received_;     ///< by patch
-    std::vector<std::uint64_t> struck_; ///< a bit for each patch that received any
-    std::vector<Piece> pieces_;
-    std::vector<Share> shares_;
-    std::vector<Volley> volleys_; ///< kept for their memory
+    std::vector<Arrived> received_;  ///< by patch
+    std::vector<std::uint64_t> hit_; ///< a bit for each patch that received any
+    std::vector<WorkItem> items_;
+    std::vector<WorkRange> ranges_;
+    std::vector<RayBatch> batches_; ///< kept for their memory
 };
 
 } // namespace hemilux

@@ -3,10 +3,10 @@
 //
 // Each step is a complete, unbiased solution of all bounces (stepwise.h): power is shot from all
 // patches that hold some, what arrives is reflected and shot in turn, until nothing is left. Rays
-// are dealt in proportion to the power to be shot (docs/decisions.md, D10), so that each carries
-// about the same, unless the strategy gives some patches more and weaker ones; numbers of rays are
-// made whole by systematic sampling over all patches and cells at once, which is unbiased and ends
-// the series of bounces by itself.
+// are allocated in proportion to the power to be shot (docs/decisions.md, D10), so that each
+// carries about the same, unless the strategy gives some patches more and weaker ones; numbers of
+// rays are made whole by systematic sampling over all patches and cells at once, which is unbiased
+// and ends the series of bounces by itself.
 
 #include "radiosity/shooting/bounces.h"
 #include "radiosity/shooting/stepwise.h"

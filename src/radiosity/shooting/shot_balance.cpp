@@ -77,8 +77,8 @@ ShotShares ShotBalance::settle(const FactorSum& factors, const ShotRays& rays) {
     const double of_joined =
         trust * trust * variance_of_rays + (1 - trust) * (1 - trust) * factors.variance;
     const double relative = joined > 0 ? of_joined / (joined * joined) : 0;
-    const LostShare kinds{rays.escaped + all_.escaped / all_.count,
-                          rays.absorbed + all_.absorbed / all_.count};
+    const EscapeFraction kinds{rays.escaped + all_.escaped / all_.count,
+                               rays.absorbed + all_.absorbed / all_.count};
     const double known = kinds.escaped + kinds.absorbed;
     // More than all is chance, and evens out: cut off, light would be missing on average.
     if (!(known > 0) || joined >= 1)

@@ -35,7 +35,7 @@ struct FactorSum {
 /// Shares of the shot.
 struct ShotShares {
     double scale = 1;     ///< of all factors
-    LostShare lost;       ///< what falls elsewhere
+    EscapeFraction lost;  ///< what falls elsewhere
     double by_chance = 0; ///< what was neither received nor lost, on average 0
     bool scaled = false;  ///< whether the factors were made to sum up to what arrives
     double variance = 0;  ///< of what arrives, relative, if they were: an error of all factors

@@ -79,7 +79,7 @@ Sight ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot, double ra
     const Vec3 rho =
         glm::max(input_.mesh.material(receiver).reflectance, least_reflectance_of_receivers);
     const double rays = rays_per_light / std::sqrt(crowding_) *
-                        worth(receiver, mean_of_channels(rho * glm::abs(shot)) * rough);
+                        importance(receiver, mean_of_channels(rho * glm::abs(shot)) * rough);
     const double chance = std::min(rays / least_worth, 1.0);
     const double at_risk = chance < 1 ? rough / crowding_ : 0;
     // Of a factor that is `rough` with a probability of 1 / crowding_, looked at with `chance`.
@@ -96,7 +96,7 @@ Sight ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot, double ra
 
 /// The error of a sum is least with rays in proportion to what each term contributes; an error
 /// counts by the root of the area.
-double ShotFactors::worth(std::uint32_t receiver, double light) const {
+double ShotFactors::importance(std::uint32_t receiver, double light) const {
     return light / mean_reflected_ * std::sqrt(input_.mesh.patches()[receiver].area / mean_area_);
 }
 

@@ -301,7 +301,7 @@ void StepwiseSolver::estimate_errors() {
     solution_.variance = sum;
     solution_.unseen = unseen();
     if (sum > 0)
-        solution_.error_parts = error_parts_of(of_patch, of_level);
+        solution_.effective_freedom = effective_freedom_of(of_patch, of_level);
 }
 
 /// What patches send by the solution and what rays have carried differ by chance: numbers of rays

@@ -1,5 +1,5 @@
 #pragma once
-// A strategy deals a patch's rays to the cells of its hemisphere. That is all in which
+// A strategy allocates a patch's rays to the cells of its hemisphere. That is all in which
 // the stepwise shooting methods differ: the loops of Compute Radiosity (paper section 5b) are the
 // same.
 
@@ -25,10 +25,11 @@ namespace hemilux {
 /// from rays_up_to[k - 1], or 0, to rays_up_to[k], the last being all. With the rules as printed
 /// that need not be 1.
 ///
-/// Every strategy is unbiased, however the rays are dealt, as long as each cell with power has a
-/// positive share of them: for a ray carries the power of its cell, divided among the cell's rays.
-/// So floats do; many patches deal anew in each bounce, and what is kept for that is to be small.
-struct Dealing {
+/// Every strategy is unbiased, however the rays are allocated, as long as each cell with power has
+/// a positive share of them: for a ray carries the power of its cell, divided among the cell's
+/// rays. So floats do; many patches allocate anew in each bounce, and what is kept for that is to
+/// be small.
+struct Allocation {
     std::span<const std::uint16_t> cells;
     std::span<const float> rays_up_to;
 
@@ -37,8 +38,8 @@ struct Dealing {
     }
 };
 
-/// Memory of a dealing.
-struct DealtCells {
+/// Memory of an allocation.
+struct AllocatedCells {
     std::vector<std::uint16_t> cells;
     std::vector<float> rays_up_to;
 
@@ -51,7 +52,7 @@ struct DealtCells {
         rays_up_to.push_back(rays > 0 && !(after > before) ? std::nextafter(before, most)
                                                            : std::max(before, after));
     }
-    [[nodiscard]] Dealing view() const { return {cells, rays_up_to}; }
+    [[nodiscard]] Allocation view() const { return {cells, rays_up_to}; }
 
   private:
     static constexpr float most = std::numeric_limits<float>::max();
@@ -68,13 +69,13 @@ struct PrivateCell {
 class Strategy {
   public:
     virtual ~Strategy() = default;
-    /// It deals alike in all steps and learns nothing: then several steps are worked out at the
+    /// It allocates alike in all steps and learns nothing: then several steps are worked out at the
     /// same time, and it is told of none.
     [[nodiscard]] virtual bool is_same_in_all_steps() const { return false; }
     /// Before a step other than the pilot: estimates of the radiosity, by patch, in local units,
     /// and the power of a ray, mean of channels.
     virtual void prepare(std::span<const Vec3> /*radiosity*/, double /*ray_power*/) {}
-    /// What is dealt from now on belongs to this step, 0 being the first.
+    /// What is allocated from now on belongs to this step, 0 being the first.
     virtual void begin_step(std::uint64_t) {}
     /// Not of a step that was interrupted: what it has learned is to be forgotten.
     virtual void end_step() {}
@@ -83,10 +84,11 @@ class Strategy {
     [[nodiscard]] virtual double rays_for_power(std::uint32_t /*patch*/) const { return 1; }
     /// The cells of a patch, always in the same order: a view of what is kept or of what is put
     /// into `memory`, until either changes. Callable from several threads.
-    [[nodiscard]] virtual Dealing deal(std::uint32_t patch, DealtCells& memory) const = 0;
-    /// Whether any cell that it deals may be private.
+    [[nodiscard]] virtual Allocation allocate(std::uint32_t patch,
+                                              AllocatedCells& memory) const = 0;
+    /// Whether any cell that it allocates may be private.
     [[nodiscard]] virtual bool has_private_cells() const { return false; }
-    /// What a cell that was dealt is, where it is not of the table.
+    /// What a cell that was allocated is, where it is not of the table.
     [[nodiscard]] virtual std::optional<PrivateCell> private_cell(std::uint32_t /*patch*/,
                                                                   std::uint16_t /*cell*/) const {
         return std::nullopt;

@@ -18,7 +18,7 @@ struct FacetSide {
 };
 
 /// What leaves a random point of a side, by the cosine law. It starts a little off the plane, so
-/// that layers that lie in one place (stacked_facets.h) do not hide each other.
+/// that layers that lie in one place (coplanar_layers.h) do not hide each other.
 [[nodiscard]] Ray diffuse_ray(const Mesh& mesh, FacetSide side, Rng& rng);
 
 /// Points of all facets that do not shine, by area. Rays towards them find the ground below a sun,

@@ -2,7 +2,7 @@
 
 #include "radiosity/rays/make_tracer.h"
 #include "radiosity/scene/needs.h"
-#include "radiosity/sides/lamp_sides.h"
+#include "radiosity/sides/emitter_sides.h"
 
 #include <algorithm>
 #include <tuple>
@@ -38,7 +38,7 @@ class Judge {
           targets_(mesh) {}
 
     Orientation find() {
-        find_lamps();
+        find_emitters();
         find_light();
         result_.clashing_edges = shells_.clashing_edges;
         looks_away_.assign(scene_.faces, false);
@@ -55,7 +55,7 @@ class Judge {
     }
 
   private:
-    void find_lamps() {
+    void find_emitters() {
         lamp_.resize(shells_.all.size());
         std::vector<double> power(shells_.all.size(), 0.0);
         double all = 0;
@@ -68,12 +68,12 @@ class Judge {
         for (std::uint32_t s = 0; s < shells_.all.size(); ++s) {
             emits_.push_back(power[s] > 0);
             if (shells_.all[s].orientable && emits_[s])
-                lamp_[s] = find_lamp_side(mesh_, tracer_, targets_, shells_, s);
+                lamp_[s] = find_emitter_side(mesh_, tracer_, targets_, shells_, s);
             if (lamp_[s] && lamp_[s]->certain && lamp_[s]->back)
                 wrong += power[s];
         }
         if (wrong < many_lamps * all)
-            for (std::optional<LampSide>& lamp : lamp_)
+            for (std::optional<EmitterSide>& lamp : lamp_)
                 if (lamp)
                     lamp->certain = false;
     }
@@ -203,9 +203,9 @@ class Judge {
     const Tracer& tracer_;
     Shells shells_;
     Targets targets_;
-    std::vector<std::optional<LampSide>> lamp_; ///< by shell
-    std::vector<bool> emits_;                   ///< by shell
-    std::vector<SideLight> light_;              ///< by facet
+    std::vector<std::optional<EmitterSide>> lamp_; ///< by shell
+    std::vector<bool> emits_;                      ///< by shell
+    std::vector<SideLight> light_;                 ///< by facet
     std::vector<SideLight> light_of_face_;
     double all_light_ = 0;
     bool reversed_ = false, disordered_ = false; ///< the file: the second follows from the first

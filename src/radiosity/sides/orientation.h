@@ -2,7 +2,7 @@
 // Faces that look away from the light, as those of a room modelled from outside do.
 //
 // Facets are gathered into shells (shells.h). Which side of a shell is its front follows from where
-// lamps find something to light (lamp_sides.h) and from where light arrives (light_paths.h). A
+// lamps find something to light (emitter_sides.h) and from where light arrives (light_paths.h). A
 // surface may be meant to be lit from behind, as a lamp shade is that faces outwards. So:
 // - A closed shell is turned if nearly all of its light falls on its backs, and a lamp if it faces
 //   a wall at once or nothing. If its facets disagree, some are turned first.

@@ -8,7 +8,7 @@
 //
 // Parameter: --rays, of the first step, half of them random, half to the lamps. Each step adds as
 // many, or as many as there are, or as many as an error asked for will take (gathering_plan.h), of
-// the kind that the error comes from. Four independent sets of both give four solutions, whose
+// the kind that the error comes from. Four independent batches of both give four solutions, whose
 // spread is the standard error; the result is the solution of all rays together.
 //
 // Consistent: the solution depends on what was counted in a non-linear way, so its bias falls as
@@ -26,7 +26,7 @@
 #include "radiosity/gathering/linked_parts.h"
 #include "radiosity/gathering/row_spread.h"
 #include "radiosity/gathering/small_emitters.h"
-#include "radiosity/linear/energy_closing.h"
+#include "radiosity/linear/energy_ledger.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
@@ -46,7 +46,7 @@
 namespace hemilux {
 namespace {
 
-constexpr unsigned sets = 4;
+constexpr unsigned batches = 4;
 constexpr std::size_t patches_per_chunk = 512;
 
 /// Bytes that are needed to put counts together, for each byte of them.
@@ -57,7 +57,8 @@ class GatheringSolver final : public Solver {
     explicit GatheringSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)),
           system_(input.mesh, emitters_, input.needs.closed),
-          plan_(first_plan(input, !emitters_.empty())), light_(sets, input.mesh.patches().size()) {
+          plan_(first_plan(input, !emitters_.empty())),
+          light_(batches, input.mesh.patches().size()) {
         check_input(input);
         renew();
         const auto patches = input.mesh.patches();
@@ -105,7 +106,7 @@ class GatheringSolver final : public Solver {
         if (!drained_)
             return std::nullopt;
         light_.solved() = std::move(found);
-        for (std::size_t s = 0; s <= sets; ++s)
+        for (std::size_t s = 0; s <= batches; ++s)
             check_finite(input_.mesh, light_.solved()[s].incident, "the light that reaches",
                          solution_.steps + 1);
         combine(all);
@@ -123,8 +124,8 @@ class GatheringSolver final : public Solver {
         state.add(variance_);
         state.add(direct_variance_);
         plan_.save(state);
-        for (const RayCounts& set : counts_)
-            set.save(state);
+        for (const RayCounts& batch : counts_)
+            batch.save(state);
         direct_->save(state);
         save_solution(solution_, state);
     }
@@ -136,8 +137,8 @@ class GatheringSolver final : public Solver {
         state.get(variance_, bounds::non_negative);
         state.get(direct_variance_, bounds::non_negative);
         plan_.load(state);
-        for (RayCounts& set : counts_)
-            set.load(state);
+        for (RayCounts& batch : counts_)
+            batch.load(state);
         direct_->load(state);
         load_solution(solution_, state);
         if (!plan_.has_begun() && (planned_ || solution_.steps > 0))
@@ -146,9 +147,9 @@ class GatheringSolver final : public Solver {
 
   private:
     static GatheringPlan first_plan(const SolverInput& input, bool lamps) {
-        const double each = input.options.rays / (lamps ? 2 * sets : sets);
+        const double each = input.options.rays / (lamps ? 2 * batches : batches);
         return {input.mesh, input.needs, each, lamps ? each : 0,
-                Pace{input.options.growing_steps, input.options.aim}};
+                RayGoal{input.options.growing_steps, input.options.aim}};
     }
 
     /// A few rays find the parts of the scene that light can reach, which alone get more.
@@ -157,7 +158,7 @@ class GatheringSolver final : public Solver {
         input_.monitor.phase = "rays";
         traced_ +=
             RayCounts::trace_up_to(counts_, plan_.rays().random, workers_, input_.monitor, 0);
-        traced_ += direct_->sample_up_to(plan_.rays().to_lamps, workers_, input_.monitor);
+        traced_ += direct_->sample_up_to(plan_.rays().to_emitters, workers_, input_.monitor);
         if (input_.monitor.interrupted)
             return false;
         const LinkedParts parts = find_linked_parts(counts_);
@@ -175,7 +176,7 @@ class GatheringSolver final : public Solver {
     void plan() {
         if (planned_)
             return;
-        KnownError known{0, variance_, direct_variance_, drained_};
+        ErrorSoFar known{0, variance_, direct_variance_, drained_};
         if (solution_.steps > 0)
             known.relative = estimated_error(input_.mesh, solution_);
         const double room = room_to_grow();
@@ -192,7 +193,7 @@ class GatheringSolver final : public Solver {
     void renew() {
         counts_.clear();
         std::vector<std::uint64_t> seeds;
-        for (std::uint64_t s = 0; s < sets; ++s) {
+        for (std::uint64_t s = 0; s < batches; ++s) {
             const std::uint64_t seed = hash_words({input_.options.seed, s, light_.generation()});
             counts_.emplace_back(input_.mesh, input_.tracer, hash_words({seed, 0}));
             seeds.push_back(hash_words({seed, 1}));
@@ -203,17 +204,17 @@ class GatheringSolver final : public Solver {
     /// How many times as many rays may be stored.
     [[nodiscard]] double room_to_grow() const {
         std::uint64_t stored = 0;
-        for (const RayCounts& set : counts_)
-            stored += set.bytes();
+        for (const RayCounts& batch : counts_)
+            stored += batch.bytes();
         return input_.options.memory == 0 || solution_.steps == 0
                    ? std::numeric_limits<double>::infinity()
                    : static_cast<double>(input_.options.memory) /
                          (merging * static_cast<double>(stored));
     }
 
-    /// How the sets differ, of some patches.
+    /// How the batches differ, of some patches.
     struct Spread {
-        std::array<double, sets * sets> products{}; ///< of deviations
+        std::array<double, batches * batches> products{}; ///< of deviations
         double direct_variance = 0;
     };
 
@@ -235,27 +236,27 @@ class GatheringSolver final : public Solver {
         }
         const RowSpread rows = spread_of_rows(all, light, workers_);
         GatheringErrors errors =
-            errors_of<sets>({input_.mesh, system_, light_, all, rows, *direct_}, workers_);
+            errors_of<batches>({input_.mesh, system_, light_, all, rows, *direct_}, workers_);
         direct_variance_ = spread.direct_variance + errors.unseen_by_shadow_rays;
         variance_ = std::max(errors.variance + errors.unseen, direct_variance_);
         solution_.standard_error = std::move(errors.standard_error);
         solution_.variance = errors.variance;
         solution_.variance_of_level = errors.of_losses;
         solution_.unseen = errors.unseen + errors.unseen_by_shadow_rays;
-        solution_.error_samples = sets;
-        solution_.error_parts =
-            believed_parts(solution_.error_parts, error_parts(spread.products, sets));
+        solution_.error_batches = batches;
+        solution_.effective_freedom = believed_freedom(solution_.effective_freedom,
+                                                       effective_freedom(spread.products, batches));
         solution_.unlit = 0;
         for (std::uint32_t i = 0; i < n; ++i)
             solution_.unlit += !errors.lit[i] && input_.needs.power(i);
         plan_.weigh(rows.variance, errors.lit);
-        plan_.weigh_lamps(direct_variances, errors.lit);
+        plan_.weigh_emitters(direct_variances, errors.lit);
         direct_->set_parts(errors.part);
         account();
         solution_.rays_energy = traced_;
         solution_.bytes_transport = all.bytes() + direct_->bytes();
-        for (const RayCounts& set : counts_)
-            solution_.bytes_transport += set.bytes();
+        for (const RayCounts& batch : counts_)
+            solution_.bytes_transport += batch.bytes();
         ++solution_.steps;
     }
 
@@ -263,20 +264,21 @@ class GatheringSolver final : public Solver {
     void combine(std::uint32_t i, Spread& spread, Vec3& light, double& direct_variance) {
         const double area = system_.area()[i];
         const Vec3 rho = system_.reflectance()[i], direct_mean = direct_->irradiance(i);
-        const auto off = light_.deviations<sets>(i);
+        const auto off = light_.deviations<batches>(i);
         Vec3 direct_squares(0.0);
         const Vec3 weight = area * rho * rho;
-        for (std::size_t s = 0; s < sets; ++s) {
-            for (std::size_t t = 0; t < sets; ++t)
-                spread.products[s * sets + t] += glm::dot(weight * off[s], off[t]);
+        for (std::size_t s = 0; s < batches; ++s) {
+            for (std::size_t t = 0; t < batches; ++t)
+                spread.products[s * batches + t] += glm::dot(weight * off[s], off[t]);
             const Vec3 direct_off = direct_->irradiance(i, s) - direct_mean;
             direct_squares += direct_off * direct_off;
         }
-        const Vec3 reflected = rho * light_.incident(sets, i);
+        const Vec3 reflected = rho * light_.incident(batches, i);
         solution_.radiosity[i] = system_.emission()[i] + reflected;
-        solution_.hits[i] = direct_->hits(i) + std::uint64_t{plan_.rays().random[i]} * sets;
+        solution_.hits[i] = direct_->hits(i) + std::uint64_t{plan_.rays().random[i]} * batches;
         light = reflected + system_.seen_emission()[i];
-        direct_variance = area * glm::dot(rho * rho, direct_squares) / double(sets * (sets - 1));
+        direct_variance =
+            area * glm::dot(rho * rho, direct_squares) / double(batches * (batches - 1));
         spread.direct_variance += direct_variance / light_.generations();
         if (direct_->samples(i) == 0)
             direct_variance = -1;
@@ -296,7 +298,7 @@ class GatheringSolver final : public Solver {
     GatheringPlan plan_;
     GatheredLight light_;
     std::vector<RayCounts> counts_;
-    std::optional<DirectLight> direct_; ///< an estimate for each set
+    std::optional<DirectLight> direct_; ///< an estimate for each batch
     bool planned_ = false; ///< rays of the present step, which may have been traced in part
     bool drained_ = true;  ///< the rays of the last try have seen a way out for the light
     double variance_ = 0, direct_variance_ = 0;

@@ -1,7 +1,7 @@
 // The full matrix (paper section 2; Goral et al. 1984): the reference for all other methods.
 //
 // Form factors between all pairs of patches, by well-distributed rays (sampled_form_factors.h), and
-// the system B = E + rho F B solved to a residual of 1e-12. Several independent replicates of the
+// the system B = E + rho F B solved to a residual of 1e-12. Several independent batches of the
 // factors give several solutions; their mean is the result, their spread its standard error. Each
 // step doubles the rays; the run ends when the estimated error is small enough (.002 unless asked
 // otherwise). With --exact, factors between patches that see each other fully are without chance,
@@ -9,14 +9,14 @@
 //
 // Consistent: a solution depends on its factors in a non-linear way, so its bias falls as one over
 // the rays, well below its error. Good up to some ten thousand patches: memory is 8 bytes per pair
-// of patches that see each other and replicate. --exact is for small scenes: its time grows as
+// of patches that see each other and batch. --exact is for small scenes: its time grows as
 // patches^2 faces.
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/form_factors/exact_form_factors.h"
 #include "radiosity/form_factors/sampled_form_factors.h"
 #include "radiosity/linear/emitter_losses.h"
-#include "radiosity/linear/energy_closing.h"
+#include "radiosity/linear/energy_ledger.h"
 #include "radiosity/linear/gmres.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
@@ -36,8 +36,8 @@
 namespace hemilux {
 namespace {
 
-constexpr std::size_t replicates = 8;
-/// Rays per patch and replicate at which the run ends whatever the error.
+constexpr std::size_t batches = 8;
+/// Rays per patch and batch at which the run ends whatever the error.
 constexpr std::uint32_t most_rays = 1u << 20;
 
 /// The patches whose columns get the closed form: all that emit, unless they are so many that rays
@@ -68,11 +68,11 @@ class MatrixSolver final : public Solver {
         rays_find_emission_ = emitters.empty();
         // Exact factors are put together with those of all patches.
         const Needs& needs = exact_ ? everything_needed : input.needs;
-        for (std::uint64_t r = 0; r < replicates; ++r)
+        for (std::uint64_t r = 0; r < batches; ++r)
             factors_.emplace_back(input.mesh, input.tracer, emitters,
                                   hash_words({input.options.seed, r}), needs);
         solution_.standard_error.resize(patches.size());
-        solution_.error_samples = replicates;
+        solution_.error_batches = batches;
         solution_.may_find_light = input.needs.bounces;
         solution_.hits.resize(patches.size());
         for (std::uint32_t i = 0; i < patches.size(); ++i)
@@ -80,7 +80,7 @@ class MatrixSolver final : public Solver {
         solution_.energy.emitted =
             input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
         solution_.energy.unshot = solution_.energy.emitted;
-        guesses_.assign(replicates, solution_.radiosity);
+        guesses_.assign(batches, solution_.radiosity);
     }
 
     bool step() override {
@@ -94,10 +94,10 @@ class MatrixSolver final : public Solver {
     /// Whether it was not interrupted; nothing where the rays have seen no way out for the light.
     [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
         const std::uint32_t rays = rays_ == 0 ? first_rays() : 2 * rays_;
-        for (std::size_t r = 0; r < replicates; ++r) {
+        for (std::size_t r = 0; r < batches; ++r) {
             input_.monitor.phase = "rays";
             traced_ += factors_[r].trace_up_to(rays, workers_, input_.monitor);
-            input_.monitor.step_share = static_cast<double>(r + 1) / replicates;
+            input_.monitor.step_share = static_cast<double>(r + 1) / batches;
             if (input_.monitor.interrupted)
                 return false;
         }
@@ -106,7 +106,7 @@ class MatrixSolver final : public Solver {
         CompensatedSum<Vec3> absorbed, escaped;
         bool drained = true;
         const auto losses = emitter_losses(factors_, rays);
-        for (std::size_t r = 0; r < replicates; ++r) {
+        for (std::size_t r = 0; r < batches; ++r) {
             const EnergyBalance energy = solve(factors_[r], losses[r], guesses_[r]);
             absorbed += energy.absorbed;
             escaped += energy.escaped;
@@ -116,12 +116,12 @@ class MatrixSolver final : public Solver {
         }
         rays_ = rays;
         if (!drained) {
-            guesses_.assign(replicates, solution_.radiosity);
+            guesses_.assign(batches, solution_.radiosity);
             return std::nullopt;
         }
         for (const std::vector<Vec3>& guess : guesses_)
             check_finite(input_.mesh, guess, "the radiosity", solution_.steps + 1);
-        combine(absorbed.value() / double(replicates), escaped.value() / double(replicates));
+        combine(absorbed.value() / double(batches), escaped.value() / double(batches));
         return true;
     }
 
@@ -137,7 +137,7 @@ class MatrixSolver final : public Solver {
         return std::bit_ceil(static_cast<std::uint32_t>(std::ceil(asked)));
     }
 
-    /// B = E + R, R = rho F (E + R), for one replicate, channel by channel, from the last solution
+    /// B = E + R, R = rho F (E + R), for one batch, channel by channel, from the last solution
     /// on. The residual is that of reflected light: beside a tiny lamp's emission all of it could
     /// be too small to count.
     EnergyBalance solve(const SampledFormFactors& factors, std::span<const EmitterLoss> losses,
@@ -187,7 +187,7 @@ class MatrixSolver final : public Solver {
         const std::size_t n = incident.size();
         std::vector<double> area(n), rays(n, rays_of_step_);
         std::vector<Vec3> emission(n), reflectance(n);
-        std::vector<LostShare> lost(n);
+        std::vector<EscapeFraction> lost(n);
         const std::vector<double> ones(n, 1.0);
         std::vector<double> kept(n);
         f.multiply(ones, kept, workers_);
@@ -195,7 +195,7 @@ class MatrixSolver final : public Solver {
             area[i] = input_.mesh.patches()[i].area;
             emission[i] = input_.mesh.material(i).emission;
             reflectance[i] = input_.mesh.material(i).reflectance;
-            const LostShare by_rays = factors.lost(i);
+            const EscapeFraction by_rays = factors.lost(i);
             const double sum = by_rays.escaped + by_rays.absorbed;
             const double scale = sum > 0 ? std::clamp(1 - kept[i], 0.0, 1.0) / sum : 0;
             lost[i] = {scale * by_rays.escaped, scale * by_rays.absorbed};
@@ -209,23 +209,23 @@ class MatrixSolver final : public Solver {
 
     void combine(const Vec3& absorbed_power, const Vec3& escaped_power) {
         std::vector<Vec3> variance(solution_.radiosity.size());
-        std::vector<double> products(replicates * replicates);
-        std::array<Vec3, replicates> off{};
+        std::vector<double> products(batches * batches);
+        std::array<Vec3, batches> off{};
         for (std::uint32_t i = 0; i < variance.size(); ++i) {
             Vec3 mean(0.0), squares(0.0);
-            for (const auto& replicate : guesses_)
-                mean += replicate[i] / double(replicates);
-            for (std::size_t r = 0; r < replicates; ++r) {
+            for (const auto& batch : guesses_)
+                mean += batch[i] / double(batches);
+            for (std::size_t r = 0; r < batches; ++r) {
                 off[r] = guesses_[r][i] - mean;
                 squares += off[r] * off[r];
             }
             const double area = input_.mesh.patches()[i].area;
-            for (std::size_t r = 0; r < replicates; ++r)
-                for (std::size_t t = 0; t < replicates; ++t)
-                    products[r * replicates + t] += area * glm::dot(off[r], off[t]);
+            for (std::size_t r = 0; r < batches; ++r)
+                for (std::size_t t = 0; t < batches; ++t)
+                    products[r * batches + t] += area * glm::dot(off[r], off[t]);
             solution_.radiosity[i] = mean;
-            variance[i] = squares / double(replicates * (replicates - 1));
-            solution_.hits[i] = std::uint64_t{rays_} * replicates;
+            variance[i] = squares / double(batches * (batches - 1));
+            solution_.hits[i] = std::uint64_t{rays_} * batches;
         }
         note_errors(variance, products);
         const double to_world = input_.mesh.frame().area_to_world(1.0);
@@ -240,7 +240,7 @@ class MatrixSolver final : public Solver {
         solution_.variance = 0;
         for (std::uint32_t i = 0; i < variance.size(); ++i)
             *solution_.variance += input_.mesh.patches()[i].area * glm::dot(variance[i], Vec3(1.0));
-        solution_.error_parts = error_parts(products, replicates);
+        solution_.effective_freedom = effective_freedom(products, batches);
         solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
         const std::vector<Vec3> unseen = unseen_light();
         const double share = unseen_loss();
@@ -266,7 +266,7 @@ class MatrixSolver final : public Solver {
             const double area = input_.mesh.patches()[i].area;
             leaving += area * mean_of_channels(solution_.radiosity[i]);
             emitted += area * mean_of_channels(input_.mesh.material(i).emission);
-            rays += double(rays_) * double(replicates);
+            rays += double(rays_) * double(batches);
             for (const SampledFormFactors& factors : factors_)
                 lost += rays_ * (factors.lost(i).escaped + factors.lost(i).absorbed);
         }
@@ -277,7 +277,7 @@ class MatrixSolver final : public Solver {
     /// Emission with a closed form does not wait for a ray to find it.
     [[nodiscard]] std::vector<Vec3> unseen_light() const {
         const std::size_t n = solution_.radiosity.size();
-        std::vector<double> area(n), rays(n, double(rays_) * replicates);
+        std::vector<double> area(n), rays(n, double(rays_) * batches);
         std::vector<Vec3> reflectance(n), incident(n);
         for (std::uint32_t i = 0; i < n; ++i) {
             const Material& material = input_.mesh.material(i);
@@ -296,8 +296,8 @@ class MatrixSolver final : public Solver {
     std::vector<SampledFormFactors> factors_;
     std::optional<ExactFormFactors> exact_;
     bool rays_find_emission_ = true;         ///< no column has the closed form
-    std::vector<std::vector<Vec3>> guesses_; ///< solution of each replicate
-    std::uint32_t rays_ = 0;                 ///< per patch and replicate
+    std::vector<std::vector<Vec3>> guesses_; ///< solution of each batch
+    std::uint32_t rays_ = 0;                 ///< per patch and batch
     std::uint32_t rays_of_step_ = 0;         ///< those of the step under way
     std::uint64_t traced_ = 0;
     Solution solution_;

@@ -113,11 +113,11 @@ class MonteCarloSolver final : public StepwiseSolver {
             const PolygonSampler origins(from.shape);
             const Frame frame = Frame::from_normal(from.normal);
             std::vector<Ray> drawn;
-            std::vector<std::uint32_t> struck;
+            std::vector<std::uint32_t> hits;
             for (std::size_t k = begin; k < end; ++k)
                 drawn.push_back(cosine_ray(from, origins, frame, rng));
-            find_receivers(drawn, input_.mesh, input_.tracer, struck);
-            std::ranges::copy(struck, receivers.begin() + static_cast<std::ptrdiff_t>(begin));
+            find_receivers(drawn, input_.mesh, input_.tracer, hits);
+            std::ranges::copy(hits, receivers.begin() + static_cast<std::ptrdiff_t>(begin));
         });
     }
 

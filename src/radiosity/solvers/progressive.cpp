@@ -56,7 +56,7 @@ class ProgressiveSolver final : public Solver {
     explicit ProgressiveSolver(const SolverInput& input)
         : input_(checked(input)), options_(input.options.progressive), pass_(input) {
         solution_.may_find_light = input.needs.bounces;
-        solution_.error_samples = samples_of_error;
+        solution_.error_batches = samples_of_error;
         pass_.begin(rays_per_light());
         publish(pass_.estimate());
         solution_.steps = 0;
@@ -157,9 +157,9 @@ class ProgressiveSolver final : public Solver {
         const double variance = std::accumulate(of_patch.begin(), of_patch.end(), 0.0);
         solution_.variance = variance;
         solution_.unseen = missing;
-        solution_.error_parts.reset();
+        solution_.effective_freedom.reset();
         if (variance > 0)
-            solution_.error_parts = error_parts_of(of_patch, estimate.shared);
+            solution_.effective_freedom = effective_freedom_of(of_patch, estimate.shared);
     }
 
     SolverInput input_;

@@ -1,9 +1,9 @@
 #include "radiosity/solving/check_input.h"
 
 #include "radiosity/scene/mesh.h"
+#include "radiosity/solving/lossless_component.h"
 #include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/solver.h"
-#include "radiosity/solving/trapped_light.h"
 
 #include <algorithm>
 #include <array>
@@ -61,7 +61,7 @@ std::string list(const std::set<std::string>& names) {
                                : text;
 }
 
-std::string describe(const Mesh& mesh, const TrappedLight& trapped) {
+std::string describe(const Mesh& mesh, const LosslessComponent& trapped) {
     constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
     std::set<std::string> groups, materials;
     for (const std::uint32_t patch : trapped.patches) {
@@ -112,8 +112,8 @@ void check_input(const SolverInput& input) {
         return;
     input.monitor.phase = "closed?";
     const auto trapped =
-        find_trapped_light(mesh, input.tracer, input.options.seed, enough_rays(input),
-                           Workers(input.options.threads), input.monitor);
+        find_lossless_component(mesh, input.tracer, input.options.seed, enough_rays(input),
+                                Workers(input.options.threads), input.monitor);
     if (trapped)
         throw SolveError(describe(mesh, *trapped) + advice(input.needs),
                          face_of(mesh, trapped->patches.front()));

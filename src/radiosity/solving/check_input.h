@@ -12,7 +12,7 @@ struct SolverInput;
 
 /// Throws SolveError where a patch has a reflectance outside of [0,1] or an emission that is
 /// negative or not finite, where emitted powers overflow or are too small to be squared, and where
-/// light is trapped between surfaces of reflectance 1 (trapped_light.h).
+/// light is trapped between surfaces of reflectance 1 (lossless_component.h).
 void check_input(const SolverInput& input);
 
 } // namespace hemilux

@@ -23,10 +23,10 @@ double quantile_of_f(double above, double below) {
                                : std::pow(((1 - a) * (1 - b) + z * root) / below_of_ratio, 3.0);
 }
 
-/// A few samples do not tell more parts than these from any number.
-constexpr double most_parts = 16;
+/// A few batches do not tell more degrees of freedom than these from any number.
+constexpr double most_freedom = 16;
 
-double parts_by_patch(const Mesh& mesh, const Solution& solution) {
+double freedom_by_patch(const Mesh& mesh, const Solution& solution) {
     const auto variance = [&](std::size_t i) {
         const Vec3& sigma = solution.standard_error[i];
         return mesh.patches()[i].area * glm::dot(sigma, sigma);
@@ -34,32 +34,35 @@ double parts_by_patch(const Mesh& mesh, const Solution& solution) {
     std::vector<double> of_patch;
     for (std::size_t i = 0; i < solution.standard_error.size(); ++i)
         of_patch.push_back(variance(i));
-    return error_parts_of(of_patch, 0);
+    return effective_freedom_of(of_patch, 0);
 }
 
 } // namespace
 
-double ErrorSpread::uncertainty() const { return 1 / std::sqrt(2 * parts * freedom); }
+double ErrorSpread::uncertainty() const { return 1 / std::sqrt(2 * freedom * batch_freedom); }
 
-double ErrorSpread::bound() const { return std::sqrt(quantile_of_f(parts, parts * freedom)); }
+double ErrorSpread::bound() const {
+    return std::sqrt(quantile_of_f(freedom, freedom * batch_freedom));
+}
 
 double ErrorSpread::reported() const {
     constexpr double tolerance = 1.5;
-    const ErrorSpread surely{1 / (1 / parts + 1 / most_parts), freedom};
-    return std::max(1.0, surely.bound() / tolerance);
+    const ErrorSpread careful{1 / (1 / freedom + 1 / most_freedom), batch_freedom};
+    return std::max(1.0, careful.bound() / tolerance);
 }
 
 ErrorSpread error_spread(const Mesh& mesh, const Solution& solution) {
-    const double samples = solution.error_samples > 0 ? solution.error_samples : solution.steps;
-    if (!(samples > 1)) {
+    const double batches = solution.error_batches > 0 ? solution.error_batches : solution.steps;
+    if (!(batches > 1)) {
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         return {unknown, unknown};
     }
-    return {solution.error_parts ? *solution.error_parts : parts_by_patch(mesh, solution),
-            samples - 1};
+    return {solution.effective_freedom ? *solution.effective_freedom
+                                       : freedom_by_patch(mesh, solution),
+            batches - 1};
 }
 
-double error_parts_of(std::span<const double> of_patch, double shared) {
+double effective_freedom_of(std::span<const double> of_patch, double shared) {
     const double sum = std::accumulate(of_patch.begin(), of_patch.end(), 0.0);
     if (!(sum > 0))
         return std::numeric_limits<double>::infinity();
@@ -70,18 +73,19 @@ double error_parts_of(std::span<const double> of_patch, double shared) {
     return squares > 0 ? std::max(1 / squares, 1.0) : std::numeric_limits<double>::infinity();
 }
 
-double error_parts(std::span<const double> products, std::size_t samples) {
-    const double n = static_cast<double>(samples) - 1;
+double effective_freedom(std::span<const double> products, std::size_t batches) {
+    const double n = static_cast<double>(batches) - 1;
     double trace = 0, share = 0; // share: 1 / n to 1
-    for (std::size_t s = 0; s < samples; ++s)
-        trace += products[s * (samples + 1)];
+    for (std::size_t s = 0; s < batches; ++s)
+        trace += products[s * (batches + 1)];
     for (const double product : products)
         share += (product / trace) * (product / trace);
-    const double parts = (n + 1 - 2 * share) / (n * share - 1);
-    return trace > 0 && parts >= 0 ? std::max(parts, 1.0) : std::numeric_limits<double>::infinity();
+    const double freedom = (n + 1 - 2 * share) / (n * share - 1);
+    return trace > 0 && freedom >= 0 ? std::max(freedom, 1.0)
+                                     : std::numeric_limits<double>::infinity();
 }
 
-double believed_parts(std::optional<double> before, double now) {
+double believed_freedom(std::optional<double> before, double now) {
     return std::min(now, before.value_or(now));
 }
 

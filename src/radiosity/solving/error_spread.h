@@ -1,11 +1,11 @@
 #pragma once
 // How well an estimated error is known itself.
 //
-// The error of a solution consists of independent parts: thousands where each patch errs for
+// The error of a solution has effective degrees of freedom: thousands where each patch errs for
 // itself, a handful where all patches err together, as by the light of a sky that few rays found.
-// The estimate comes from the spread of a few samples. Its square, and that of the true error, are
-// sums over the parts, so both scatter by 1 / sqrt(parts): one error in a few parts may well be
-// twice what was told.
+// The estimate comes from the spread of a few independent batches. Its square, and that of the true
+// error, are sums over so many terms, so both scatter by 1 / sqrt(freedom): an error of few degrees
+// of freedom may well be twice what is estimated.
 
 #include <optional>
 #include <span>
@@ -16,8 +16,8 @@ class Mesh;
 struct Solution;
 
 struct ErrorSpread {
-    double parts = 0;   ///< of equal size, to which the error amounts; at least 1
-    double freedom = 0; ///< samples less one, of which the estimate is made
+    double freedom = 0;       ///< effective degrees of freedom of the error; at least 1
+    double batch_freedom = 0; ///< batches less one, of which the estimate is made
 
     /// Relative standard deviation of the estimated error.
     [[nodiscard]] double uncertainty() const;
@@ -25,28 +25,28 @@ struct ErrorSpread {
     /// squares has Fisher's F distribution.
     [[nodiscard]] double bound() const;
     /// What an error is multiplied with before it is reported, so that the true one is below 1.5
-    /// times the reported one in as many runs; 1 where there are more than some ten parts.
+    /// times the reported one in as many runs; 1 from some ten degrees of freedom on.
     [[nodiscard]] double reported() const;
 };
 
-/// Of the error that the solution's variance tells. Where a method does not say how many parts
-/// there are (Solution::error_parts) patches are taken to err each for itself. NaN before two
+/// Of the error that the solution's variance gives. Where a method does not report its freedom
+/// (Solution::effective_freedom) patches are taken to err each for itself. NaN before two
 /// steps.
 [[nodiscard]] ErrorSpread error_spread(const Mesh& mesh, const Solution& solution);
 
-/// Parts of an error whose variance is the sum of `of_patch`, where each patch errs for itself but
-/// for the part `shared` that all err together: by whichever gives fewer. Infinite where nothing
-/// errs.
-[[nodiscard]] double error_parts_of(std::span<const double> of_patch, double shared);
+/// Degrees of freedom of an error whose variance is the sum of `of_patch`, where each patch errs
+/// for itself but for the part `shared` that all err together: by whichever gives fewer. Infinite
+/// where nothing errs.
+[[nodiscard]] double effective_freedom_of(std::span<const double> of_patch, double shared);
 
-/// Parts from the scalar products of what each of some samples is off from their mean, all with
-/// all: row by row, `samples` squared of them. With G this matrix of n degrees of freedom and P
-/// parts, tr G^2 / (tr G)^2 is about (1 + (n + 1) / P) / (n + 2 / P) (moments of the Wishart
-/// distribution).
-[[nodiscard]] double error_parts(std::span<const double> products, std::size_t samples);
+/// Degrees of freedom from the scalar products of what each of some batches is off from their mean,
+/// all with all: row by row, `batches` squared of them. With G this matrix of n degrees of freedom
+/// and P of the error, tr G^2 / (tr G)^2 is about (1 + (n + 1) / P) / (n + 2 / P) (moments of the
+/// Wishart distribution).
+[[nodiscard]] double effective_freedom(std::span<const double> products, std::size_t batches);
 
-/// The same after a step: as few as any step before has shown, since a few samples in which a
-/// common error happens to be small show many parts.
-[[nodiscard]] double believed_parts(std::optional<double> before, double now);
+/// The same after a step: as few as any step before has shown, since a few batches in which a
+/// common error happens to be small show many.
+[[nodiscard]] double believed_freedom(std::optional<double> before, double now);
 
 } // namespace hemilux

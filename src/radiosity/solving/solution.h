@@ -51,10 +51,10 @@ struct Solution {
     /// finding none is no lack of knowledge.
     bool may_find_light = true;
     /// Independent solutions whose spread the standard errors are; 0: the steps.
-    double error_samples = 0;
-    /// Independent parts of the error (error_spread.h), where they are known better than from
-    /// standard_error, which does not tell what patches err together.
-    std::optional<double> error_parts;
+    double error_batches = 0;
+    /// Effective degrees of freedom of the error (error_spread.h), where they are known better than
+    /// from standard_error, which does not tell what patches err together.
+    std::optional<double> effective_freedom;
     EnergyBalance energy;
     /// Patches from which `gathering` traces no more rays at random, as none of those that were
     /// traced has found a path to them from an emitter.

@@ -14,7 +14,7 @@ namespace {
 class Cosine final : public Strategy {
   public:
     [[nodiscard]] bool is_same_in_all_steps() const override { return true; }
-    Dealing deal(std::uint32_t, DealtCells&) const override {
+    Allocation allocate(std::uint32_t, AllocatedCells&) const override {
         static constexpr std::uint16_t cell = whole_hemisphere;
         static constexpr float all_rays = 1;
         return {{&cell, 1}, {&all_rays, 1}};

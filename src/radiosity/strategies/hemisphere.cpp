@@ -13,9 +13,9 @@
 // Good where small objects crowd in few directions; little use where a wall hides a crowd, to
 // which it sends rays in vain. Costs at most 41 rays and bytes per patch at depth 2. With --guide
 // visible or learned rays follow what is seen instead, which the wall does not mislead
-// (seen_guide.h).
+// (visibility_guide.h).
 
-#include "radiosity/guiding/seen_guide.h"
+#include "radiosity/guiding/visibility_guide.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/scene/mesh.h"
@@ -42,19 +42,20 @@ class HemisphereStrategy final : public Strategy {
                              input.options.keep_all ? DensityStore::everything
                                                     : DensityStore::divided_only);
         else
-            deal_leaves(leaves_of_one_surface(input.options.threshold), dealt_of_one_surface_);
+            allocate_leaves(leaves_of_one_surface(input.options.threshold),
+                            allocated_of_one_surface_);
         const std::size_t cells = hemisphere.cells().size() * input.mesh.patches().size();
         if (density_ && cells <= most_kept_cells && !input.monitor.interrupted)
-            keep_dealt(input, workers);
+            keep_allocated(input, workers);
     }
 
     [[nodiscard]] bool is_same_in_all_steps() const override { return true; }
-    Dealing deal(std::uint32_t patch, DealtCells& memory) const override {
+    Allocation allocate(std::uint32_t patch, AllocatedCells& memory) const override {
         if (!density_)
-            return dealt_of_one_surface_.view();
+            return allocated_of_one_surface_.view();
         if (!kept_.empty())
             return kept(patch);
-        deal_densities(patch, memory);
+        allocate_densities(patch, memory);
         return memory.view();
     }
 
@@ -69,42 +70,43 @@ class HemisphereStrategy final : public Strategy {
     }
 
   private:
-    /// In a small scene what is dealt is kept, 384 bytes a patch: patches shoot few rays at a time,
-    /// and walking their trees each time takes a tenth of the run. Large scenes need but the bytes.
+    /// In a small scene what is allocated is kept, 384 bytes a patch: patches shoot few rays at a
+    /// time, and walking their trees each time takes a tenth of the run. Large scenes need but the
+    /// bytes.
     static constexpr std::size_t most_kept_cells = 2'000'000;
 
-    void keep_dealt(const SolverInput& input, const Workers& workers) {
+    void keep_allocated(const SolverInput& input, const Workers& workers) {
         most_leaves_ = std::size_t{4} << (2 * hemisphere_.depth());
         kept_.resize(input.mesh.patches().size());
         kept_cells_.resize(kept_.size() * most_leaves_);
         kept_rays_.resize(kept_.size() * most_leaves_);
         workers.for_chunks(kept_.size(), 64, [&](std::size_t begin, std::size_t end) {
-            DealtCells dealt;
+            AllocatedCells allocated;
             for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
                 if (!input.needs.power(i))
                     continue;
-                deal_densities(i, dealt);
-                kept_[i] = static_cast<std::uint16_t>(dealt.cells.size());
+                allocate_densities(i, allocated);
+                kept_[i] = static_cast<std::uint16_t>(allocated.cells.size());
                 const auto place = static_cast<std::ptrdiff_t>(i * most_leaves_);
-                std::ranges::copy(dealt.cells, kept_cells_.begin() + place);
-                std::ranges::copy(dealt.rays_up_to, kept_rays_.begin() + place);
+                std::ranges::copy(allocated.cells, kept_cells_.begin() + place);
+                std::ranges::copy(allocated.rays_up_to, kept_rays_.begin() + place);
             }
         });
         whole_tree_ =
             static_cast<std::size_t>(std::ranges::find(kept_, most_leaves_) - kept_.begin());
     }
 
-    [[nodiscard]] Dealing kept(std::uint32_t patch) const {
+    [[nodiscard]] Allocation kept(std::uint32_t patch) const {
         // Whole trees have the same cells: one row of them, which stays in the caches.
         const std::size_t leaves = kept_[patch], row = leaves == most_leaves_ ? whole_tree_ : patch;
         return {std::span(kept_cells_).subspan(row * most_leaves_, leaves),
                 std::span(kept_rays_).subspan(patch * most_leaves_, leaves)};
     }
 
-    void deal_densities(std::uint32_t patch, DealtCells& dealt) const {
+    void allocate_densities(std::uint32_t patch, AllocatedCells& allocated) const {
         thread_local std::vector<DensityLeaf> leaves;
         density_->leaves(patch, leaves);
-        deal_leaves(leaves, dealt);
+        allocate_leaves(leaves, allocated);
     }
 
     /// What a patch of a convex enclosure would count: one surface in each direction.
@@ -117,7 +119,7 @@ class HemisphereStrategy final : public Strategy {
         return leaves;
     }
 
-    void deal_leaves(const std::vector<DensityLeaf>& leaves, DealtCells& dealt) const {
+    void allocate_leaves(const std::vector<DensityLeaf>& leaves, AllocatedCells& allocated) const {
         double average = 0; // D_average
         for (const DensityLeaf& leaf : leaves)
             average += area_shares_[leaf.cell] * leaf.density;
@@ -129,9 +131,9 @@ class HemisphereStrategy final : public Strategy {
         double sum = 0;
         for (const DensityLeaf& leaf : leaves)
             sum += due(leaf);
-        dealt.clear();
+        allocated.clear();
         for (const DensityLeaf& leaf : leaves) // literal, and nothing was seen: no ray, as printed
-            dealt.add(leaf.cell, sum > 0 ? due(leaf) / sum : 0);
+            allocated.add(leaf.cell, sum > 0 ? due(leaf) / sum : 0);
     }
 
     /// A triangle whose three vertices saw nothing may still hold something: it counts as one
@@ -143,7 +145,7 @@ class HemisphereStrategy final : public Strategy {
     bool literal_;
     std::vector<double> area_shares_; ///< by cell
     std::optional<DensityMap> density_;
-    DealtCells dealt_of_one_surface_; ///< of all patches, where there is no density_
+    AllocatedCells allocated_of_one_surface_; ///< of all patches, where there is no density_
     // In small scenes: by patch, how many leaves it has, and a row of them.
     std::size_t most_leaves_ = 0, whole_tree_ = 0; ///< a patch that has all leaves
     std::vector<std::uint16_t> kept_, kept_cells_;
@@ -154,7 +156,7 @@ std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisp
                                           const Workers& workers) {
     const Guide guide = input.options.literal ? Guide::density : input.options.guide;
     if (guide != Guide::density && input.needs.densities)
-        return make_seen_guide(input, hemisphere, workers, guide == Guide::learned);
+        return make_visibility_guide(input, hemisphere, workers, guide == Guide::learned);
     return std::make_unique<HemisphereStrategy>(input, hemisphere, workers);
 }
 

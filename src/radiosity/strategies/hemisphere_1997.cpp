@@ -11,8 +11,9 @@
 //
 // By default the area of a triangle is its projected solid angle, so that Lambert's law holds
 // (docs/decisions.md, D1), rays start anywhere on the sub-patch (D2), and where there are fewer
-// rays than triangles they are dealt by systematic sampling (D4). With --literal the area is the
-// solid angle, rays start at the centre of the sub-patch, and each triangle gets one ray at least.
+// rays than triangles they are allocated by systematic sampling (D4). With --literal the area is
+// the solid angle, rays start at the centre of the sub-patch, and each triangle gets one ray at
+// least.
 //
 // Counting rays are shot before the first step and carry no energy. --depth and --threshold are not
 // used: n and m stand below.
@@ -84,8 +85,8 @@ class Hemisphere1997 final : public Strategy {
 
     void begin_step(std::uint64_t step) override {
         if (step >= guided_steps) {
-            dealt_.clear();
-            dealt_.add(whole_hemisphere, 1);
+            allocated_.clear();
+            allocated_.add(whole_hemisphere, 1);
             return;
         }
         level_ = static_cast<int>(step) + 1;
@@ -93,12 +94,12 @@ class Hemisphere1997 final : public Strategy {
         double share = 1 / static_cast<double>(cells);
         if (options_.literal)
             share = std::max(std::round(options_.rays * share), 1.0) / options_.rays;
-        dealt_.clear();
+        allocated_.clear();
         for (std::size_t cell = 0; cell < cells; ++cell)
-            dealt_.add(static_cast<std::uint16_t>(cell), share);
+            allocated_.add(static_cast<std::uint16_t>(cell), share);
     }
 
-    Dealing deal(std::uint32_t, DealtCells&) const override { return dealt_.view(); }
+    Allocation allocate(std::uint32_t, AllocatedCells&) const override { return allocated_.view(); }
 
     [[nodiscard]] bool has_private_cells() const override { return true; }
     [[nodiscard]] std::optional<PrivateCell> private_cell(std::uint32_t patch,
@@ -195,8 +196,8 @@ class Hemisphere1997 final : public Strategy {
     // By patch, sub-patch and vertex of the topology, in the patch's own frame.
     std::vector<std::array<float, 3>> direction_;
     std::vector<std::uint8_t> count_;
-    int level_ = 1;    ///< of the present step's triangles
-    DealtCells dealt_; ///< the same for all patches
+    int level_ = 1;            ///< of the present step's triangles
+    AllocatedCells allocated_; ///< the same for all patches
 };
 
 std::unique_ptr<Strategy> make_hemisphere_1997(const SolverInput& input, const Hemisphere&,

@@ -15,14 +15,14 @@ class Stratified final : public Strategy {
         for (std::size_t c = Hemisphere::cells_up_to(hemisphere.depth() - 1); c < cells.size();
              ++c) {
             const auto cell = static_cast<std::uint16_t>(c);
-            dealt_.add(cell, power_share(hemisphere, cell, false));
+            allocated_.add(cell, power_share(hemisphere, cell, false));
         }
     }
     [[nodiscard]] bool is_same_in_all_steps() const override { return true; }
-    Dealing deal(std::uint32_t, DealtCells&) const override { return dealt_.view(); }
+    Allocation allocate(std::uint32_t, AllocatedCells&) const override { return allocated_.view(); }
 
   private:
-    DealtCells dealt_;
+    AllocatedCells allocated_;
 };
 
 std::unique_ptr<Strategy> make_stratified(const SolverInput&, const Hemisphere& hemisphere,

@@ -8,7 +8,7 @@ inline constexpr float slab_slack = 1 + 0x1p-20f;
 
 /// The ray as the box tests take it: a plane p is met at p * inverse + offset.
 struct SlabRay {
-    using Byte = unsigned char; // so that a walker's head fits a line of the cache
+    using Byte = unsigned char; // so that a state's head fits a line of the cache
 
     float inverse[3], offset[3];
     Byte octant, near[3], far[3]; ///< where in a node the planes lie that are met first and last
@@ -66,35 +66,35 @@ inline V3 load3(const float (&p)[3][width]) {
 struct LeafTest {
     V3 a, e1, e2;
     F8 e;
-    Sifted sifted;
+    EdgeFunctions edges;
 
     LeafTest(const Leaf& leaf, const FloatRay& ray)
         : a(load3(leaf.corner) - V3::splat(ray.origin)), e1(load3(leaf.edge1)),
-          e2(load3(leaf.edge2)), e(max(max_abs(e1), max_abs(e2))), sifted(sift(ray)) {}
+          e2(load3(leaf.edge2)), e(max(max_abs(e1), max_abs(e2))), edges(edge_functions(ray)) {}
 
-    [[nodiscard]] Interval interval() const { return {sifted, dot(a, cross(e1, e2)), e}; }
+    [[nodiscard]] Interval interval() const { return {edges, dot(a, cross(e1, e2)), e}; }
 
   private:
-    [[nodiscard]] Sifted sift(const FloatRay& ray) const {
+    [[nodiscard]] EdgeFunctions edge_functions(const FloatRay& ray) const {
         const V3 d = V3::splat(ray.direction);
         const V3 q = cross(a, d); // U = e2.(A x d), W = -e1.(A x d)
         return {dot(e2, q), F8::splat(0) - dot(e1, q), dot(d, cross(e1, e2)), error_bound(a, e)};
     }
 };
 
-/// The slots of a leaf that a ray strikes before it ends: surely, or perhaps. Its end is known to
-/// lie between `low` and `high`.
-struct Verdict {
-    Bits sure, unsure;
+/// The slots of a leaf that a ray strikes before it ends: certainly, or perhaps. Its end is known
+/// to lie between `low` and `high`.
+struct HitMask {
+    Bits certain, uncertain;
 
-    Verdict(const Leaf& leaf, const Sifted& sifted, const Interval& t, const FloatRay& ray,
+    HitMask(const Leaf& leaf, const EdgeFunctions& edges, const Interval& t, const FloatRay& ray,
             float low, float high) {
         const Bits out =
             t.known & (less(F8::splat(high), t.low) | less(t.high, F8::splat(ray.t_min_low)));
-        const Bits maybe = sifted.maybe() & ~out & ~equal(leaf.slot, flag, ray.from);
-        sure = maybe & t.known & sifted.inside() & less(F8::splat(ray.t_min_high), t.low) &
-               less(t.high, F8::splat(low));
-        unsure = maybe & ~sure;
+        const Bits maybe = edges.may_hit() & ~out & ~equal(leaf.slot, flag, ray.from);
+        certain = maybe & t.known & edges.inside() & less(F8::splat(ray.t_min_high), t.low) &
+                  less(t.high, F8::splat(low));
+        uncertain = maybe & ~certain;
     }
 };
 
@@ -104,8 +104,9 @@ struct Candidates {
     alignas(64) std::uint32_t slot[2 * width];
     Bits front;
 
-    Candidates(const Leaf& leaf, const Sifted& sifted, const Interval& t, const Nearest& otherwise)
-        : front(sifted.front() | otherwise.front << width) {
+    Candidates(const Leaf& leaf, const EdgeFunctions& edges, const Interval& t,
+               const Nearest& otherwise)
+        : front(edges.front() | otherwise.front << width) {
         t.low.store(low);
         t.high.store(high);
         __builtin_memcpy(slot, leaf.slot, sizeof leaf.slot);
@@ -119,61 +120,61 @@ struct Candidates {
 };
 
 /// The slots of a leaf against the nearest so far, one after the other.
-inline void consider(const Verdict& verdict, const Candidates& candidates, Bits known,
-                     unsigned index, Nearest& nearest, const Judge& judge) {
-    for (Bits left = verdict.sure | verdict.unsure; left; left &= left - 1) {
+inline void consider(const HitMask& mask, const Candidates& candidates, Bits known, unsigned index,
+                     Nearest& nearest, const ExactTest& exact) {
+    for (Bits left = mask.certain | mask.uncertain; left; left &= left - 1) {
         const unsigned k = first_of(left);
         const Nearest at = candidates[k];
         if ((known >> k & 1) != 0 && at.low > nearest.high)
             continue;
-        if ((verdict.sure >> k & 1) != 0 && at.high < nearest.low)
+        if ((mask.certain >> k & 1) != 0 && at.high < nearest.low)
             nearest = at;
         else if (nearest.slot == no_facet || ((at.slot ^ nearest.slot) & ~flag) != 0)
-            judge.closer(judge.query, index, at.slot, nearest);
+            exact.closer(exact.query, index, at.slot, nearest);
     }
 }
 
-/// A leaf against the nearest so far. Nearly always one slot is nearer or none, and surely so: that
-/// is seen to without a branch, which the processor could not foresee.
+/// A leaf against the nearest so far. Nearly always one slot is nearer or none, and certainly so:
+/// that is seen to without a branch, which the processor could not foresee.
 [[gnu::always_inline]] inline void closest_in(const Leaf& leaf, const FloatRay& ray, unsigned index,
-                                              Nearest& nearest, const Judge& judge) {
+                                              Nearest& nearest, const ExactTest& exact) {
     const LeafTest test(leaf, ray);
     const Interval t = test.interval();
-    const Verdict verdict(leaf, test.sifted, t, ray, nearest.low, nearest.high);
-    const Candidates candidates(leaf, test.sifted, t, nearest);
-    if (verdict.unsure | (verdict.sure & (verdict.sure - 1))) [[unlikely]]
-        consider(verdict, candidates, t.known, index, nearest, judge);
+    const HitMask mask(leaf, test.edges, t, ray, nearest.low, nearest.high);
+    const Candidates candidates(leaf, test.edges, t, nearest);
+    if (mask.uncertain | (mask.certain & (mask.certain - 1))) [[unlikely]]
+        consider(mask, candidates, t.known, index, nearest, exact);
     else
-        nearest = candidates[first_of(verdict.sure | Bits{1} << width)];
+        nearest = candidates[first_of(mask.certain | Bits{1} << width)];
 }
 
 inline void closest(const Tree& tree, const FloatRay& ray, unsigned index, Nearest& nearest,
-                    const Judge& judge) {
+                    const ExactTest& exact) {
     walk<Rays::stop>(tree, ray, nearest.high, [&](const Leaf& leaf) {
-        closest_in(leaf, ray, index, nearest, judge);
+        closest_in(leaf, ray, index, nearest, exact);
         return false;
     });
 }
 
 /// Whether anything in a leaf but `target` is struck before t.
 inline bool blocks(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low, float t_high,
-                   std::uint32_t target, const Judge& judge) {
+                   std::uint32_t target, const ExactTest& exact) {
     const LeafTest test(leaf, ray);
-    const Verdict verdict(leaf, test.sifted, test.interval(), ray, t_low, t_high);
+    const HitMask mask(leaf, test.edges, test.interval(), ray, t_low, t_high);
     const Bits others = ~equal(leaf.slot, flag, target);
-    if (verdict.sure & others)
+    if (mask.certain & others)
         return true;
-    for (Bits left = verdict.unsure & others; left; left &= left - 1)
-        if (judge.struck(judge.query, index, leaf.slot[first_of(left)]))
+    for (Bits left = mask.uncertain & others; left; left &= left - 1)
+        if (exact.hits(exact.query, index, leaf.slot[first_of(left)]))
             return true;
     return false;
 }
 
 inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
-                     float t_high, std::uint32_t target, const Judge& judge) {
+                     float t_high, std::uint32_t target, const ExactTest& exact) {
     bool blocked = false;
     walk<Rays::pierce>(tree, ray, t_high, [&](const Leaf& leaf) {
-        blocked = blocks(leaf, ray, index, t_low, t_high, target, judge);
+        blocked = blocks(leaf, ray, index, t_low, t_high, target, exact);
         return blocked;
     });
     return blocked;
@@ -181,20 +182,20 @@ inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, floa
 
 /// How many facets of a leaf are pierced.
 inline std::uint32_t count_in(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low,
-                              float t_high, const Judge& judge) {
+                              float t_high, const ExactTest& exact) {
     const LeafTest test(leaf, ray);
-    const Verdict verdict(leaf, test.sifted, test.interval(), ray, t_low, t_high);
-    std::uint32_t pierced = count_bits(verdict.sure);
-    for (Bits left = verdict.unsure; left; left &= left - 1)
-        pierced += judge.counts(judge.query, index, leaf.slot[first_of(left)]);
+    const HitMask mask(leaf, test.edges, test.interval(), ray, t_low, t_high);
+    std::uint32_t pierced = count_bits(mask.certain);
+    for (Bits left = mask.uncertain; left; left &= left - 1)
+        pierced += exact.counts(exact.query, index, leaf.slot[first_of(left)]);
     return pierced;
 }
 
 inline std::uint32_t count(const Tree& tree, const FloatRay& ray, unsigned index, float t_low,
-                           float t_high, const Judge& judge) {
+                           float t_high, const ExactTest& exact) {
     std::uint32_t pierced = 0;
     walk<Rays::pierce>(tree, ray, t_high, [&](const Leaf& leaf) {
-        pierced += count_in(leaf, ray, index, t_low, t_high, judge);
+        pierced += count_in(leaf, ray, index, t_low, t_high, exact);
         return false;
     });
     return pierced;

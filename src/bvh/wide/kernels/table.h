@@ -3,13 +3,13 @@
 
 #include "bvh/wide/kernels/simd.h"
 
-#include "bvh/wide/kernels/sieve.h"
+#include "bvh/wide/kernels/conservative_test.h"
 
 #include "bvh/wide/kernels/stack.h"
 
 #include "bvh/wide/kernels/single.h"
 
-#include "bvh/wide/kernels/wave.h"
+#include "bvh/wide/kernels/interleaved.h"
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 

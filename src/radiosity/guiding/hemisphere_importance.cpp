@@ -1,4 +1,4 @@
-#include "radiosity/guiding/seen_worth.h"
+#include "radiosity/guiding/hemisphere_importance.h"
 
 #include "radiosity/rays/shot.h"
 #include "radiosity/saving/state.h"
@@ -16,28 +16,28 @@ namespace {
 /// a room of reflectance .99 lost some hundredths outside of its details.
 constexpr double weight_of_energy = 2;
 
-/// How many hits the worth of the parent counts for.
+/// How many hits the importance of the parent counts for.
 constexpr double hits_of_parent = 4;
 
 } // namespace
 
-SeenWorth::SeenWorth(const Hemisphere& hemisphere, std::size_t patches)
+HemisphereImportance::HemisphereImportance(const Hemisphere& hemisphere, std::size_t patches)
     : hemisphere_(hemisphere), first_leaf_(Hemisphere::cells_up_to(hemisphere.depth() - 1)),
       leaves_(hemisphere.cells().size() - first_leaf_), known_(patches * leaves_),
-      news_(known_.size()) {
+      pending_(known_.size()) {
     for (const Hemisphere::Cell& cell : hemisphere.cells())
         shares_.push_back(cell.projected_solid_angle / std::numbers::pi);
 }
 
-void SeenWorth::settle(double factor) {
+void HemisphereImportance::commit(double factor) {
     for (std::size_t k = 0; k < known_.size(); ++k)
-        known_[k] += {news_[k].sum * static_cast<float>(factor), news_[k].hits};
-    drop_news();
+        known_[k] += {pending_[k].sum * static_cast<float>(factor), pending_[k].hits};
+    drop_pending();
 }
 
-void SeenWorth::drop_news() { std::ranges::fill(news_, Known{}); }
+void HemisphereImportance::drop_pending() { std::ranges::fill(pending_, Known{}); }
 
-double SeenWorth::sum_of(std::uint32_t patch) const {
+double HemisphereImportance::sum_of(std::uint32_t patch) const {
     double sum = 0;
     for (std::size_t t = 0; t < leaves_; ++t)
         sum += static_cast<double>(known_[patch * leaves_ + t].sum);
@@ -45,7 +45,7 @@ double SeenWorth::sum_of(std::uint32_t patch) const {
 }
 
 /// From the leaves to the roots.
-void SeenWorth::collect(std::uint32_t patch, std::vector<Known>& tree) const {
+void HemisphereImportance::collect(std::uint32_t patch, std::vector<Known>& tree) const {
     const auto& cells = hemisphere_.cells();
     tree.assign(cells.size(), {});
     for (std::size_t t = 0; t < leaves_; ++t)
@@ -55,8 +55,8 @@ void SeenWorth::collect(std::uint32_t patch, std::vector<Known>& tree) const {
             tree[c] += tree[child];
 }
 
-void SeenWorth::estimate(std::uint32_t patch, double scale, double usual,
-                         std::span<double> worth) const {
+void HemisphereImportance::estimate(std::uint32_t patch, double scale, double prior_mean,
+                                    std::span<double> importance) const {
     thread_local std::vector<Known> tree; // by cell
     thread_local std::vector<double> mean;
     collect(patch, tree);
@@ -68,7 +68,7 @@ void SeenWorth::estimate(std::uint32_t patch, double scale, double usual,
     Known whole;
     for (std::size_t root = 0; root < 4; ++root)
         whole += tree[root];
-    const double of_patch = estimate_of(whole, 1, usual);
+    const double of_patch = estimate_of(whole, 1, prior_mean);
     for (std::size_t root = 0; root < 4; ++root)
         mean[root] = estimate_of(tree[root], shares_[root], of_patch);
     for (std::size_t c = 0; c < first_leaf_; ++c) {
@@ -76,17 +76,18 @@ void SeenWorth::estimate(std::uint32_t patch, double scale, double usual,
         for (std::size_t child = first; child < first + 4; ++child)
             mean[child] = estimate_of(tree[child], shares_[child], mean[c]);
     }
-    std::copy(mean.begin() + static_cast<std::ptrdiff_t>(first_leaf_), mean.end(), worth.begin());
+    std::copy(mean.begin() + static_cast<std::ptrdiff_t>(first_leaf_), mean.end(),
+              importance.begin());
 }
 
-void SeenWorth::save(StateWriter& state) const {
+void HemisphereImportance::save(StateWriter& state) const {
     state.add(std::uint64_t{known_.size()});
     for (const Known& known : known_)
         state.add(std::uint64_t{std::bit_cast<std::uint32_t>(known.sum)} << 32 |
                   std::bit_cast<std::uint32_t>(known.hits));
 }
 
-void SeenWorth::load(StateReader& state) {
+void HemisphereImportance::load(StateReader& state) {
     if (state.whole() != known_.size())
         throw StateError("the number of triangles is not that of the patches");
     for (Known& known : known_) {
@@ -99,7 +100,7 @@ void SeenWorth::load(StateReader& state) {
     }
 }
 
-double worth_of_energy(const Mesh& mesh, std::span<const Vec3> radiosity) {
+double importance_of_energy(const Mesh& mesh, std::span<const Vec3> radiosity) {
     double shot = 0, reflected = 0, emitted = 0;
     for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
         const double area = mesh.patches()[i].area;

@@ -12,13 +12,13 @@
 namespace hemilux::bench {
 
 /// CPU seconds of each.
-[[nodiscard]] inline std::vector<double> contest(const std::vector<std::function<void()>>& entrants,
-                                                 int rounds) {
-    std::vector<double> fastest(entrants.size(), std::numeric_limits<double>::infinity());
+[[nodiscard]] inline std::vector<double>
+fastest_of_rounds(const std::vector<std::function<void()>>& variants, int rounds) {
+    std::vector<double> fastest(variants.size(), std::numeric_limits<double>::infinity());
     for (int r = 0; r < rounds; ++r)
-        for (std::size_t e = 0; e < entrants.size(); ++e) {
+        for (std::size_t e = 0; e < variants.size(); ++e) {
             const double start = cpu_seconds();
-            entrants[e]();
+            variants[e]();
             fastest[e] = std::min(fastest[e], cpu_seconds() - start);
         }
     return fastest;

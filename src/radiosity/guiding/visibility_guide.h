@@ -2,7 +2,7 @@
 // The hemisphere guided by what is seen instead of how many surfaces are pierced.
 //
 // A ray of power w that strikes patch j adds (rho_j w)^2 / A_j to the area-weighted variance of the
-// solution. So the worth of a triangle t of patch i is
+// solution. So the importance of a triangle t of patch i is
 //
 //     V_it = 1/p_t sum_j F_ij,t rho_j^2 / A_j,
 //
@@ -18,7 +18,7 @@
 //
 // *Spread.* What few hits say of a triangle is noise. Each triangle counts for what its own hits
 // say, and as some hits more for what its parent says: children whose parent's hits do not show a
-// spread share its worth.
+// spread share its importance.
 //
 // Each triangle keeps sqrt(V) in one byte, as a logarithm. No triangle gets less than a part of its
 // share by power, so none starves and no ray carries more than 1 / lowest_density of the mean.
@@ -35,8 +35,8 @@ class Workers;
 inline constexpr double lowest_density = .2;
 
 /// A few rays from each patch before the first step; with `learn` also all rays of the steps.
-[[nodiscard]] std::unique_ptr<Strategy> make_seen_guide(const SolverInput& input,
-                                                        const Hemisphere& hemisphere,
-                                                        const Workers& workers, bool learn);
+[[nodiscard]] std::unique_ptr<Strategy> make_visibility_guide(const SolverInput& input,
+                                                              const Hemisphere& hemisphere,
+                                                              const Workers& workers, bool learn);
 
 } // namespace hemilux

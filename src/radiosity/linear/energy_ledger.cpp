@@ -1,4 +1,4 @@
-#include "radiosity/linear/energy_closing.h"
+#include "radiosity/linear/energy_ledger.h"
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/scene/mesh.h"
@@ -20,7 +20,7 @@ using Sum = CompensatedSum<Vec3>;
 struct Ledger {
     Sum sent, escaped, left_behind; ///< left_behind: fell on backs of faces
 
-    void add(const Vec3& power, const LostShare& lost) {
+    void add(const Vec3& power, const EscapeFraction& lost) {
         sent += power;
         escaped += lost.escaped * power;
         left_behind += lost.absorbed * power;
@@ -28,7 +28,7 @@ struct Ledger {
     [[nodiscard]] double lost(int c) const { return escaped.value()[c] + left_behind.value()[c]; }
 };
 
-double lost_in_all(const LostShare& lost) { return lost.escaped + lost.absorbed; }
+double lost_in_all(const EscapeFraction& lost) { return lost.escaped + lost.absorbed; }
 
 /// Of a share of which `count` of `rays` were counted, before which all shares were alike: that of
 /// the Beta distribution with count + 1 and rays - count + 1.

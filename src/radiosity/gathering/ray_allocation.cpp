@@ -1,4 +1,4 @@
-#include "radiosity/gathering/ray_deal.h"
+#include "radiosity/gathering/ray_allocation.h"
 
 #include "radiosity/sampling/rng.h"
 
@@ -13,7 +13,7 @@ namespace {
 constexpr double least_share = 1.0 / 8, most_share = 8;
 
 /// The power of two nearest to a number, in logarithms: the whole part of log2(sqrt(2) rays), which
-/// is an exponent's bits. Dealing asks for it ten times a patch.
+/// is an exponent's bits. The allocation asks for it ten times a patch.
 std::uint32_t power_of_two(double rays) {
     constexpr std::uint64_t mantissa_bits = 52, bias = 1023;
     const auto bits = std::bit_cast<std::uint64_t>(std::numbers::sqrt2 * std::max(rays, 1.0));
@@ -43,8 +43,8 @@ struct Open {
 
 } // namespace
 
-std::vector<std::uint32_t> deal_rays(std::span<const double> given, double mean,
-                                     std::span<const std::uint32_t> already) {
+std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double mean,
+                                         std::span<const std::uint32_t> already) {
     const double largest = given.empty() ? 0 : *std::ranges::max_element(given);
     std::vector<std::uint32_t> rays(given.size());
     if (!(largest > 0))
@@ -55,8 +55,8 @@ std::vector<std::uint32_t> deal_rays(std::span<const double> given, double mean,
             std::clamp(per_weight * weights[i], least_share * mean, most_share * mean);
         return std::max(power_of_two(share), already[i]);
     };
-    // The number of rays per weight that deals out what there is, by bisection of its logarithm.
-    // A patch that gets as many at one end as at the other needs no more asking.
+    // The number of rays per weight that allocates what there is, by bisection of its
+    // logarithm. A patch that gets as many at one end as at the other needs no more asking.
     double low = std::log(least_share * mean), high = low + 80;
     std::vector<Open> open;
     for (std::uint32_t i = 0; i < weights.size(); ++i)

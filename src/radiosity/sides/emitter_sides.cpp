@@ -1,4 +1,4 @@
-#include "radiosity/sides/lamp_sides.h"
+#include "radiosity/sides/emitter_sides.h"
 
 #include "radiosity/sides/light_paths.h"
 
@@ -43,21 +43,21 @@ class Lamp {
             }
     }
 
-    [[nodiscard]] std::optional<LampSide> side() const {
+    [[nodiscard]] std::optional<EmitterSide> side() const {
         const Shell& shell = shells_.all[shell_];
         View front = look(false, false), back = look(true, false);
         if (shell.closed && std::max(front.others, back.others) < nothing)
-            return LampSide{shell.outwards > 0, true};
+            return EmitterSide{shell.outwards > 0, true};
         const double ahead = front.median(), behind = back.median();
         // How near a side must be so that it is a wall at once.
         const double reach =
             shell.closed ? std::numeric_limits<double>::infinity() : std::sqrt(area_);
         if (const auto only = only_one(front, back))
-            return LampSide{*only, (*only ? behind : ahead) > touching * reach || shell.closed};
+            return EmitterSide{*only, (*only ? behind : ahead) > touching * reach || shell.closed};
         const double nearer = std::min(ahead, behind);
         if (!(nearer < much_nearer * std::max(ahead, behind)) || !(nearer < near * reach))
             return std::nullopt;
-        return LampSide{ahead < behind, shell.closed || nearer < touching * reach};
+        return EmitterSide{ahead < behind, shell.closed || nearer < touching * reach};
     }
 
   private:
@@ -110,9 +110,9 @@ class Lamp {
 
 } // namespace
 
-std::optional<LampSide> find_lamp_side(const Mesh& mesh, const Tracer& tracer,
-                                       const Targets& targets, const Shells& shells,
-                                       std::uint32_t shell) {
+std::optional<EmitterSide> find_emitter_side(const Mesh& mesh, const Tracer& tracer,
+                                             const Targets& targets, const Shells& shells,
+                                             std::uint32_t shell) {
     return Lamp(mesh, tracer, targets, shells, shell).side();
 }
 

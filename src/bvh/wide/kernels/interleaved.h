@@ -1,14 +1,14 @@
 // Many independent rays in turn, a step of each: while one waits for memory or for a chain of
 // operations, the others go on. Steps through nodes and through leaves are done in turns, and what
 // follows from them in loops of its own: so the processor can foresee the branches, and finds many
-// walkers within its window. No #pragma once: see simd.h.
+// states within its window. No #pragma once: see simd.h.
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-inline constexpr unsigned wave_size = 48;
+inline constexpr unsigned rays_in_flight = 48;
 
 /// A ray on its way.
-struct alignas(64) Walker {
+struct alignas(64) RayState {
     SlabRay slabs;
     const FloatRay* ray;
     std::uint32_t index; ///< of the ray in the stream
@@ -39,12 +39,12 @@ inline const char* place_of(const Tree& tree, std::uint32_t child) {
     return base[is_leaf] + size[is_leaf] * (child & ~flag);
 }
 
-/// Walkers by what they do next.
+/// Ray states by what they do next.
 struct Queue {
-    Walker* walker[wave_size];
+    RayState* state[rays_in_flight];
     unsigned size = 0;
-    void add_if(bool is_mine, Walker* w) {
-        walker[size] = w;
+    void add_if(bool is_mine, RayState* w) {
+        state[size] = w;
         size += is_mine;
     }
     /// Empties the queue; returns how many it held. They may still be read one after the other
@@ -56,13 +56,13 @@ struct Queue {
     }
 };
 
-/// All walkers, by what they do next.
+/// All states, by what they do next.
 struct Queues {
     const Tree& tree;
     Queue nodes, leaves, idle;
 
-    void add(Walker& walker) {
-        const std::uint32_t next = walker.next;
+    void add(RayState& state) {
+        const std::uint32_t next = state.next;
         const bool node = (next & flag) == 0, done = next == no_facet;
         if (tree.large) {
             const char* place = place_of(tree, done ? tree.root : next);
@@ -70,49 +70,49 @@ struct Queues {
                 __builtin_prefetch(place + line);
             __builtin_prefetch(place + (node ? 0 : sizeof(Leaf) - 64));
         }
-        nodes.add_if(node, &walker);
-        leaves.add_if(!node && !done, &walker);
-        idle.add_if(done, &walker);
+        nodes.add_if(node, &state);
+        leaves.add_if(!node && !done, &state);
+        idle.add_if(done, &state);
     }
 };
 
-/// Sends rays through the tree. begin(walker) makes it the next ray and returns false when there is
-/// none; on_leaf(walker, leaf) may shrink walker.t_max and returns true when the ray is done.
+/// Sends rays through the tree. begin(state) makes it the next ray and returns false when there is
+/// none; on_leaf(state, leaf) may shrink state.t_max and returns true when the ray is done.
 template <Rays rays, class Begin, class OnLeaf>
-inline void wave(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
-    Walker walkers[wave_size];
+inline void traverse_interleaved(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
+    RayState states[rays_in_flight];
     Queues queues{tree, {}, {}, {}};
-    for (Walker& walker : walkers)
-        queues.idle.add_if(true, &walker);
+    for (RayState& state : states)
+        queues.idle.add_if(true, &state);
     for (;;) {
         const unsigned idle = queues.idle.empty();
         for (unsigned i = 0; i < idle; ++i)
-            if (Walker& walker = *queues.idle.walker[i]; begin(walker))
-                queues.add(walker);
+            if (RayState& state = *queues.idle.state[i]; begin(state))
+                queues.add(state);
         if (queues.nodes.size + queues.leaves.size == 0)
             return;
         for (unsigned i = 0; i < queues.nodes.size; ++i) {
-            Walker& walker = *queues.nodes.walker[i];
-            visit_node<rays>(tree.nodes[walker.next], walker.slabs, walker.t_max, walker.stack);
+            RayState& state = *queues.nodes.state[i];
+            visit_node<rays>(tree.nodes[state.next], state.slabs, state.t_max, state.stack);
         }
         const unsigned at_nodes = queues.nodes.empty();
         for (unsigned i = 0; i < at_nodes; ++i) {
-            Walker& walker = *queues.nodes.walker[i];
-            walker.next = walker.stack.pop();
-            queues.add(walker);
+            RayState& state = *queues.nodes.state[i];
+            state.next = state.stack.pop();
+            queues.add(state);
         }
         if (queues.nodes.size > queues.leaves.size)
             continue;
         for (unsigned i = 0; i < queues.leaves.size; ++i) {
-            Walker& walker = *queues.leaves.walker[i];
-            if (on_leaf(walker, tree.leaves[walker.next & ~flag]))
-                walker.stack.clear();
+            RayState& state = *queues.leaves.state[i];
+            if (on_leaf(state, tree.leaves[state.next & ~flag]))
+                state.stack.clear();
         }
         const unsigned at_leaves = queues.leaves.empty();
         for (unsigned i = 0; i < at_leaves; ++i) {
-            Walker& walker = *queues.leaves.walker[i];
-            walker.pop_before_end<rays>();
-            queues.add(walker);
+            RayState& state = *queues.leaves.state[i];
+            state.pop_before_end<rays>();
+            queues.add(state);
         }
     }
 }
@@ -125,38 +125,40 @@ struct FromArray {
     std::uint32_t root;
     unsigned& started;
 
-    bool operator()(Walker& walker) const {
+    bool operator()(RayState& state) const {
         if (started == count)
             return false;
-        walker.take(rays[started], started, nearest[started].high, root);
+        state.take(rays[started], started, nearest[started].high, root);
         ++started;
         return true;
     }
 };
 
 inline void closest_stream(const Tree& tree, const FloatRay* rays, unsigned count, Nearest* nearest,
-                           const Judge& judge) {
+                           const ExactTest& exact) {
     unsigned started = 0;
-    wave<Rays::stop>(tree, FromArray{rays, count, nearest, tree.root, started},
-                     [&](Walker& walker, const Leaf& leaf) {
-                         closest_in(leaf, *walker.ray, walker.index, nearest[walker.index], judge);
-                         walker.t_max = nearest[walker.index].high;
-                         return false;
-                     });
+    traverse_interleaved<Rays::stop>(tree, FromArray{rays, count, nearest, tree.root, started},
+                                     [&](RayState& state, const Leaf& leaf) {
+                                         closest_in(leaf, *state.ray, state.index,
+                                                    nearest[state.index], exact);
+                                         state.t_max = nearest[state.index].high;
+                                         return false;
+                                     });
 }
 
 inline void occluded_stream(const Tree& tree, const FloatRay* rays, unsigned count,
                             const Nearest* t, const std::uint32_t* targets, std::uint8_t* blocked,
-                            const Judge& judge) {
+                            const ExactTest& exact) {
     for (unsigned k = 0; k < count; ++k)
         blocked[k] = 0;
     unsigned started = 0;
-    wave<Rays::pierce>(
-        tree, FromArray{rays, count, t, tree.root, started}, [&](Walker& walker, const Leaf& leaf) {
-            const unsigned k = walker.index;
-            blocked[k] = blocks(leaf, *walker.ray, k, t[k].low, t[k].high, targets[k], judge);
-            return blocked[k] != 0;
-        });
+    traverse_interleaved<Rays::pierce>(tree, FromArray{rays, count, t, tree.root, started},
+                                       [&](RayState& state, const Leaf& leaf) {
+                                           const unsigned k = state.index;
+                                           blocked[k] = blocks(leaf, *state.ray, k, t[k].low,
+                                                               t[k].high, targets[k], exact);
+                                           return blocked[k] != 0;
+                                       });
 }
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

@@ -14,9 +14,9 @@
 
 namespace hemilux {
 
-struct Stacks {
+struct CoplanarLayers {
     /// By facet, how many steps it is to be moved to its front; empty where none is to be.
-    std::vector<std::int32_t> lift;
+    std::vector<std::int32_t> offset;
     /// Facets that nothing can reach, as many others of their shape that face their way lie over
     /// them. They lie beside the lowest of these.
     std::vector<std::uint32_t> buried;
@@ -27,6 +27,7 @@ struct Stacks {
 /// `vertices` are those of the scene in its local frame. Of what is connected by overlaps the level
 /// with the largest area stays where it is, so that closed rooms remain closed. A chain of alike
 /// facets, each over its neighbour, takes two levels.
-[[nodiscard]] Stacks find_stacks(const Scene& scene, std::span<const Vec3> vertices);
+[[nodiscard]] CoplanarLayers find_coplanar_layers(const Scene& scene,
+                                                  std::span<const Vec3> vertices);
 
 } // namespace hemilux

@@ -1,5 +1,5 @@
 #pragma once
-// Dealing rays to patches where the error is.
+// Allocates rays to patches where the error is.
 
 #include <cstdint>
 #include <span>
@@ -10,7 +10,7 @@ namespace hemilux {
 /// Rays per patch, `mean` of them on average, in proportion to the weights, but at least an eighth
 /// and at most eight times the mean, and never less than a patch has already. Powers of two, for
 /// which well-distributed points are best. A weight of 0 gets none.
-[[nodiscard]] std::vector<std::uint32_t> deal_rays(std::span<const double> weights, double mean,
-                                                   std::span<const std::uint32_t> already);
+[[nodiscard]] std::vector<std::uint32_t> allocate_rays(std::span<const double> weights, double mean,
+                                                       std::span<const std::uint32_t> already);
 
 } // namespace hemilux

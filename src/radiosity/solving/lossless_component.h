@@ -19,7 +19,7 @@ namespace hemilux {
 class Mesh;
 struct Monitor;
 
-struct TrappedLight {
+struct LosslessComponent {
     int channel;
     std::vector<std::uint32_t> patches; ///< those that an emitter lights, in ascending order
     std::uint64_t rays;                 ///< of which none got out
@@ -27,9 +27,8 @@ struct TrappedLight {
 
 /// Empty where there is none, or when interrupted. `enough_rays`: so many that find no way out mean
 /// that there is none.
-[[nodiscard]] std::optional<TrappedLight> find_trapped_light(const Mesh& mesh, const Tracer& tracer,
-                                                             std::uint64_t seed, double enough_rays,
-                                                             const Workers& workers,
-                                                             Monitor& monitor);
+[[nodiscard]] std::optional<LosslessComponent>
+find_lossless_component(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed,
+                        double enough_rays, const Workers& workers, Monitor& monitor);
 
 } // namespace hemilux

@@ -21,7 +21,7 @@ struct SolverInput;
 struct Transport {
     std::span<const double> area;
     std::span<const Vec3> emission, reflectance;
-    std::span<const LostShare> lost;
+    std::span<const EscapeFraction> lost;
     std::span<const double> rays; ///< that the lost share was found with; 0 where there were none
     bool closed = false;          ///< no ray can be lost, as the geometry proves
 };

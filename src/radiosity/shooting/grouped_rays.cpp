@@ -1,4 +1,4 @@
-#include "radiosity/shooting/burst_rays.h"
+#include "radiosity/shooting/grouped_rays.h"
 
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
@@ -7,14 +7,14 @@
 
 namespace hemilux {
 
-BurstRays::BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t stream,
-                     std::vector<Ray>& memory)
-    : source_(source), bursts_(bursts), stream_(stream), rays_(memory),
+GroupedRays::GroupedRays(const RaySource& source, std::span<RayGroup> groups, std::uint64_t stream,
+                         std::vector<Ray>& memory)
+    : source_(source), groups_(groups), stream_(stream), rays_(memory),
       has_private_cells_(source.strategy.has_private_cells()) {
     rays_.resize(DirectionBatch::room);
 }
 
-std::span<const Ray> BurstRays::next() {
+std::span<const Ray> GroupedRays::next() {
     list();
     source_.directions.draw(batch_);
     std::size_t first = 0;
@@ -26,54 +26,55 @@ std::span<const Ray> BurstRays::next() {
 }
 
 /// As many as there is room for.
-void BurstRays::list() {
+void GroupedRays::list() {
     runs_.clear();
     own_.clear();
     batch_.size = 0;
-    while (!batch_.full() && !bursts_.empty()) {
-        Burst& burst = bursts_.front();
+    while (!batch_.full() && !groups_.empty()) {
+        RayGroup& group = groups_.front();
         const auto rays = static_cast<std::uint32_t>(
-            std::min<std::size_t>(burst.rays - drawn_, DirectionBatch::room - batch_.size));
-        list_burst(burst, rays);
+            std::min<std::size_t>(group.rays - drawn_, DirectionBatch::room - batch_.size));
+        list_group(group, rays);
         drawn_ += rays;
-        if (drawn_ < burst.rays)
+        if (drawn_ < group.rays)
             break;
-        bursts_ = bursts_.subspan(1);
+        groups_ = groups_.subspan(1);
         drawn_ = 0;
     }
 }
 
-void BurstRays::list_burst(Burst& burst, std::uint32_t rays) {
-    if (listed_ != burst.patch) {
-        listed_ = burst.patch;
-        key_ = hash_words({stream_, burst.patch});
+void GroupedRays::list_group(RayGroup& group, std::uint32_t rays) {
+    if (listed_ != group.patch) {
+        listed_ = group.patch;
+        key_ = hash_words({stream_, group.patch});
     }
     if (has_private_cells_)
-        if (auto own = source_.strategy.private_cell(burst.patch, burst.cell))
-            return list_private(burst, rays, *own);
-    add_to_batch(burst, rays, burst.cell, source_.directions.power_share(burst.cell));
-    if (!runs_.empty() && runs_.back().patch == burst.patch && runs_.back().own == none)
+        if (auto own = source_.strategy.private_cell(group.patch, group.cell))
+            return list_private(group, rays, *own);
+    add_to_batch(group, rays, group.cell, source_.directions.power_share(group.cell));
+    if (!runs_.empty() && runs_.back().patch == group.patch && runs_.back().own == none)
         runs_.back().rays += rays;
     else
-        runs_.push_back({burst.patch, rays, none});
+        runs_.push_back({group.patch, rays, none});
 }
 
 /// Its directions are drawn elsewhere (fill_private).
-void BurstRays::list_private(Burst& burst, std::uint32_t rays, const PrivateCell& own) {
-    add_to_batch(burst, rays, whole_hemisphere, own.power);
-    runs_.push_back({burst.patch, rays, static_cast<std::uint32_t>(own_.size())});
+void GroupedRays::list_private(RayGroup& group, std::uint32_t rays, const PrivateCell& own) {
+    add_to_batch(group, rays, whole_hemisphere, own.power);
+    runs_.push_back({group.patch, rays, static_cast<std::uint32_t>(own_.size())});
     own_.push_back(own);
 }
 
-void BurstRays::add_to_batch(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power) {
+void GroupedRays::add_to_batch(RayGroup& group, std::uint32_t rays, std::uint16_t cell,
+                               double power) {
     if (drawn_ == 0)
-        burst.ray_power *= power;
+        group.ray_power *= power;
     for (std::uint32_t k = 0; k < rays; ++k)
-        batch_.add(key_, burst.first + drawn_ + k, cell);
+        batch_.add(key_, group.first + drawn_ + k, cell);
 }
 
 /// As printed, rays into triangles leave from the centre; those of plain Monte Carlo do not.
-void BurstRays::fill(const Run& run, std::size_t first) {
+void GroupedRays::fill(const Run& run, std::size_t first) {
     const PatchStart& start = source_.starts.of(run.patch, start_);
     const std::span<Ray> rays = std::span(rays_).subspan(first, run.rays);
     if (run.own != none)
@@ -92,8 +93,8 @@ void BurstRays::fill(const Run& run, std::size_t first) {
                 ray.origin = source_.mesh.patches()[run.patch].centre;
 }
 
-void BurstRays::fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
-                             std::span<Ray> rays) {
+void GroupedRays::fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
+                               std::span<Ray> rays) {
     const PolygonSampler part(cell.origins);
     for (std::size_t k = first; Ray & ray : rays) {
         Rng rng(hash_words({batch_.key_low[k], batch_.key_high[k], batch_.number[k]}));

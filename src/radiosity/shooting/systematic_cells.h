@@ -22,12 +22,12 @@ namespace hemilux {
 }
 
 /// The part of the line that a patch owns.
-class LineOfCells {
+class SystematicCells {
   public:
     /// From `before` to `after`.
-    LineOfCells(const Dealing& dealing, double before, double after)
-        : dealing_(dealing), before_(before), after_(after),
-          rays_((after - before) / dealing.rays_up_to.back()) {}
+    SystematicCells(const Allocation& allocation, double before, double after)
+        : allocation_(allocation), before_(before), after_(after),
+          rays_((after - before) / allocation.rays_up_to.back()) {}
 
     /// Calls found(cell, expected, low, high) for each cell with rays, in their order: expected,
     /// which is N_tr, and those from low + 1 to high.
@@ -50,7 +50,8 @@ class LineOfCells {
         constexpr std::size_t block = 16;
         std::array<std::size_t, block> cell;
         std::array<double, block> high;
-        for (std::size_t begin = 0, cells = dealing_.cells.size(); begin < cells; begin += block) {
+        for (std::size_t begin = 0, cells = allocation_.cells.size(); begin < cells;
+             begin += block) {
             const std::size_t end = std::min(begin + block, cells);
             if (end_of(end - 1) < low + 1)
                 continue;
@@ -64,7 +65,7 @@ class LineOfCells {
                 before = after;
             }
             for (std::size_t i = 0; i < count; ++i) {
-                found(dealing_.cells[cell[i]], rays_ * dealing_.rays(cell[i]), low, high[i]);
+                found(allocation_.cells[cell[i]], rays_ * allocation_.rays(cell[i]), low, high[i]);
                 low = high[i];
             }
         }
@@ -75,7 +76,7 @@ class LineOfCells {
     void look_up(double first, std::size_t rays, const Found& found) const {
         std::array<float, most_looked_up> at;
         std::array<std::uint32_t, most_looked_up> cell;
-        const std::span<const float> sums = dealing_.rays_up_to;
+        const std::span<const float> sums = allocation_.rays_up_to;
         const double scale = 1 / rays_, start = (first + 1 - before_) * scale;
         for (std::size_t k = 0; k < rays; ++k)
             at[k] = std::min(at_least(start + double(k) * scale), sums.back());
@@ -84,7 +85,7 @@ class LineOfCells {
             end = k + 1;
             while (end < rays && cell[end] == cell[k])
                 ++end;
-            found(dealing_.cells[cell[k]], rays_ * dealing_.rays(cell[k]), first + double(k),
+            found(allocation_.cells[cell[k]], rays_ * allocation_.rays(cell[k]), first + double(k),
                   first + double(end));
         }
     }
@@ -98,12 +99,12 @@ class LineOfCells {
 
     /// The last cell with any share ends where the patch does; those after it own nothing.
     [[nodiscard]] double end_of(std::size_t cell) const {
-        return dealing_.rays_up_to[cell] < dealing_.rays_up_to.back()
-                   ? before_ + rays_ * dealing_.rays_up_to[cell]
+        return allocation_.rays_up_to[cell] < allocation_.rays_up_to.back()
+                   ? before_ + rays_ * allocation_.rays_up_to[cell]
                    : after_;
     }
 
-    const Dealing& dealing_;
+    const Allocation& allocation_;
     double before_, after_;
     double rays_; ///< for one unit of the running sums
 };

@@ -12,7 +12,7 @@ class Mesh;
 class Targets;
 class Tracer;
 
-struct LampSide {
+struct EmitterSide {
     bool back;    ///< it shines to its backs, once it is consistent (Shells::against)
     bool certain; ///< false where a file that is right elsewhere is to be believed
 };
@@ -28,8 +28,9 @@ struct LampSide {
 ///   nearer than what the other side sees and, if the shell is open, nearer than a third of the
 ///   lamp's size; certain below a tenth. So a lamp under a ceiling shines down, and one that washes
 ///   a wall or lights the ceiling from some way below is left as it is.
-[[nodiscard]] std::optional<LampSide> find_lamp_side(const Mesh& mesh, const Tracer& tracer,
-                                                     const Targets& targets, const Shells& shells,
-                                                     std::uint32_t shell);
+[[nodiscard]] std::optional<EmitterSide> find_emitter_side(const Mesh& mesh, const Tracer& tracer,
+                                                           const Targets& targets,
+                                                           const Shells& shells,
+                                                           std::uint32_t shell);
 
 } // namespace hemilux

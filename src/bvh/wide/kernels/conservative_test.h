@@ -1,5 +1,5 @@
 // Ray against triangle in floats, with a bound on the error: the test of Moeller and Trumbore
-// (1997), after which a lane is surely missed, surely struck, or unsure.
+// (1997), after which a lane is certainly missed, certainly hit, or uncertain.
 //
 // With A = corner - origin, edges e1, e2, normal N = e1 x e2 and direction d, the point struck has
 // t = A.N / D, u = U / D, v = W / D where D = d.N, U = d.(e2 x A), W = d.(A x e1).
@@ -34,15 +34,16 @@ inline F8 error_bound(V3 a, F8 e) {
 }
 
 /// What is known of the lanes of one test.
-struct Sifted {
+struct EdgeFunctions {
     F8 u, w, d, rest; ///< rest = D - U - W; struck where u, w, rest have one sign
     F8 error;
 
-    Sifted(F8 u_, F8 w_, F8 d_, F8 error_)
+    EdgeFunctions(F8 u_, F8 w_, F8 d_, F8 error_)
         : u(u_), w(w_), d(d_), rest(d_ - u_ - w_), error(error_) {}
 
-    /// Not surely missed, were the triangle's plane struck at a right t. NaN is not surely missed.
-    [[nodiscard]] Bits maybe() const {
+    /// Not certainly missed, were the triangle's plane struck at a right t. NaN is not certainly
+    /// missed.
+    [[nodiscard]] Bits may_hit() const {
         const F8 zero = F8::splat(0);
         constexpr Bits all = (Bits{1} << width) - 1;
         return ~(less_equal(min(min(u, w), rest), zero - error) &
@@ -62,7 +63,7 @@ struct Interval {
     F8 low, high;
     Bits known;
 
-    Interval(const Sifted& s, F8 volume, F8 e) {
+    Interval(const EdgeFunctions& s, F8 volume, F8 e) {
         const F8 inverse = F8::splat(1) / s.d;
         const F8 t = volume * inverse;
         const F8 error = F8::splat(2) * (e + abs(t)) * s.error * abs(inverse);

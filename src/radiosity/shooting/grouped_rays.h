@@ -15,7 +15,7 @@ namespace hemilux {
 class Mesh;
 
 /// Rays from a patch into one of its cells.
-struct Burst {
+struct RayGroup {
     std::uint32_t patch;
     std::uint16_t cell;
     std::uint32_t first; ///< its first ray's number among all those of the patch
@@ -33,13 +33,13 @@ struct RaySource {
     bool literal;
 };
 
-/// The rays of a list of bursts in their order, some at a time. A ray depends on the stream, its
+/// The rays of a list of groups in their order, some at a time. A ray depends on the stream, its
 /// patch, its number there and its cell, not on what else is listed.
-class BurstRays {
+class GroupedRays {
   public:
     /// `memory` holds the rays between two calls and may be used again afterwards.
-    BurstRays(const RaySource& source, std::span<Burst> bursts, std::uint64_t stream,
-              std::vector<Ray>& memory);
+    GroupedRays(const RaySource& source, std::span<RayGroup> groups, std::uint64_t stream,
+                std::vector<Ray>& memory);
 
     /// The next ones, as many as a batch has room for until the last; none when there are no more.
     [[nodiscard]] std::span<const Ray> next();
@@ -51,19 +51,19 @@ class BurstRays {
         std::uint32_t own; ///< the private cell's place in own_, else none
     };
     void list();
-    void list_burst(Burst& burst, std::uint32_t rays);
-    void list_private(Burst& burst, std::uint32_t rays, const PrivateCell& own);
-    void add_to_batch(Burst& burst, std::uint32_t rays, std::uint16_t cell, double power);
+    void list_group(RayGroup& group, std::uint32_t rays);
+    void list_private(RayGroup& group, std::uint32_t rays, const PrivateCell& own);
+    void add_to_batch(RayGroup& group, std::uint32_t rays, std::uint16_t cell, double power);
     void fill(const Run& run, std::size_t first);
     void fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
                       std::span<Ray> rays);
 
     const RaySource& source_;
-    std::span<Burst> bursts_;
+    std::span<RayGroup> groups_;
     std::uint64_t stream_;
     std::vector<Ray>& rays_;
     bool has_private_cells_;
-    std::uint32_t drawn_ = 0;     ///< of the first of bursts_
+    std::uint32_t drawn_ = 0;     ///< of the first of groups_
     std::uint32_t listed_ = none; ///< the patch of that
     std::uint64_t key_ = 0;       ///< of that patch's random numbers
     std::vector<Run> runs_;

@@ -1,4 +1,4 @@
-#include "radiosity/scene/stacked_facets.h"
+#include "radiosity/scene/coplanar_layers.h"
 
 #include "geometry/polygon.h"
 #include "radiosity/scene/coplanar_overlaps.h"
@@ -54,32 +54,34 @@ struct Member {
     Vec3 normal;
     double area, glow;
     double size_class; ///< by powers of two, whose limits are no areas that anybody draws
-    int side;          ///< +1 or -1: faces the way of the first of its stack, or the other
+    int side;          ///< +1 or -1: faces the way of the first of its layers, or the other
 };
 
-class Stacker {
+class LayerFinder {
   public:
-    Stacker(const Scene& scene, std::span<const Vec3> vertices, const Graph& graph)
+    LayerFinder(const Scene& scene, std::span<const Vec3> vertices, const Graph& graph)
         : graph_(graph), level_(graph.size(), unset), height_(graph.size(), 0) {
         members_.reserve(graph.size());
         for (std::uint32_t i = 0; i < graph.size(); ++i)
             members_.push_back(member(scene, vertices, graph.facet(i)));
     }
 
-    void stack() {
+    void layers() {
         for (std::uint32_t i = 0; i < graph_.size(); ++i)
             if (members_[i].side == 0) {
-                find_stack(i);
+                find_layers(i);
                 set_levels();
                 set_heights();
             }
     }
 
     /// Steps to its front.
-    [[nodiscard]] std::int32_t lift(std::uint32_t i) const { return members_[i].side * height_[i]; }
+    [[nodiscard]] std::int32_t offset(std::uint32_t i) const {
+        return members_[i].side * height_[i];
+    }
     [[nodiscard]] bool is_covered(std::uint32_t i) const {
         return std::ranges::any_of(graph_.neighbours(i), [&](std::uint32_t j) {
-            return members_[j].side == members_[i].side && lift(j) > lift(i);
+            return members_[j].side == members_[i].side && offset(j) > offset(i);
         });
     }
 
@@ -96,7 +98,7 @@ class Stacker {
     }
 
     /// All that is connected with i, in stack_; which way they face.
-    void find_stack(std::uint32_t i) {
+    void find_layers(std::uint32_t i) {
         stack_ = {i};
         members_[i].side = 1;
         for (std::size_t k = 0; k < stack_.size(); ++k) {
@@ -186,7 +188,7 @@ class Stacker {
     static constexpr std::int32_t unset = -1;
     const Graph& graph_;
     std::vector<Member> members_;
-    std::vector<std::int32_t> level_;  ///< from the lowest of a stack on
+    std::vector<std::int32_t> level_;  ///< from the lowest layer on
     std::vector<std::int32_t> height_; ///< over where it was, along the front of side +1
     std::vector<std::int32_t> taken_;
     std::vector<std::uint32_t> stack_;
@@ -194,25 +196,25 @@ class Stacker {
 
 } // namespace
 
-Stacks find_stacks(const Scene& scene, std::span<const Vec3> vertices) {
+CoplanarLayers find_coplanar_layers(const Scene& scene, std::span<const Vec3> vertices) {
     const Overlaps overlaps = find_overlaps(scene, vertices);
-    Stacks stacks{.lift = {}, .buried = {}, .covered = 0, .complete = overlaps.complete};
+    CoplanarLayers layers{.offset = {}, .buried = {}, .covered = 0, .complete = overlaps.complete};
     if (overlaps.pairs.empty() && overlaps.buried.empty())
-        return stacks;
+        return layers;
     const Graph graph(overlaps.pairs);
-    Stacker stacker(scene, vertices, graph);
-    stacker.stack();
-    stacks.lift.resize(scene.facets.size());
+    LayerFinder finder(scene, vertices, graph);
+    finder.layers();
+    layers.offset.resize(scene.facets.size());
     for (std::uint32_t i = 0; i < graph.size(); ++i) {
-        stacks.lift[graph.facet(i)] = stacker.lift(i);
-        stacks.covered += stacker.is_covered(i);
+        layers.offset[graph.facet(i)] = finder.offset(i);
+        layers.covered += finder.is_covered(i);
     }
     for (const Buried& buried : overlaps.buried) {
-        stacks.lift[buried.facet] = stacks.lift[buried.under];
-        stacks.buried.push_back(buried.facet);
-        ++stacks.covered;
+        layers.offset[buried.facet] = layers.offset[buried.under];
+        layers.buried.push_back(buried.facet);
+        ++layers.covered;
     }
-    return stacks;
+    return layers;
 }
 
 } // namespace hemilux

@@ -1,6 +1,6 @@
-#include "radiosity/guiding/seen_guide.h"
+#include "radiosity/guiding/visibility_guide.h"
 
-#include "radiosity/guiding/seen_worth.h"
+#include "radiosity/guiding/hemisphere_importance.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/hemisphere/log_byte.h"
 #include "radiosity/rays/receivers.h"
@@ -40,15 +40,15 @@ bool is_time_to_judge(std::uint64_t step) {
     return step <= 4 || odd == 1 || odd == 3;
 }
 
-class SeenGuide final : public Strategy {
+class VisibilityGuide final : public Strategy {
   public:
-    SeenGuide(const SolverInput& input, const Hemisphere& hemisphere, const Workers& workers,
-              bool learn)
+    VisibilityGuide(const SolverInput& input, const Hemisphere& hemisphere, const Workers& workers,
+                    bool learn)
         : mesh_(input.mesh), needs_(input.needs), hemisphere_(hemisphere), workers_(workers),
           first_leaf_(Hemisphere::cells_up_to(hemisphere.depth() - 1)), keeps_learning_(learn),
           known_(hemisphere, input.mesh.patches().size()) {
         const std::size_t patches = mesh_.patches().size();
-        worth_.assign(patches * known_.leaves(), log_byte::from(1));
+        importance_.assign(patches * known_.leaves(), log_byte::from(1));
         density_.fill(1);
         rays_for_power_.assign(patches, 1);
         describe_sides();
@@ -73,21 +73,21 @@ class SeenGuide final : public Strategy {
         learns_ = keeps_learning_ && prepared_ &&
                   (step <= steps_of_learning || step % later_lessons == 0);
         if (learns_)
-            known_.drop_news();
+            known_.drop_pending();
     }
 
     void end_step() override {
         steps_ += prepared_;
         lessons_ += learns_;
         if (learns_)
-            known_.settle(1);
+            known_.commit(1);
     }
 
     [[nodiscard]] double rays_for_power(std::uint32_t patch) const override {
         return rays_for_power_[patch];
     }
 
-    Dealing deal(std::uint32_t patch, DealtCells& memory) const override {
+    Allocation allocate(std::uint32_t patch, AllocatedCells& memory) const override {
         const double scale = 1 / rays_for_power_[patch];
         memory.clear();
         for (std::size_t t = 0; t < known_.leaves(); ++t)
@@ -132,7 +132,7 @@ class SeenGuide final : public Strategy {
 
     [[nodiscard]] std::uint64_t density_rays() const override { return rays_; }
     [[nodiscard]] std::uint64_t density_bytes() const override {
-        return worth_.size() + (keeps_learning_ ? known_.bytes() : 0);
+        return importance_.size() + (keeps_learning_ ? known_.bytes() : 0);
     }
 
   private:
@@ -150,7 +150,7 @@ class SeenGuide final : public Strategy {
 
     /// Rays for the power of a leaf, on average 1.
     [[nodiscard]] double density(std::uint32_t patch, std::size_t leaf) const {
-        return density_[worth_[patch * known_.leaves() + leaf]];
+        return density_[importance_[patch * known_.leaves() + leaf]];
     }
     [[nodiscard]] std::size_t rays_of_look() const {
         return keeps_learning_ ? rays_of_first_look : rays_of_one_look;
@@ -161,7 +161,7 @@ class SeenGuide final : public Strategy {
     void look(const SolverInput& input);
     void look_from(std::uint32_t patch, const SolverInput& input, Seen& seen) const;
     void judge(std::span<const Vec3> radiosity);
-    [[nodiscard]] double usual_worth() const;
+    [[nodiscard]] double find_prior_mean() const;
     void find_density(double mean_root);
     template <class Body>
     void for_patches(const Body& body) const;
@@ -173,20 +173,20 @@ class SeenGuide final : public Strategy {
     std::size_t first_leaf_;
     bool keeps_learning_, learns_ = false;
     bool prepared_ = false; ///< not before the pilot
-    SeenWorth known_;
+    HemisphereImportance known_;
     double lessons_ = 0;      ///< steps whose rays are in known_, the look being a part of one
     std::uint64_t steps_ = 0; ///< from 1; 0 before the pilot
     std::uint64_t rays_ = 0;
     double mean_root_ = 0;                         ///< of sqrt(V) over all power
-    std::vector<std::uint8_t> worth_;              ///< sqrt(V) by patch and leaf
-    std::array<double, log_byte::values> density_; ///< by the byte of worth_
+    std::vector<std::uint8_t> importance_;         ///< sqrt(V) by patch and leaf
+    std::array<double, log_byte::values> density_; ///< by the byte of importance_
     std::vector<double> rays_for_power_;           ///< by patch
     std::vector<Side> sides_;                      ///< by patch
     std::vector<Frame> frames_;                    ///< by patch
 };
 
 template <class Body>
-void SeenGuide::for_patches(const Body& body) const {
+void VisibilityGuide::for_patches(const Body& body) const {
     workers_.for_chunks(sides_.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
             if (needs_.power(i) && mesh_.patches()[i].area > 0)
@@ -194,7 +194,7 @@ void SeenGuide::for_patches(const Body& body) const {
     });
 }
 
-void SeenGuide::describe_sides() {
+void VisibilityGuide::describe_sides() {
     double area = 0;
     for (const Patch& patch : mesh_.patches())
         area += patch.area;
@@ -212,7 +212,7 @@ void SeenGuide::describe_sides() {
 }
 
 /// All patches, in their order whatever thread looks.
-void SeenGuide::look(const SolverInput& input) {
+void VisibilityGuide::look(const SolverInput& input) {
     constexpr std::size_t at_once = 1024;
     std::vector<Seen> seen(std::min(at_once, sides_.size()));
     for (std::size_t begin = 0; begin < sides_.size(); begin += at_once)
@@ -232,10 +232,10 @@ void SeenGuide::look(const SolverInput& input) {
     input.monitor.rays += rays_;
     lessons_ =
         static_cast<double>(rays_) / (input.options.rays * static_cast<double>(sides_.size()));
-    known_.settle(lessons_);
+    known_.commit(lessons_);
 }
 
-void SeenGuide::look_from(std::uint32_t patch, const SolverInput& input, Seen& seen) const {
+void VisibilityGuide::look_from(std::uint32_t patch, const SolverInput& input, Seen& seen) const {
     seen = {};
     const Patch& from = mesh_.patches()[patch];
     if (!needs_.power(patch) || !(from.area > 0) || input.monitor.interrupted)
@@ -254,7 +254,7 @@ void SeenGuide::look_from(std::uint32_t patch, const SolverInput& input, Seen& s
     find_arrivals(seen.rays, seen.receivers, seen.arrivals);
 }
 
-double SeenGuide::mean_radiosity(std::span<const Vec3> radiosity) const {
+double VisibilityGuide::mean_radiosity(std::span<const Vec3> radiosity) const {
     double power = 0, area = 0;
     for (std::size_t i = 0; i < radiosity.size(); ++i) {
         power += mesh_.patches()[i].area * mean_of_channels(radiosity[i]);
@@ -264,29 +264,29 @@ double SeenGuide::mean_radiosity(std::span<const Vec3> radiosity) const {
 }
 
 /// Mean over the patches that shoot.
-double SeenGuide::usual_worth() const {
-    std::vector<double> worth(sides_.size());
+double VisibilityGuide::find_prior_mean() const {
+    std::vector<double> importance(sides_.size());
     for_patches([&](std::uint32_t i) {
-        worth[i] = known_.sum_of(i) / (lessons_ * mesh_.patches()[i].area);
+        importance[i] = known_.sum_of(i) / (lessons_ * mesh_.patches()[i].area);
     });
     double sum = 0, patches = 0;
-    for (std::uint32_t i = 0; i < worth.size(); ++i) {
-        sum += worth[i];
+    for (std::uint32_t i = 0; i < importance.size(); ++i) {
+        sum += importance[i];
         patches += needs_.power(i);
     }
     return patches > 0 ? sum / patches : 0;
 }
 
-void SeenGuide::judge(std::span<const Vec3> radiosity) {
-    const double usual = usual_worth(), energy = worth_of_energy(mesh_, radiosity);
+void VisibilityGuide::judge(std::span<const Vec3> radiosity) {
+    const double prior_mean = find_prior_mean(), energy = importance_of_energy(mesh_, radiosity);
     std::vector<double> roots(sides_.size()); // mean of sqrt(V) over a patch's power
     for_patches([&](std::uint32_t i) {
-        thread_local std::vector<double> worth;
-        worth.resize(known_.leaves());
-        known_.estimate(i, 1 / (lessons_ * mesh_.patches()[i].area), usual, worth);
-        for (std::size_t t = 0; t < worth.size(); ++t) {
-            std::uint8_t& byte = worth_[i * worth.size() + t];
-            byte = log_byte::from(std::sqrt(worth[t] + energy));
+        thread_local std::vector<double> importance;
+        importance.resize(known_.leaves());
+        known_.estimate(i, 1 / (lessons_ * mesh_.patches()[i].area), prior_mean, importance);
+        for (std::size_t t = 0; t < importance.size(); ++t) {
+            std::uint8_t& byte = importance_[i * importance.size() + t];
+            byte = log_byte::from(std::sqrt(importance[t] + energy));
             roots[i] += known_.share(t) * log_byte::value(byte);
         }
     });
@@ -299,7 +299,7 @@ void SeenGuide::judge(std::span<const Vec3> radiosity) {
     find_density(power > 0 ? sum / power : 0);
 }
 
-void SeenGuide::find_density(double mean_root) {
+void VisibilityGuide::find_density(double mean_root) {
     mean_root_ = mean_root;
     for (std::size_t byte = 0; byte < log_byte::values; ++byte) {
         const double guided = mean_root > 0 ? log_byte::value(byte) / mean_root : 1;
@@ -314,24 +314,25 @@ void SeenGuide::find_density(double mean_root) {
 }
 
 /// rays_per_area follows from the radiosity before each step.
-void SeenGuide::save(StateWriter& state) const {
+void VisibilityGuide::save(StateWriter& state) const {
     state.add(steps_);
     state.add(lessons_);
     state.add(mean_root_);
-    state.add(std::string_view(reinterpret_cast<const char*>(worth_.data()), worth_.size()));
+    state.add(
+        std::string_view(reinterpret_cast<const char*>(importance_.data()), importance_.size()));
     if (keeps_learning_)
         known_.save(state);
 }
 
-void SeenGuide::load(StateReader& state) {
+void VisibilityGuide::load(StateReader& state) {
     steps_ = state.whole_up_to(std::numeric_limits<std::uint32_t>::max());
     const double of_look = lessons_; // each step adds one at most
     lessons_ = state.number({of_look, of_look + static_cast<double>(steps_)});
     const double mean_root = state.number(bounds::non_negative);
-    const std::string worth = state.text();
-    if (worth.size() != worth_.size())
+    const std::string importance = state.text();
+    if (importance.size() != importance_.size())
         throw StateError("the number of triangles is not that of the patches");
-    std::ranges::copy(worth, worth_.begin());
+    std::ranges::copy(importance, importance_.begin());
     if (keeps_learning_)
         known_.load(state);
     find_density(mean_root);
@@ -339,9 +340,10 @@ void SeenGuide::load(StateReader& state) {
 
 } // namespace
 
-std::unique_ptr<Strategy> make_seen_guide(const SolverInput& input, const Hemisphere& hemisphere,
-                                          const Workers& workers, bool learn) {
-    return std::make_unique<SeenGuide>(input, hemisphere, workers, learn);
+std::unique_ptr<Strategy> make_visibility_guide(const SolverInput& input,
+                                                const Hemisphere& hemisphere,
+                                                const Workers& workers, bool learn) {
+    return std::make_unique<VisibilityGuide>(input, hemisphere, workers, learn);
 }
 
 } // namespace hemilux

@@ -1,4 +1,4 @@
-#include "app/terminal/talk.h"
+#include "app/terminal/log.h"
 
 #include "app/settings/text.h"
 #include "io/files/atomic_file.h"
@@ -16,26 +16,26 @@ constexpr std::size_t most_warnings = 10;
 
 } // namespace
 
-bool can_say() {
+bool can_log() {
     static std::atomic<bool> gave_up{false};
     if (!gave_up && !wait_until_writable(STDERR_FILENO))
         gave_up = true;
     return !gave_up;
 }
 
-void say(Talk wanted, Talk least, const std::string& line) {
-    if (wanted >= least && can_say())
+void log_line(Verbosity wanted, Verbosity least, const std::string& line) {
+    if (wanted >= least && can_log())
         std::fprintf(stderr, "%s\n", printable_message(line).c_str());
 }
 
-void say_warnings(Talk wanted, const std::vector<std::string>& warnings) {
-    const bool all = wanted == Talk::verbose || warnings.size() <= most_warnings;
+void log_warnings(Verbosity wanted, const std::vector<std::string>& warnings) {
+    const bool all = wanted == Verbosity::verbose || warnings.size() <= most_warnings;
     const std::size_t shown = all ? warnings.size() : most_warnings;
     for (std::size_t i = 0; i < shown; ++i)
-        say(wanted, Talk::normal, "warning: " + warnings[i]);
+        log_line(wanted, Verbosity::normal, "warning: " + warnings[i]);
     if (!all)
-        say(wanted, Talk::normal,
-            formatted("warning: and %zu more (-v shows all)", warnings.size() - shown));
+        log_line(wanted, Verbosity::normal,
+                 formatted("warning: and %zu more (-v shows all)", warnings.size() - shown));
 }
 
 } // namespace hemilux

@@ -1,10 +1,10 @@
-// Facets that lie over each other in one plane: all are found, and laid apart in an order.
+// Facets that lie over each other in one plane: all are found, and offset in an order.
 #include "geometry/flat_polygon.h"
 #include "geometry/frame.h"
 #include "radiosity/sampling/rng.h"
+#include "radiosity/scene/coplanar_layers.h"
 #include "radiosity/scene/coplanar_overlaps.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/scene/stacked_facets.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 
@@ -48,11 +48,11 @@ Scene tiled_floor(std::uint32_t n) {
     return scene;
 }
 
-Stacks stacks_of(const Scene& scene) {
-    return find_stacks(scene, LocalFrame::of(scene).to_local(scene.vertices));
+CoplanarLayers layers_of(const Scene& scene) {
+    return find_coplanar_layers(scene, LocalFrame::of(scene).to_local(scene.vertices));
 }
 
-std::vector<std::int32_t> lifts_of(const Scene& scene) { return stacks_of(scene).lift; }
+std::vector<std::int32_t> offsets_of(const Scene& scene) { return layers_of(scene).offset; }
 
 using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -140,7 +140,7 @@ TEST_CASE("Neighbours are not overlaps: nothing of a closed mesh or a floor of t
         scenes.push_back(turned);
     }
     for (const Scene& scene : scenes) {
-        CHECK(lifts_of(scene).empty());
+        CHECK(offsets_of(scene).empty());
         const Mesh mesh(scene);
         REQUIRE(mesh.vertices().size() == scene.vertices.size());
         bool same = true;
@@ -151,20 +151,20 @@ TEST_CASE("Neighbours are not overlaps: nothing of a closed mesh or a floor of t
 }
 
 TEST_CASE("Of two that face one way the brighter is on top, else the smaller, else the first") {
-    const auto lift = [](double size, std::uint32_t a, std::uint32_t b, bool up) {
+    const auto offset = [](double size, std::uint32_t a, std::uint32_t b, bool up) {
         Scene scene = empty_scene();
         add_square(scene, 0, 0, 1, a, up);
         add_square(scene, .3, .4, size, b, up);
-        const std::vector<std::int32_t> lifts = lifts_of(scene);
-        return lifts[1] - lifts[0];
+        const std::vector<std::int32_t> offsets = offsets_of(scene);
+        return offsets[1] - offsets[0];
     };
     for (const bool up : {true, false}) {
-        CHECK(lift(1, grey, grey, up) == -1);
-        CHECK(lift(1.01, grey, grey, up) == -1);
-        CHECK(lift(.5, grey, grey, up) == 1);
-        CHECK(lift(2, grey, grey, up) == -1);
-        CHECK(lift(2, grey, dim, up) == 1);
-        CHECK(lift(.5, bright, dim, up) == -1);
+        CHECK(offset(1, grey, grey, up) == -1);
+        CHECK(offset(1.01, grey, grey, up) == -1);
+        CHECK(offset(.5, grey, grey, up) == 1);
+        CHECK(offset(2, grey, grey, up) == -1);
+        CHECK(offset(2, grey, dim, up) == 1);
+        CHECK(offset(.5, bright, dim, up) == -1);
     }
 }
 
@@ -174,28 +174,28 @@ TEST_CASE("The largest area stays where it is") {
     add_square(lamp, .5, .5, 1, bright);
     std::vector<std::int32_t> expected(10, 0);
     expected[9] = 1;
-    CHECK(lifts_of(lamp) == expected);
-    CHECK(stacks_of(lamp).covered == 4);
+    CHECK(offsets_of(lamp) == expected);
+    CHECK(layers_of(lamp).covered == 4);
 
     Scene carpet = empty_scene(); // larger than the tiles that it reaches, and so beneath them
     add_square(carpet, .5, .5, 1.9, grey);
     add_quad(carpet, {0, 0, 0}, {0, 0, 3}, {3, 0, 3}, {3, 0, 0}, 3, 3, grey);
     expected.assign(10, 0);
     expected[0] = -1;
-    CHECK(lifts_of(carpet) == expected);
-    CHECK(stacks_of(carpet).covered == 1);
+    CHECK(offsets_of(carpet) == expected);
+    CHECK(layers_of(carpet).covered == 1);
 }
 
 TEST_CASE("Two sides of a wall, divided in different ways, lie to their fronts") {
     Scene scene = empty_scene();
     add_quad(scene, {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}, 3, 3, grey);
     add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}, 4, 5, grey);
-    const Stacks stacks = stacks_of(scene);
-    CHECK(stacks.covered == 0);
+    const CoplanarLayers layers = layers_of(scene);
+    CHECK(layers.covered == 0);
     for (std::size_t f = 1; f < 9; ++f)
-        CHECK(stacks.lift[f] == stacks.lift[0]);
+        CHECK(layers.offset[f] == layers.offset[0]);
     for (std::size_t f = 9; f < 29; ++f)
-        CHECK(stacks.lift[f] == 1 - stacks.lift[0]);
+        CHECK(layers.offset[f] == 1 - layers.offset[0]);
 }
 
 TEST_CASE("A chain of alike decals takes two levels; a pile takes one each") {
@@ -204,17 +204,17 @@ TEST_CASE("A chain of alike decals takes two levels; a pile takes one each") {
         add_square(chain, .7 * k, .2 * (k % 3), 1, grey);
     for (int k = 0; k < 20; ++k)
         add_square(pile, .01 * k, 0, 1, grey);
-    const std::vector<std::int32_t> lifts = lifts_of(chain);
+    const std::vector<std::int32_t> offsets = offsets_of(chain);
     for (std::size_t k = 1; k < 500; ++k)
-        CHECK(std::abs(lifts[k] - lifts[k - 1]) == 1);
-    CHECK(std::set(lifts.begin(), lifts.end()).size() == 2);
-    const std::vector<std::int32_t> piled = lifts_of(pile);
+        CHECK(std::abs(offsets[k] - offsets[k - 1]) == 1);
+    CHECK(std::set(offsets.begin(), offsets.end()).size() == 2);
+    const std::vector<std::int32_t> piled = offsets_of(pile);
     for (std::size_t k = 1; k < 20; ++k)
         CHECK(piled[k - 1] == piled[k] + 1); // the first on top
-    CHECK(stacks_of(pile).covered == 19);
+    CHECK(layers_of(pile).covered == 19);
 }
 
-TEST_CASE("Whatever overlaps is laid apart, each side to its front") {
+TEST_CASE("Whatever overlaps is offset, each side to its front") {
     Rng rng(3);
     Scene scene = empty_scene();
     for (int k = 0; k < 400; ++k) {
@@ -224,22 +224,23 @@ TEST_CASE("Whatever overlaps is laid apart, each side to its front") {
         add_square(scene, 4 * u[0], 4 * u[1], .1 + .9 * u[2], static_cast<std::uint32_t>(3 * u[3]),
                    u[4] < .7);
     }
-    const std::vector<std::int32_t> lifts = lifts_of(scene);
+    const std::vector<std::int32_t> offsets = offsets_of(scene);
     const auto is_up = [&](std::uint32_t f) {
         const auto& v = scene.facets[f].vertex;
         return scene.vertices[v[1]].x == scene.vertices[v[0]].x;
     };
-    const auto height = [&](std::uint32_t f) { return is_up(f) ? lifts[f] : -lifts[f]; };
+    const auto height = [&](std::uint32_t f) { return is_up(f) ? offsets[f] : -offsets[f]; };
     for (const auto& [a, b] : pairs_of(scene)) {
         if (is_up(a) != is_up(b))
             CHECK((is_up(a) ? height(a) > height(b) : height(a) < height(b)));
         else if (scene.facets[a].material != scene.facets[b].material)
-            CHECK((scene.facets[a].material > scene.facets[b].material) == (lifts[a] > lifts[b]));
+            CHECK((scene.facets[a].material > scene.facets[b].material) ==
+                  (offsets[a] > offsets[b]));
         else
-            CHECK(lifts[a] != lifts[b]);
+            CHECK(offsets[a] != offsets[b]);
     }
-    CHECK(*std::ranges::max_element(lifts) < 40);
-    CHECK(std::ranges::count(lifts, 0) > 20); // what lies lowest, and what lies alone
+    CHECK(*std::ranges::max_element(offsets) < 40);
+    CHECK(std::ranges::count(offsets, 0) > 20); // what lies lowest, and what lies alone
 }
 
 TEST_CASE("More slivers over each other than can be compared are told of") {

@@ -1,4 +1,4 @@
-#include "radiosity/solving/trapped_light.h"
+#include "radiosity/solving/lossless_component.h"
 
 #include "geometry/frame.h"
 #include "geometry/polygon_sampler.h"
@@ -28,10 +28,10 @@ class Search {
             held_[i] = mesh.material(i).reflectance[channel] >= 1;
     }
 
-    std::optional<TrappedLight> run() {
+    std::optional<LosslessComponent> run() {
         double since = 0; // rays since a way out was found
         for (double rays = first_rays; is_lit() && since < enough_rays_;) {
-            const std::vector<std::uint32_t> shooters = held_and_lamps();
+            const std::vector<std::uint32_t> shooters = held_and_emitters();
             const double most = enough_rays_ / static_cast<double>(shooters.size()) + 1;
             const double each = std::min(rays, std::max(most, first_rays));
             if (release(shooters, static_cast<std::size_t>(each))) {
@@ -46,7 +46,7 @@ class Search {
         }
         if (!is_lit())
             return std::nullopt;
-        return TrappedLight{channel_, lit_part(), static_cast<std::uint64_t>(since)};
+        return LosslessComponent{channel_, lit_part(), static_cast<std::uint64_t>(since)};
     }
 
   private:
@@ -59,7 +59,7 @@ class Search {
                 return true;
         return false;
     }
-    [[nodiscard]] std::vector<std::uint32_t> held_and_lamps() const {
+    [[nodiscard]] std::vector<std::uint32_t> held_and_emitters() const {
         std::vector<std::uint32_t> list;
         for (std::uint32_t i = 0; i < held_.size(); ++i)
             if (held_[i] || emission(i) > 0)
@@ -87,12 +87,12 @@ class Search {
     [[nodiscard]] std::vector<std::uint32_t> freed_by(std::uint32_t shooter,
                                                       std::size_t rays) const {
         std::vector<std::uint32_t> freed;
-        for (const std::uint32_t struck : receivers_of(shooter, rays)) {
-            const bool held = struck < held_.size() && held_[struck];
+        for (const std::uint32_t hit : receivers_of(shooter, rays)) {
+            const bool held = hit < held_.size() && held_[hit];
             if (held_[shooter] && !held)
                 return {shooter};
             if (!held_[shooter] && held)
-                freed.push_back(struck);
+                freed.push_back(hit);
         }
         return freed;
     }
@@ -123,9 +123,9 @@ class Search {
         std::vector<char> seen(held_.size());
         seen[brightest] = true;
         for (std::size_t k = 0; k < found.size() && !monitor_.interrupted; ++k)
-            for (const std::uint32_t struck : receivers_of(found[k], rays))
-                if (struck < seen.size() && held_[struck] && !std::exchange(seen[struck], char{1}))
-                    found.push_back(struck);
+            for (const std::uint32_t hit : receivers_of(found[k], rays))
+                if (hit < seen.size() && held_[hit] && !std::exchange(seen[hit], char{1}))
+                    found.push_back(hit);
         std::ranges::sort(found);
         return found;
     }
@@ -151,9 +151,9 @@ bool alike(const Mesh& mesh, int a, int b) {
 
 } // namespace
 
-std::optional<TrappedLight> find_trapped_light(const Mesh& mesh, const Tracer& tracer,
-                                               std::uint64_t seed, double enough_rays,
-                                               const Workers& workers, Monitor& monitor) {
+std::optional<LosslessComponent> find_lossless_component(const Mesh& mesh, const Tracer& tracer,
+                                                         std::uint64_t seed, double enough_rays,
+                                                         const Workers& workers, Monitor& monitor) {
     for (int c = 0; c < 3; ++c) {
         if (c > 0 && alike(mesh, c, c - 1))
             continue;

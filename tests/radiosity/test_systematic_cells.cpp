@@ -2,7 +2,7 @@
 // the line it stands.
 
 #include "radiosity/sampling/rng.h"
-#include "radiosity/shooting/line_of_cells.h"
+#include "radiosity/shooting/systematic_cells.h"
 #include "support/catch.h"
 
 #include <numeric>
@@ -13,17 +13,17 @@ using namespace hemilux;
 namespace {
 
 /// So many cells, some without rays, the last too if that is asked for.
-DealtCells some_cells(std::size_t count, bool empty_end, Rng& rng) {
+AllocatedCells some_cells(std::size_t count, bool empty_end, Rng& rng) {
     std::vector<double> shares(count);
     for (double& share : shares)
         share = rng.uniform() < .3 ? 0 : rng.uniform();
     shares[count / 2] = 1;
     shares.back() = empty_end ? 0 : .01;
     const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
-    DealtCells dealt;
+    AllocatedCells allocated;
     for (std::size_t k = 0; k < count; ++k)
-        dealt.add(static_cast<std::uint16_t>(100 + k), shares[k] / sum);
-    return dealt;
+        allocated.add(static_cast<std::uint16_t>(100 + k), shares[k] / sum);
+    return allocated;
 }
 
 } // namespace
@@ -32,26 +32,26 @@ TEST_CASE("each ray goes to the cell that owns its place, for few rays and for m
     Rng rng(3);
     for (int trial = 0; trial < 4000; ++trial) {
         const std::size_t cells = 1 + rng.bits() % 70;
-        const DealtCells dealt = some_cells(cells, cells > 2 && trial % 3 == 0, rng);
-        const Dealing dealing = dealt.view();
+        const AllocatedCells allocated = some_cells(cells, cells > 2 && trial % 3 == 0, rng);
+        const Allocation allocation = allocated.view();
         const double before = 1000 * rng.uniform();
         const double after = before + (trial % 2 == 0 ? 60 : 5) * rng.uniform();
-        const double rays = (after - before) / dealing.rays_up_to.back();
+        const double rays = (after - before) / allocation.rays_up_to.back();
         double next = whole_below(before);
         int last = -1;
-        LineOfCells(dealing, before, after)
+        SystematicCells(allocation, before, after)
             .for_each_cell([&](std::uint16_t cell, double expected, double low, double high) {
                 const std::size_t k = cell - 100u;
                 REQUIRE(static_cast<int>(k) > last);
                 last = static_cast<int>(k);
                 REQUIRE(low == next);
                 REQUIRE(high > low);
-                REQUIRE(expected == Approx(rays * dealing.rays(k)));
+                REQUIRE(expected == Approx(rays * allocation.rays(k)));
                 REQUIRE(expected > 0);
                 REQUIRE(high - low < expected + 1 + 1e-9);
-                const double begin = k > 0 ? before + rays * dealing.rays_up_to[k - 1] : before;
+                const double begin = k > 0 ? before + rays * allocation.rays_up_to[k - 1] : before;
                 REQUIRE(low + 1 > begin - 1e-9);
-                REQUIRE(high <= before + rays * dealing.rays_up_to[k] + 1e-9);
+                REQUIRE(high <= before + rays * allocation.rays_up_to[k] + 1e-9);
                 next = high;
             });
         REQUIRE(next == whole_below(after));
@@ -60,21 +60,21 @@ TEST_CASE("each ray goes to the cell that owns its place, for few rays and for m
 
 TEST_CASE("each cell gets what it is due on average") {
     Rng rng(4);
-    const DealtCells dealt = some_cells(40, true, rng);
-    const Dealing dealing = dealt.view();
+    const AllocatedCells allocated = some_cells(40, true, rng);
+    const Allocation allocation = allocated.view();
     for (const double expected_rays : {.3, 7.7, 51.3}) {
         std::vector<double> got(40);
         constexpr int origins =
             20'000; // evenly spread: then each mean is off by 2 / origins at most
         for (int k = 0; k < origins; ++k) {
             const double before = 5 + (k + .5) / origins;
-            LineOfCells(dealing, before, before + expected_rays)
+            SystematicCells(allocation, before, before + expected_rays)
                 .for_each_cell([&](std::uint16_t cell, double, double low, double high) {
                     got[cell - 100u] += (high - low) / origins;
                 });
         }
-        const double rays = expected_rays / dealing.rays_up_to.back();
+        const double rays = expected_rays / allocation.rays_up_to.back();
         for (std::size_t k = 0; k < got.size(); ++k)
-            CHECK(got[k] == Approx(rays * dealing.rays(k)).margin(2.5 / origins));
+            CHECK(got[k] == Approx(rays * allocation.rays(k)).margin(2.5 / origins));
     }
 }
