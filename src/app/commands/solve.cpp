@@ -172,7 +172,12 @@ int solve(const SolveSettings& settings) {
         return make_solver(settings, input, loaded.face_lines);
     };
     guard.watch(monitor.interrupted);
-    Divided divided = divide_as_asked(settings, loaded.mesh, input, begin, statistics);
+    Divided divided;
+    try {
+        divided = divide_as_asked(settings, loaded.mesh, input, begin, statistics);
+    } catch (const SolveError& error) {
+        throw as_input_error(error, settings.scene.path, loaded.face_lines);
+    }
     if (divided.patches && !settings.options.keep_all)
         prepared.needs = find_needs(mesh);
     const StopRule stop = stop_rule(settings, mesh.patches().size());
@@ -222,13 +227,13 @@ int solve(const SolveSettings& settings) {
     progress.close();
     checkpointer.finish(rows, seconds_solver);
 
-    Solution linear = solver->solution();
+    std::optional<Solution> linear;
     if (divided.linear)
-        add_slopes(settings, mesh, *tracer, linear, monitor.interrupted, statistics);
+        add_slopes(settings, mesh, *tracer, linear.emplace(solver->solution()), monitor.interrupted,
+                   statistics);
     // Where a signal or the time left no step, there is the light by which patches were divided.
-    const Solution& solution = linear.steps > 0          ? linear
-                               : divided.rough.steps > 0 ? divided.rough
-                                                         : linear;
+    const bool has_step = solver->solution().steps > 0 || divided.rough.steps == 0;
+    const Solution& solution = !has_step ? divided.rough : linear ? *linear : solver->solution();
     fill(statistics, settings, mesh, solution, seconds_solver);
     add_division_error(statistics, settings, mesh, *tracer, solution, monitor.interrupted);
     if (!settings.plain) // which leaves out nothing

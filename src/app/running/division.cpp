@@ -100,6 +100,8 @@ Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, const SolverI
                 statistics.rays_divide += round.rays;
                 log_line(settings.verbosity, Verbosity::verbose, round_text(round));
             });
+    else if (divided.begun) // which has it
+        divided.rough = {};
     if (divided.patches && divided.begun)
         statistics.rays_divide += divided.begun->solution().rays_energy;
     if (divided.patches) {

@@ -32,7 +32,7 @@ constexpr unsigned rows_at_first = 6, rows_again = 3;
 constexpr double solved_at_growth = 6;
 
 /// The rough solution's error: most of it is gone once the light is reflected.
-constexpr double most_rough_error = .05;
+constexpr double least_rough_error = .02, most_rough_error = .05;
 
 /// What is known of the patches.
 class Division {
@@ -62,7 +62,7 @@ class Division {
     /// points miss something once, the patch must not count as even for ever.
     void measure(std::uint64_t seed) {
         monitor_.phase = "dividing";
-        fresh_ = 0;
+        fresh_ = fresh_squares_ = 0;
         for (const bool is_new : {true, false}) {
             std::vector<std::uint32_t> some;
             for (std::uint32_t i = 0; i < patches(); ++i)
@@ -73,6 +73,13 @@ class Division {
     }
     [[nodiscard]] DivisionRound round() const {
         return {patches(), std::sqrt(std::max(fresh_, 0.0) / size()), rays_};
+    }
+    /// Whether the division is done, and that is known: few points may miss what few patches hold,
+    /// whose squares then scatter.
+    [[nodiscard]] bool is_done() const {
+        constexpr double doubt = .5;
+        const double most = fresh_ + doubt * std::sqrt(fresh_squares_);
+        return most <= options_.error * options_.error * size();
     }
     /// False where nothing can be divided.
     [[nodiscard]] bool divide() {
@@ -107,6 +114,7 @@ class Division {
             {.estimates = 1, .most_rows = most_rows, .seed = seed}, workers_, monitor_.interrupted);
         for (std::size_t k = 0; k < some.size(); ++k) {
             fresh_ += found.square[k];
+            fresh_squares_ += found.square[k] * found.square[k];
             double& times = times_[some[k]];
             double& square = square_[some[k]];
             square = (times * square + most_rows * found.square[k]) / (times + most_rows);
@@ -125,6 +133,7 @@ class Division {
     std::vector<double> square_; ///< by patch, as of light_within_patches()
     std::vector<double> times_;  ///< that the patch was measured, by rows of points
     double fresh_ = 0;           ///< sum of what was measured in this round alone
+    double fresh_squares_ = 0;   ///< and of its squares
     std::size_t solved_;
     std::uint64_t rays_ = 0;
 };
@@ -135,7 +144,7 @@ StopRule rough_stop(const AdaptiveDivision& options, std::size_t patches) {
     constexpr std::uint64_t rays_of_patch = 4096, least_rays = 4'000'000;
     return {.steps = {},
             .seconds = {},
-            .error = std::min(most_rough_error, options.error),
+            .error = std::clamp(options.error, least_rough_error, most_rough_error),
             .rays = least_rays + rays_of_patch * patches};
 }
 
@@ -169,7 +178,7 @@ bool divide_where_light_changes(Mesh& mesh, const Tracer& tracer, Solution& solu
         const DivisionRound found = division.round();
         if (after_round)
             after_round(found);
-        if (!(found.error > options.error) || !division.divide())
+        if (division.is_done() || !division.divide())
             break;
     }
     return mesh.patches().size() > patches;

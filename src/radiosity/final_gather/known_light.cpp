@@ -4,6 +4,7 @@
 #include "radiosity/final_gather/surface_points.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solution.h"
 #include "radiosity/solving/stop_flag.h"
 
 #include <cmath>
@@ -22,7 +23,9 @@ KnownLight::KnownLight(const Mesh& mesh, const Tracer& tracer, std::span<const V
         at.push_back(point.at);
         streams.push_back(hash_words({seed, at.size()}));
     }
-    FinalGather gather(mesh, tracer, accurate);
+    Solution sent;
+    sent.radiosity.assign(accurate.begin(), accurate.end());
+    FinalGather gather(mesh, tracer, sent);
     const std::vector<Vec3> irradiance = gather.irradiance(at, streams, 2, workers, interrupted);
     if (interrupted) {
         points_.clear();
