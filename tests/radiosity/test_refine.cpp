@@ -150,11 +150,11 @@ TEST_CASE("division goes where the light changes, and ends at the error asked fo
     Model model(test::room_with_block());
     const std::size_t before = model.mesh.patches().size();
     Monitor monitor;
-    const AdaptiveDivision tenth{.error = .05};
-    Solution solution = rough_solution(model.mesh, model.bvh, tenth, monitor);
+    const AdaptiveDivision twentieth{.error = .05};
+    Solution solution = rough_solution(model.mesh, model.bvh, twentieth, monitor);
     std::vector<double> errors;
     CHECK(divide_where_light_changes(
-        model.mesh, model.bvh, solution, tenth, monitor,
+        model.mesh, model.bvh, solution, twentieth, monitor,
         [&](const DivisionRound& round) { errors.push_back(round.error); }));
     REQUIRE(errors.size() > 1);
     CHECK(errors.front() > .05);
