@@ -1,5 +1,6 @@
 // --divide, and the error of the light within patches.
 #include "app/program.h"
+#include "app/running.h"
 
 #include "support/catch.h"
 
@@ -7,6 +8,8 @@
 #include <string>
 
 using Catch::Matchers::Contains;
+using test::Running;
+using test::wait_for;
 using test::Workplace;
 
 namespace {
@@ -56,6 +59,24 @@ TEST_CASE(
     CHECK(statistic(json, "rays_divide") > 0);
 }
 
+TEST_CASE("--divide auto gives out linear functions, with their gradients in the table") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place.hemilux("solve room.obj --divide auto --error .1 -q -o a.csv").code == 0);
+    REQUIRE(place.hemilux("solve room.obj -q -o b.csv").code == 0);
+    CHECK_THAT(place.read("a.csv"), Contains(",gradient_r_x,gradient_r_y,gradient_r_z,"));
+    CHECK(place.read("b.csv").find("gradient") == std::string::npos);
+}
+
+TEST_CASE("--divide auto leaves alone what is even: it costs a thousand points") {
+    const Workplace place;
+    place.write_room();
+    const std::string command = "solve room.obj --error .9 -q --seed 2 ";
+    REQUIRE(place.hemilux(command + "--divide auto -o a.csv --stats s.json").code == 0);
+    CHECK(statistic(place.read("s.json"), "patches") == 24);
+    CHECK(place.read("a.csv").find("gradient") == std::string::npos);
+}
+
 TEST_CASE("a run that divides patches can be resumed to the same bytes") {
     const Workplace place;
     place.write_room();
@@ -64,6 +85,28 @@ TEST_CASE("a run that divides patches can be resumed to the same bytes") {
     REQUIRE(place.hemilux(command + "--steps 3 -q -o half.csv --checkpoint saved").code == 0);
     REQUIRE(place.hemilux(command + "--steps 6 -q -o resumed.csv --resume saved").code == 0);
     CHECK(place.read("whole.csv") == place.read("resumed.csv"));
+}
+
+TEST_CASE("a time limit is of the division and the solution together") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux(
+        "solve room.obj --divide auto --error 1e-4 --time .2 -o a.csv --stats s.json");
+    REQUIRE(outcome.code == 0);
+    CHECK(statistic(place.read("s.json"), "rays_divide") > 0);
+    CHECK(place.read("a.csv").find("nan") == std::string::npos);
+}
+
+TEST_CASE("Ctrl-C while patches are divided leaves the light by which they were divided") {
+    const Workplace place;
+    place.write_room();
+    Running run(place, "solve room.obj --divide auto --error 1e-4 -v -o a.csv",
+                place.path("log.txt").c_str());
+    REQUIRE(wait_for(place, "log.txt", "division:"));
+    run.interrupt();
+    CHECK(run.wait() == 130);
+    CHECK_THAT(place.read("log.txt"), Contains("interrupted; the outputs hold"));
+    CHECK(place.has("a.csv"));
 }
 
 TEST_CASE("--divide takes a length as --max-edge does, and not both") {

@@ -1,6 +1,9 @@
 // The error of the light on the surfaces, against light in closed form and against finer divisions.
 #include "geometry/form_factor.h"
+#include "geometry/frame.h"
 #include "radiosity/final_gather/division_error.h"
+#include "radiosity/final_gather/light_within_patches.h"
+#include "radiosity/final_gather/linear_light.h"
 #include "radiosity/sampling/workers.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -8,6 +11,7 @@
 #include "support/catch.h"
 
 #include <cmath>
+#include <numeric>
 
 using namespace hemilux;
 using test::Model;
@@ -36,8 +40,8 @@ Polygon lamp_of(const Mesh& mesh) {
     return {};
 }
 
-/// The error of the patches' values as a function on the ground, by a grid of points on each.
-double true_error_on_ground(const Mesh& mesh, std::span<const Vec3> radiosity) {
+/// The error of a solution as a function on the ground, by a grid of points on each patch.
+double true_error_on_ground(const Mesh& mesh, const Solution& solution) {
     const Polygon lamp = lamp_of(mesh);
     constexpr int grid = 24;
     double error = 0, size = 0;
@@ -53,7 +57,7 @@ double true_error_on_ground(const Mesh& mesh, std::span<const Vec3> radiosity) {
                 const Vec3 light = mesh.material(i).reflectance *
                                    point_to_polygon(x, patch.normal, lamp) *
                                    Vec3(lamp_emission, .5 * lamp_emission, 0);
-                const Vec3 off = radiosity[i] - light;
+                const Vec3 off = radiosity_at(mesh, solution, i, x) - light;
                 error += patch.area * glm::dot(off, off);
                 size += patch.area * glm::dot(light, light);
             }
@@ -77,7 +81,7 @@ TEST_CASE("the error of a division is that against light in closed form") {
     const Model model(lamp_over_ground(width), {.max_edge = max_edge});
     const Solution solution = test::solve(model, *find_method("gathering"), {},
                                           {.steps = {}, .seconds = {}, .error = .002});
-    const double truth = true_error_on_ground(model.mesh, solution.radiosity);
+    const double truth = true_error_on_ground(model.mesh, solution);
     double mean_square = 0, mean_uncertainty = 0;
     constexpr int seeds = 8;
     for (int seed = 0; seed < seeds; ++seed) {
@@ -91,6 +95,44 @@ TEST_CASE("the error of a division is that against light in closed form") {
     }
     CAPTURE(width, max_edge, truth, mean_square, mean_uncertainty);
     CHECK(std::abs(std::sqrt(mean_square) - truth) < 4 * mean_uncertainty / std::sqrt(seeds));
+}
+
+TEST_CASE("linear functions are nearer to the light in closed form, and the error says how near") {
+    const Model model(lamp_over_ground(.3), {.max_edge = .5});
+    Solution solution = test::solve(model, *find_method("gathering"), {},
+                                    {.steps = {}, .seconds = {}, .error = .002});
+    const double constant = true_error_on_ground(model.mesh, solution);
+    std::vector<std::uint32_t> all(model.mesh.patches().size());
+    std::iota(all.begin(), all.end(), 0u);
+    const StopFlag never;
+    const LightWithinPatches one =
+        light_within_patches({model.mesh, model.bvh, solution}, all, {}, Workers(1), never);
+    const LightWithinPatches three =
+        light_within_patches({model.mesh, model.bvh, solution}, all, {}, Workers(3), never);
+    CHECK(one.square == three.square);
+    solution.slope = one.slope;
+    const double linear = true_error_on_ground(model.mesh, solution);
+    CHECK(linear < .5 * constant);
+    // What is left, from few points a patch, is about the true one.
+    const double left = std::sqrt(std::accumulate(one.square.begin(), one.square.end(), 0.0) /
+                                  reflected_square(model.mesh, solution));
+    CHECK(left == Approx(linear).epsilon(.3));
+    const DivisionError found = division_error_of(model, solution, 1);
+    CAPTURE(constant, linear, left, found.error, found.uncertainty);
+    CHECK(std::abs(found.error - linear) < 5 * found.uncertainty);
+}
+
+TEST_CASE("a linear function has the patch's value in its centre and does not fall below 0") {
+    const Model model(lamp_over_ground(.3));
+    Solution solution;
+    solution.radiosity.assign(model.mesh.patches().size(), Vec3(1, 2, 3));
+    solution.slope.resize(model.mesh.patches().size());
+    solution.slope[0] = {Vec3(10), Vec3(0)};
+    const Patch& patch = model.mesh.patches()[0];
+    CHECK(radiosity_at(model.mesh, solution, 0, patch.centre) == Vec3(1, 2, 3));
+    const Frame axes = Frame::from_normal(patch.normal);
+    CHECK(radiosity_at(model.mesh, solution, 0, patch.centre + .1 * axes.x).y == Approx(3));
+    CHECK(radiosity_at(model.mesh, solution, 0, patch.centre - axes.x).x == 0);
 }
 
 TEST_CASE("light that does not change within patches has no error of division") {
@@ -141,7 +183,7 @@ TEST_CASE("the errors of patches add up to that of the division") {
     const Model model(lamp_over_ground(.3), {.max_edge = .5});
     Solution solution = test::solve(model, *find_method("gathering"), {},
                                     {.steps = {}, .seconds = {}, .error = .002});
-    const double truth = true_error_on_ground(model.mesh, solution.radiosity);
+    const double truth = true_error_on_ground(model.mesh, solution);
     const StopFlag never;
     const std::vector<double> levels =
         patch_error_levels(model.mesh, model.bvh, solution, 1, Workers(0), never);

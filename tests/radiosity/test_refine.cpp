@@ -1,5 +1,6 @@
 // Patches that are divided further: nothing is lost, and rays find the pieces.
 #include "radiosity/division/adaptive_division.h"
+#include "radiosity/division/inherited.h"
 #include "radiosity/division/patch_levels.h"
 #include "radiosity/sampling/rng.h"
 #include "support/scenes.h"
@@ -90,6 +91,35 @@ TEST_CASE("a level of refinement makes four of a patch, or two of a long one") {
     CHECK(model.mesh.patches().size() == 14);
 }
 
+TEST_CASE("pieces of a patch have what it had, and their sums over the area stay") {
+    Model model(some_shapes(), {.two_sided = GENERATE(false, true)});
+    Solution solution;
+    for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i)
+        solution.radiosity.emplace_back(1 + i, 2, 3);
+    solution.standard_error = solution.radiosity;
+    solution.hits.resize(solution.radiosity.size());
+    const auto power = [&] {
+        double sum = 0;
+        for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i)
+            sum += model.mesh.patches()[i].area * solution.radiosity[i].x;
+        return sum;
+    };
+    const double before = power();
+    std::vector<Patch> patches(model.mesh.patches().begin(), model.mesh.patches().end());
+    Rng rng(3);
+    for (int round = 0; round < 2; ++round) {
+        const auto parents = model.mesh.refine(random_levels(model.mesh, rng));
+        REQUIRE(parents.size() == model.mesh.patches().size());
+        for (std::uint32_t i = 0; i < parents.size(); ++i) {
+            CHECK(model.mesh.patches()[i].facet == patches[parents[i]].facet);
+            CHECK(model.mesh.patches()[i].back == patches[parents[i]].back);
+        }
+        inherit(solution, parents);
+        CHECK(power() == Approx(before).epsilon(1e-10));
+        patches.assign(model.mesh.patches().begin(), model.mesh.patches().end());
+    }
+}
+
 TEST_CASE("the light of a furnace is the same on refined patches") {
     Model model(test::furnace_l_shape(.5));
     Rng rng(7);
@@ -120,16 +150,21 @@ TEST_CASE("division goes where the light changes, and ends at the error asked fo
     Model model(test::room_with_block());
     const std::size_t before = model.mesh.patches().size();
     Monitor monitor;
+    const AdaptiveDivision twentieth{.error = .05};
+    Solution solution = rough_solution(model.mesh, model.bvh, twentieth, monitor);
     std::vector<double> errors;
     CHECK(divide_where_light_changes(
-        model.mesh, model.bvh, {.error = .1}, monitor,
-        [&](const DivisionRound& round) { errors.push_back(round.found.error); }));
+        model.mesh, model.bvh, solution, twentieth, monitor,
+        [&](const DivisionRound& round) { errors.push_back(round.error); }));
     REQUIRE(errors.size() > 1);
-    CHECK(errors.front() > .1);
-    CHECK(errors.back() <= .1);
+    CHECK(errors.front() > .05);
+    CHECK(errors.back() <= .05);
     CHECK(model.mesh.patches().size() > before);
+    CHECK(solution.radiosity.size() == model.mesh.patches().size());
 
     Model even(test::furnace_box(2, .5));
-    CHECK(divide_where_light_changes(even.mesh, even.bvh, {.error = .01}, monitor));
+    const AdaptiveDivision hundredth{.error = .01};
+    Solution furnace = rough_solution(even.mesh, even.bvh, hundredth, monitor);
+    CHECK_FALSE(divide_where_light_changes(even.mesh, even.bvh, furnace, hundredth, monitor));
     CHECK(even.mesh.patches().size() == 24);
 }

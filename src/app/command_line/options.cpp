@@ -357,15 +357,16 @@ std::optional<DivisionChoice> division_from(const std::string& text) {
 }
 
 void add_divide_option(Command command, Option max_edge, SolveSettings& settings) {
-    add_parsed(command, "--divide", "auto|none|LENGTH",
-               "patches: auto: divided where the light changes within them, until the error of the "
-               "light itself is that of --error [.05 then]; none: the faces; LENGTH: as --max-edge "
-               "[none]",
-               "auto, none or a length above 0", division_from,
-               [&settings](const DivisionChoice& choice) {
-                   settings.divide_auto = choice.by_light;
-                   settings.scene.mesh.max_edge = choice.max_edge;
-               })
+    add_parsed(
+        command, "--divide", "auto|none|LENGTH",
+        "patches: auto: divided where the light changes within them, and linear light on each, "
+        "until the error of the light itself is that of --error [.05 then]; none: the faces; "
+        "LENGTH: as --max-edge [none]",
+        "auto, none or a length above 0", division_from,
+        [&settings](const DivisionChoice& choice) {
+            settings.divide_auto = choice.by_light;
+            settings.scene.mesh.max_edge = choice.max_edge;
+        })
         .excludes(max_edge)
         .group("Scene");
 }

@@ -176,30 +176,44 @@ int solve(const SolveSettings& settings) {
     const auto& [tracer, tree] = prepared.made;
     statistics.seconds_bvh = prepared.seconds;
     log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, statistics.seconds_bvh));
-    if (divide_as_asked(settings, loaded.mesh, *tracer, monitor, statistics) &&
-        !settings.options.keep_all)
-        prepared.needs = find_needs(mesh);
     const Needs& needs = prepared.needs;
+    SolveOptions options = with_memory(settings.options, settings.scene);
+    const SolverInput input{mesh, *tracer, options, monitor, needs};
+    const auto begin = [&] {
+        const StopRule stop = stop_rule(settings, mesh.patches().size());
+        options.rays = rays_of_step(settings.options.rays, settings.stop.seconds, *settings.method,
+                                    mesh.patches().size());
+        options.growing_steps = !stop.steps;
+        options.aim = stop.error.value_or(0);
+        options.expected_steps = expected_steps(stop);
+        return make_solver(settings, input, loaded.face_lines);
+    };
+    guard.watch(monitor.interrupted);
+    Divided divided;
+    try {
+        divided = divide_as_asked(settings, loaded.mesh, input, begin, statistics);
+    } catch (const SolveError& error) {
+        throw as_input_error(error, settings.scene.path, loaded.face_lines);
+    }
+    if (divided.patches && !settings.options.keep_all)
+        prepared.needs = find_needs(mesh);
     const StopRule stop = stop_rule(settings, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;
-    if (!settings.reference.empty())
+    if (!settings.reference.empty() && !monitor.interrupted) {
+        guard.unwatch();
         reference = read_reference(settings.reference, mesh, std::move(detail));
-    guard.watch(monitor.interrupted);
+        guard.watch(monitor.interrupted);
+    }
     Progress progress(monitor, share_of(stop, *settings.method),
                       settings.verbosity != Verbosity::quiet && stderr_is_terminal());
     const Stopwatch solving;
-    SolveOptions options = with_memory(settings.options, settings.scene);
-    options.rays =
-        rays_of_step(options.rays, settings.stop.seconds, *settings.method, mesh.patches().size());
+    const std::unique_ptr<Solver> solver =
+        divided.begun && !resumed ? std::move(divided.begun) : begin();
     log_rays_of_step(settings.verbosity, settings.options.rays, options.rays);
-    options.growing_steps = !stop.steps;
-    options.aim = stop.error.value_or(0);
-    options.expected_steps = expected_steps(stop);
-    const SolverInput input{mesh, *tracer, options, monitor, needs};
-    const std::unique_ptr<Solver> solver = make_solver(settings, input, loaded.face_lines);
     std::vector<StepRow> rows;
-    Before before;
+    Before before = divided.before;
+    before.seconds += statistics.seconds_divide; // a time limit is of both
     if (resumed) {
         before = resume(*resumed, settings, mesh, *solver);
         rows = resumed->rows;
@@ -228,24 +242,31 @@ int solve(const SolveSettings& settings) {
         if (solver->solution().steps == 0)
             throw *fault;
     }
-    const double seconds_solver = solving.seconds() + (resumed ? resumed->seconds : 0);
+    const double seconds_solver =
+        solving.seconds() + (resumed ? resumed->seconds : divided.before.seconds);
     progress.close();
     checkpointer.finish(rows, seconds_solver);
 
-    fill(statistics, settings, mesh, solver->solution(), seconds_solver);
-    add_division_error(statistics, settings, mesh, *tracer, solver->solution(),
-                       monitor.interrupted);
+    std::optional<Solution> linear;
+    if (divided.linear)
+        add_slopes(settings, mesh, *tracer, linear.emplace(solver->solution()), monitor.interrupted,
+                   statistics);
+    // Where a signal or the time left no step, there is the light by which patches were divided.
+    const bool has_step = solver->solution().steps > 0 || divided.rough.steps == 0;
+    const Solution& solution = !has_step ? divided.rough : linear ? *linear : solver->solution();
+    fill(statistics, settings, mesh, solution, seconds_solver);
+    add_division_error(statistics, settings, mesh, *tracer, solution, monitor.interrupted);
     if (!settings.plain) // which leaves out nothing
-        statistics.left_out = left_out(needs, *settings.method, solver->solution());
+        statistics.left_out = left_out(needs, *settings.method, solution);
     statistics.bytes_peak = peak_memory_bytes();
     WriteReport of_run = step_pictures.report();
     of_run.add(checkpointer.report());
     const bool interrupted = !completed && !fault;
     SolveSettings shown = settings; // the last picture has the view of those before
     shown.view.camera = step_pictures.camera();
-    const int code = finish(
-        shown, {mesh, *tracer, solver->solution(), statistics, rows, points, monitor.interrupted},
-        of_run, reference, notes, interrupted, started, resumed ? resumed->seconds : 0);
+    const int code =
+        finish(shown, {mesh, *tracer, solution, statistics, rows, points, monitor.interrupted},
+               of_run, reference, notes, interrupted, started, resumed ? resumed->seconds : 0);
     if (interrupted)
         end_at_once(code);
     if (!fault || code != exit_done)

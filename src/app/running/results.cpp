@@ -63,7 +63,7 @@ class Picture {
         const Stopwatch watch;
         Image image =
             render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads, time_,
-                        gather_ > 0 ? nullptr : &classes_.get(), gather_);
+                        gather_ > 0 ? nullptr : &classes_.get(), gather_, solution.slope);
         if (gather_ > 0)
             seconds_gather_ = watch.seconds();
         return image;
@@ -86,10 +86,12 @@ void write_output(const Output& output, const Results& results, SharedClasses& c
     case OutputKind::hdr:
         return picture.write(output);
     case OutputKind::ply:
-        return write_ply(output.path, results.mesh, solution.radiosity, classes.get());
+        return write_ply(output.path, results.mesh, solution.radiosity, classes.get(),
+                         solution.slope);
     case OutputKind::csv:
         return write_patch_table(output.path, results.mesh, solution.radiosity,
-                                 solution.standard_error, Workers(results.statistics.threads));
+                                 solution.standard_error, Workers(results.statistics.threads),
+                                 solution.slope);
     case OutputKind::json:
         return write_statistics(output.path, results.statistics);
     }

@@ -53,13 +53,17 @@ InterruptGuard::InterruptGuard(std::atomic<bool>& flag) : InterruptGuard() { wat
 InterruptGuard::~InterruptGuard() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
-    interrupted = nullptr;
-    end_waits_on(nullptr);
+    unwatch();
 }
 
 void InterruptGuard::watch(std::atomic<bool>& flag) {
     end_waits_on(&flag);
     interrupted = &flag;
+}
+
+void InterruptGuard::unwatch() {
+    interrupted = nullptr;
+    end_waits_on(nullptr);
 }
 
 int exit_code_of_signal() { return exit_code; }

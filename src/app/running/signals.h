@@ -19,6 +19,8 @@ class InterruptGuard {
 
     /// From now on a signal sets the flag.
     void watch(std::atomic<bool>& flag);
+    /// And from now on it ends the program at once again.
+    void unwatch();
 };
 
 /// How the program ends after the first signal: 130 or 143.

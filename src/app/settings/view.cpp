@@ -28,7 +28,8 @@ bool PictureTime::is_over() const {
 
 Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                   std::span<const Vec3> radiosity, const Camera& camera, unsigned threads,
-                  const PictureTime& time, const CornerClasses* classes, unsigned gather) {
+                  const PictureTime& time, const CornerClasses* classes, unsigned gather,
+                  std::span<const Slope> slope) {
     const auto [width, height] = view.size;
     return render(mesh, tracer, radiosity, camera,
                   {.width = width,
@@ -36,6 +37,7 @@ Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& trac
                    .gather = gather,
                    .threads = threads,
                    .classes = classes,
+                   .slope = slope,
                    .give_up = [&time] { return time.is_over(); }});
 }
 

@@ -31,11 +31,13 @@ class PictureTime {
 };
 
 /// Linear radiosity in the size asked for: of the patches, or gathered with so many rays at a
-/// point; the mesh's classes of corners, where they are known. Interrupted when the time is over.
+/// point; the mesh's classes of corners, where they are known; slopes as of smooth(). Interrupted
+/// when the time is over.
 [[nodiscard]] Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                                 std::span<const Vec3> radiosity, const Camera& camera,
                                 unsigned threads, const PictureTime& time,
-                                const CornerClasses* classes = nullptr, unsigned gather = 0);
+                                const CornerClasses* classes = nullptr, unsigned gather = 0,
+                                std::span<const Slope> slope = {});
 
 /// The factor given, or one chosen for the picture.
 [[nodiscard]] double exposure_of(const ViewSettings& view, const Image& image);

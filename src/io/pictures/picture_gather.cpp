@@ -53,11 +53,10 @@ bool is_same_surface(const Vec3& a, const Vec3& normal_a, const Vec3& b, const V
            off * off <= flatness * flatness * glm::dot(way, way);
 }
 
-PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer,
-                             std::span<const Vec3> radiosity, const CameraRays& camera, int width,
-                             int height, const PictureGatherOptions& options,
-                             const Workers& workers)
-    : options_(options), final_gather_(mesh, tracer, radiosity), width_(width), height_(height),
+PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
+                             const CameraRays& camera, int width, int height,
+                             const PictureGatherOptions& options, const Workers& workers)
+    : options_(options), final_gather_(mesh, tracer, light), width_(width), height_(height),
       columns_((width + step - 1) / step), rows_((height + step - 1) / step) {
     find_points(mesh, camera, workers);
     gather(workers);

@@ -36,7 +36,7 @@ struct PictureGatherOptions {
 
 class PictureGather {
   public:
-    PictureGather(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
+    PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
                   const CameraRays& camera, int width, int height,
                   const PictureGatherOptions& options, const Workers& workers);
 

@@ -38,7 +38,7 @@ class Shading {
             return;
         if (!classes_)
             classes_ = &own_classes_.emplace(find_corner_classes(mesh));
-        corner_radiosity_ = smooth(mesh, *classes_, radiosity);
+        corner_radiosity_ = smooth(mesh, *classes_, radiosity, options.slope);
     }
     Shading(const Shading&) = delete;
     Shading& operator=(const Shading&) = delete;
@@ -108,7 +108,7 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
         return shaded_picture(mesh, visible, Shading(mesh, radiosity, options), options);
     const auto samples = static_cast<unsigned>(options.samples);
     const PictureGather gather(
-        mesh, tracer, radiosity, rays, options.width, options.height,
+        mesh, tracer, PatchLight(radiosity, options.slope), rays, options.width, options.height,
         {.rays = options.gather,
          .shadow_rays_per_sample = std::max(1u, options.gather / (4 * samples)),
          .samples = samples,

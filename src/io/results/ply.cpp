@@ -43,8 +43,8 @@ void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> 
 }
 
 void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
-               const CornerClasses& classes) {
-    const std::vector<Vec3> colours = smooth(mesh, classes, radiosity);
+               const CornerClasses& classes, std::span<const Slope> slope) {
+    const std::vector<Vec3> colours = smooth(mesh, classes, radiosity, slope);
     AtomicFile file(path);
     file.write(header(classes.position.size(), mesh.patches().size()));
     std::string record;

@@ -10,6 +10,7 @@
 namespace hemilux {
 
 class Mesh;
+struct Slope;
 struct CornerClasses;
 
 /// Vertices x, y, z (double, world units) and red, green, blue (float, linear radiosity, smoothed
@@ -17,7 +18,8 @@ struct CornerClasses;
 /// share its radiosity. Throws OutputError.
 void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity);
 /// The same where the mesh's classes of corners are known already.
+/// `slope`: as of smooth().
 void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
-               const CornerClasses& classes);
+               const CornerClasses& classes, std::span<const Slope> slope = {});
 
 } // namespace hemilux

@@ -3,6 +3,7 @@
 #include "bvh/tracer.h"
 #include "geometry/numeric.h"
 #include "io/results/weld.h"
+#include "radiosity/final_gather/linear_light.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
@@ -179,15 +180,18 @@ CornerClasses find_corner_classes(const Mesh& mesh) {
 }
 
 std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
-                         std::span<const Vec3> radiosity) {
+                         std::span<const Vec3> radiosity, std::span<const Slope> slope) {
     std::vector<Vec3> sum(classes.position.size(), Vec3(0.0));
     std::vector<double> weight(classes.position.size(), 0.0);
-    for (std::size_t i = 0; i < radiosity.size(); ++i) {
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
         const Polygon& shape = mesh.patches()[i].shape;
         for (std::size_t c = 0; c < static_cast<std::size_t>(shape.size()); ++c) {
             constexpr double tiny = 1e-6; // a corner of a sliver has a value too
             const double angle = corner_angle(shape, c) + tiny;
-            sum[classes.of_patch[i][c]] += angle * radiosity[i];
+            sum[classes.of_patch[i][c]] +=
+                angle * (slope.empty()
+                             ? radiosity[i]
+                             : radiosity_at(mesh, i, radiosity[i], slope[i], shape.corner[c]));
             weight[classes.of_patch[i][c]] += angle;
         }
     }

@@ -18,6 +18,7 @@
 namespace hemilux {
 
 class Mesh;
+struct Slope;
 
 struct CornerClasses {
     std::vector<std::array<std::uint32_t, 4>>
@@ -31,9 +32,11 @@ inline constexpr double crease_angle = 31;
 
 [[nodiscard]] CornerClasses find_corner_classes(const Mesh& mesh);
 
-/// Mean over each class, weighted by the angles at the corners.
+/// Mean over each class, weighted by the angles at the corners. `slope`: empty, or by patch, what
+/// its light is in its corners.
 [[nodiscard]] std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
-                                       std::span<const Vec3> radiosity);
+                                       std::span<const Vec3> radiosity,
+                                       std::span<const Slope> slope = {});
 
 /// Weights of the corners for a point of the polygon: barycentric in a triangle, the inverse of the
 /// bilinear map in a quad. Linear along edges, so that neighbours agree there.

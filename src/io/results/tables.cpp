@@ -1,5 +1,6 @@
 #include "io/results/tables.h"
 
+#include "geometry/frame.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/results/csv.h"
@@ -21,6 +22,9 @@ constexpr std::string_view patch_header =
     "patch,face,material,group,area,x,y,z,nx,ny,nz,reflectance_r,reflectance_g,reflectance_b,"
     "emission_r,emission_g,emission_b,radiosity_r,radiosity_g,radiosity_b,stderr_r,stderr_g,"
     "stderr_b\n";
+constexpr std::string_view gradient_header =
+    ",gradient_r_x,gradient_r_y,gradient_r_z,gradient_g_x,gradient_g_y,gradient_g_z,gradient_b_x,"
+    "gradient_b_y,gradient_b_z\n";
 constexpr std::string_view steps_header =
     "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,true_error_rest,"
     "total_error\n";
@@ -51,8 +55,8 @@ void add_if_known(std::string& line, double value) {
 class PatchRows {
   public:
     PatchRows(const Mesh& mesh, std::span<const Vec3> radiosity,
-              std::span<const Vec3> standard_error)
-        : mesh_(mesh), radiosity_(radiosity), standard_error_(standard_error) {
+              std::span<const Vec3> standard_error, std::span<const Slope> slope)
+        : mesh_(mesh), radiosity_(radiosity), standard_error_(standard_error), slope_(slope) {
         for (const Material& m : mesh.scene().materials) {
             csv::append_text(material_.emplace_back(","), m.name);
             std::string& text = colours_.emplace_back();
@@ -77,25 +81,35 @@ class PatchRows {
         text += colours_[patch.material];
         add(text, radiosity_[i]);
         add(text, standard_error_.empty() ? Vec3(0.0) : standard_error_[i]);
+        if (!slope_.empty()) {
+            const Frame axes = Frame::from_normal(patch.normal);
+            for (int channel = 0; channel < 3; ++channel)
+                add(text,
+                    frame.scale * (slope_[i].x[channel] * axes.x + slope_[i].y[channel] * axes.y));
+        }
         text += '\n';
     }
 
   private:
     const Mesh& mesh_;
     std::span<const Vec3> radiosity_, standard_error_;
+    std::span<const Slope> slope_;
     std::vector<std::string> material_, colours_, group_;
 };
 
 } // namespace
 
 void write_patch_table(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
-                       std::span<const Vec3> standard_error, const Workers& workers) {
+                       std::span<const Vec3> standard_error, const Workers& workers,
+                       std::span<const Slope> slope) {
     const std::size_t rows = mesh.patches().size();
     assert(radiosity.size() == rows);
     assert(standard_error.empty() || standard_error.size() == rows);
-    const PatchRows table(mesh, radiosity, standard_error);
+    const PatchRows table(mesh, radiosity, standard_error, slope);
     AtomicFile file(path);
-    file.write(patch_header);
+    const std::string_view columns = patch_header.substr(0, patch_header.size() - 1);
+    file.write(slope.empty() ? std::string(patch_header)
+                             : std::string(columns) + std::string(gradient_header));
     std::array<std::string, texts_at_a_time> texts;
     for (std::size_t first = 0; first < rows; first += texts.size() * rows_per_text) {
         const auto row = [&](std::size_t text) {

@@ -1,6 +1,8 @@
 #include "radiosity/final_gather/division_error.h"
 
 #include "radiosity/final_gather/final_gather.h"
+#include "radiosity/final_gather/light_within_patches.h"
+#include "radiosity/final_gather/linear_light.h"
 #include "radiosity/final_gather/surface_points.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace hemilux {
@@ -58,7 +61,9 @@ double product_over_surface(const Mesh& mesh, const Solution& solution, FinalGat
     double sum = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {
         const Material& material = mesh.material(points[k].patch);
-        const Vec3 reflected = solution.radiosity[points[k].patch] - material.emission;
+        const Vec3 reflected =
+            radiosity_at(mesh, solution, points[k].patch, points[k].at.position) -
+            material.emission;
         const auto off = [&](std::size_t e) {
             return material.reflectance * irradiance[2 * k + e] - reflected;
         };
@@ -85,15 +90,6 @@ double seen_variance(const Mesh& mesh, const Solution& solution) {
     return seen_share(mesh, solution) * solution.variance.value_or(std::isfinite(sum) ? sum : 0);
 }
 
-double reflected_square(const Mesh& mesh, const Solution& solution) {
-    double sum = 0;
-    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
-        const Vec3 reflected = solution.radiosity[i] - mesh.material(i).emission;
-        sum += mesh.patches()[i].area * glm::dot(reflected, reflected);
-    }
-    return sum;
-}
-
 /// What is not of the division, relative to the square of the patches' values as all else. One
 /// error is not as large as errors are on average: its square scatters by 2 / parts.
 struct OtherError {
@@ -112,6 +108,15 @@ void set_error(DivisionError& result, const Rounds& rounds, const OtherError& ot
 
 } // namespace
 
+double reflected_square(const Mesh& mesh, const Solution& solution) {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        const Vec3 reflected = solution.radiosity[i] - mesh.material(i).emission;
+        sum += mesh.patches()[i].area * glm::dot(reflected, reflected);
+    }
+    return sum;
+}
+
 DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
                              const DivisionErrorOptions& options, const Workers& workers,
                              const StopFlag& interrupted) {
@@ -119,7 +124,7 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
     const double size = reflected_square(mesh, solution);
     if (!(size > 0))
         return result;
-    FinalGather gather(mesh, tracer, solution.radiosity);
+    FinalGather gather(mesh, tracer, solution);
     const double known = seen_variance(mesh, solution) / size;
     const double freedom = std::max(error_spread(mesh, solution).freedom, 1.0);
     Rounds rounds;
@@ -140,55 +145,13 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
     return result;
 }
 
-PatchErrors patch_errors(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                         std::uint64_t seed, const Workers& workers, const StopFlag& interrupted) {
-    PatchErrors errors;
-    errors.square.resize(mesh.patches().size());
-    const double size = reflected_square(mesh, solution);
-    if (!(size > 0))
-        return errors;
-    const std::vector<PatchPoint> points = points_on_patches(mesh, hash_words({seed, 0}));
-    std::vector<SurfacePoint> at;
-    std::vector<std::uint64_t> streams;
-    for (const PatchPoint& point : points) {
-        at.push_back(point.at);
-        streams.push_back(hash_words({seed, 1, point.patch}));
-    }
-    FinalGather gather(mesh, tracer, solution.radiosity);
-    const std::vector<Vec3> irradiance = gather.irradiance(at, streams, 2, workers, interrupted);
-    if (interrupted)
-        return errors;
-    std::vector<double> of_round(least_rounds);
-    std::size_t patches = 0;
-    for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
-        const std::uint32_t patch = points[begin].patch;
-        while (end < points.size() && points[end].patch == patch)
-            ++end;
-        const auto n = static_cast<double>(end - begin);
-        std::array<Vec3, 2> mean{};
-        for (std::size_t k = 2 * begin; k < 2 * end; ++k)
-            mean[k % 2] += irradiance[k] / n;
-        Vec3 products(0.0);
-        for (std::size_t k = begin; k < end; ++k)
-            products += (irradiance[2 * k] - mean[0]) * (irradiance[2 * k + 1] - mean[1]);
-        const Vec3& rho = mesh.material(patch).reflectance;
-        errors.square[patch] =
-            mesh.patches()[patch].area * glm::dot(rho * rho, products) / (n - 1) / size;
-        of_round[patches++ % least_rounds] += double(least_rounds) * errors.square[patch];
-    }
-    Rounds rounds;
-    for (const double sum : of_round)
-        rounds.add(sum);
-    set_error(errors.whole, rounds, {});
-    errors.whole.points = points.size();
-    errors.whole.rays = gather.rays();
-    return errors;
-}
-
 std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,
                                        const Solution& solution, std::uint64_t seed,
                                        const Workers& workers, const StopFlag& interrupted) {
-    const PatchErrors errors = patch_errors(mesh, tracer, solution, seed, workers, interrupted);
+    std::vector<std::uint32_t> all(mesh.patches().size());
+    std::iota(all.begin(), all.end(), 0u);
+    const LightWithinPatches within =
+        light_within_patches({mesh, tracer, solution}, all, {.seed = seed}, workers, interrupted);
     if (interrupted)
         return {};
     std::vector<double> levels(mesh.patches().size());
@@ -201,8 +164,14 @@ std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,
     for (std::uint32_t i = 0; i < levels.size(); ++i) {
         const Vec3& sigma = solution.standard_error[i];
         const double sampling = glm::dot(sigma, sigma) * area / size;
-        const double within = errors.square[i] * area / mesh.patches()[i].area;
-        levels[i] = std::sqrt(std::max(within, 0.0) + (std::isfinite(sampling) ? sampling : 0));
+        const Patch& patch = mesh.patches()[i];
+        double off = within.square[i];
+        if (solution.slope.empty()) {
+            const Vec3 variance = variance_of(patch, within.slope[i]);
+            off += patch.area * (variance.x + variance.y + variance.z);
+        }
+        const double of_place = patch.area > 0 ? off / size * area / patch.area : 0;
+        levels[i] = std::sqrt(std::max(of_place, 0.0) + (std::isfinite(sampling) ? sampling : 0));
     }
     return levels;
 }

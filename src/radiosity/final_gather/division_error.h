@@ -13,7 +13,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 namespace hemilux {
 
@@ -39,29 +38,19 @@ struct DivisionErrorOptions {
     double negligible = 0;
 };
 
+/// The sum over patches of area times reflected radiosity squared, to which errors are relative.
+[[nodiscard]] double reflected_square(const Mesh& mesh, const Solution& solution);
+
 /// Of a solution with a step at least. Where it was interrupted the error is not known.
 [[nodiscard]] DivisionError division_error(const Mesh& mesh, const Tracer& tracer,
                                            const Solution& solution,
                                            const DivisionErrorOptions& options,
                                            const Workers& workers, const StopFlag& interrupted);
 
-/// The same by patch, as far as the patch alone can tell: how the light varies within it. Both
-/// gathers of all points of a patch use the same random numbers, so that their noise is about the
-/// same everywhere on it, and hides little.
-struct PatchErrors {
-    DivisionError whole;
-    /// Of each patch its share of the squared error, relative to the sum over patches of area times
-    /// reflected radiosity squared; an estimate from few points, which may be negative.
-    std::vector<double> square;
-};
-
-[[nodiscard]] PatchErrors patch_errors(const Mesh& mesh, const Tracer& tracer,
-                                       const Solution& solution, std::uint64_t seed,
-                                       const Workers& workers, const StopFlag& interrupted);
-
 /// Of each patch the root mean square of what its light is off: within the patch, as far as
-/// patch_errors() finds it, and by its standard error. Relative to that of the reflected light over
-/// the whole surface. Empty where it was interrupted; 0 where nothing is known or reflected.
+/// light_within_patches() finds it, and by its standard error. Relative to that of the reflected
+/// light over the whole surface. Empty where it was interrupted; 0 where nothing is known or
+/// reflected.
 [[nodiscard]] std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,
                                                      const Solution& solution, std::uint64_t seed,
                                                      const Workers& workers,

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -21,39 +23,25 @@ constexpr std::size_t points_per_chunk = 16, rays_per_batch = 4096;
 /// they lie near each other.
 constexpr std::uint32_t shared_weights = 64;
 
+/// A patch whose light is met from so near, in sides of a square of its area, is not taken to send
+/// the same, or a linear function, all over: the light that it reflects there is gathered too. So
+/// often at the most.
+constexpr double near_sides = .5;
+constexpr unsigned most_bounces = 8;
+
 } // namespace
 
-/// Rays that are not traced yet, of some points.
-struct FinalGather::Batch {
-    struct Sample {
-        std::uint32_t place; ///< of the estimate
-        Vec3 light; ///< if nothing is in the way; of a random ray, its share of what it meets
-    };
-    std::vector<Ray> shadow, random;
-    std::vector<Sample> to_emitter, from_patch;
-    std::vector<std::uint32_t> targets;
-    std::vector<std::uint32_t> receivers;
-    std::vector<std::uint8_t> blocked;
-    std::vector<bool> sees_emission; ///< of random rays: emitters are left to them
-    EmitterChoice::Cut cut;
+FinalGather::FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
+                         unsigned random_rays)
+    : FinalGather(mesh, tracer, light, random_rays, small_emitters(mesh)) {}
 
-    void clear_shadow_rays() {
-        shadow.clear();
-        targets.clear();
-        to_emitter.clear();
-    }
-};
-
-FinalGather::FinalGather(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity)
-    : FinalGather(mesh, tracer, radiosity, small_emitters(mesh)) {}
-
-FinalGather::FinalGather(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
-                         const std::vector<std::uint32_t>& emitters)
-    : mesh_(mesh), tracer_(tracer), radiosity_(radiosity),
-      without_emitters_(radiosity.begin(), radiosity.end()),
+FinalGather::FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
+                         unsigned random_rays, const std::vector<std::uint32_t>& emitters)
+    : mesh_(mesh), tracer_(tracer), light_(light), random_rays_(random_rays),
+      left_out_(mesh.patches().size(), Vec3(0.0)),
       sides_(whole_sides(mesh, one_of_each_side(mesh, emitters))), choice_(mesh, sides_) {
     for (const std::uint32_t i : emitters)
-        without_emitters_[i] -= mesh.material(i).emission;
+        left_out_[i] = mesh.material(i).emission;
     for (const Patch& side : sides_)
         emitters_.push_back({side, PolygonSampler(side.shape), near_radii * radius_of(side)});
 }
@@ -63,7 +51,7 @@ std::vector<Vec3> FinalGather::irradiance(std::span<const SurfacePoint> points,
                                           std::size_t estimates, const Workers& workers,
                                           const StopFlag& interrupted) {
     std::vector<Vec3> found(points.size() * estimates, Vec3(0.0));
-    const std::size_t rays_of_estimate = std::size_t{random_rays} * rounds_;
+    const std::size_t rays_of_estimate = std::size_t{random_rays_} * rounds_;
     if (receivers_)
         receivers_->assign(found.size() * rays_of_estimate, absorbed);
     workers.for_chunks_with(
@@ -97,14 +85,15 @@ void FinalGather::gather(const SurfacePoint& point, std::uint64_t seed, std::siz
     for (std::size_t e = 0; e < estimates; ++e, ++place) {
         SobolBlocks<5> numbers(hash_words({seed, e}));
         for (std::uint32_t round = 0; round < rounds_; ++round) {
-            numbers.move_to(round * random_rays);
-            for (std::uint32_t k = 0; k < random_rays; ++k) {
+            numbers.move_to(round * random_rays_);
+            for (std::uint32_t k = 0; k < random_rays_; ++k) {
                 const auto u = numbers.point(k);
                 Ray ray{position, frame.to_world(cosine_direction({u[0], u[1]}))};
                 ray.from = facet;
                 batch.random.push_back(ray);
-                batch.from_patch.push_back({place, Vec3(1.0 / (random_rays * rounds_))});
+                batch.from_patch.push_back({place, Vec3(1.0 / (random_rays_ * rounds_))});
                 batch.sees_emission.push_back(any && !by_shadow_rays);
+                batch.seeds.push_back(hash_words({seed, e, round * random_rays_ + k}));
             }
             if (by_shadow_rays)
                 add_shadow_rays(point, numbers, 0, shadow_rays, shadow_rays * rounds_, place,
@@ -146,21 +135,85 @@ void FinalGather::send_shadow_rays(Batch& batch, const Add& add) const {
     batch.clear_shadow_rays();
 }
 
-void FinalGather::send(Batch& batch, std::span<Vec3> found) {
-    send_shadow_rays(batch, [&](std::uint32_t place, const Vec3& light) { found[place] += light; });
-    batch.receivers.clear();
-    find_receivers(batch.random, mesh_, tracer_, batch.receivers);
-    for (std::size_t k = 0; k < batch.random.size(); ++k) {
-        const std::uint32_t patch = batch.receivers[k];
-        if (patch == escaped || patch == absorbed)
-            continue;
-        const Vec3& sent = batch.sees_emission[k] ? radiosity_[patch] : without_emitters_[patch];
-        found[batch.from_patch[k].place] += batch.from_patch[k].light * sent;
+/// One ray at random, and one to an emitter where such are taken, of a path that goes on.
+void FinalGather::go_on(const SurfacePoint& point, const Vec3& light, std::uint32_t place,
+                        std::uint64_t seed, Batch& batch) const {
+    Rng rng(seed);
+    const bool any = !emitters_.empty();
+    if (any)
+        choice_.weigh(point.position, point.normal, batch.cut);
+    const bool by_shadow_rays = any && !batch.cut.dark() && batch.cut.pays();
+    Ray ray{point.position, Frame::from_normal(point.normal).to_world(sample_cosine(rng))};
+    ray.from = point.facet;
+    batch.random.push_back(ray);
+    batch.from_patch.push_back({place, light});
+    batch.sees_emission.push_back(any && !by_shadow_rays);
+    batch.seeds.push_back(hash_words({seed, 1}));
+    if (!by_shadow_rays)
+        return;
+    EmitterChoice::Choices choices;
+    std::array<double, std::tuple_size_v<EmitterChoice::Choices>> which{};
+    which.fill(rng.uniform());
+    choice_.choose(batch.cut, which.data(), choices);
+    const auto& [index, chance] = choices.front();
+    const Emitter& emitter = emitters_[index];
+    const double u = rng.uniform(), v = rng.uniform();
+    const double factor = look_from(point.position, point.normal, point.facet, emitter.side,
+                                    emitter.points, {u, v}, emitter.near, ray);
+    if (!(factor > 0))
+        return;
+    batch.shadow.push_back(ray);
+    batch.targets.push_back(emitter.side.facet);
+    batch.to_emitter.push_back(
+        {place, factor / chance * light * mesh_.material(emitter.side).emission});
+}
+
+/// The light of a random ray that struck a patch; near ones are followed, if they may.
+void FinalGather::receive(std::uint32_t patch, const Ray& ray, const Batch::Sample& sample,
+                          const Vec3& left_out, const std::uint64_t* seed, Batch& next,
+                          std::span<Vec3> found) const {
+    const Patch& on = mesh_.patches()[patch];
+    const double along = glm::dot(ray.direction, on.normal);
+    const double way =
+        along < 0 ? std::max(glm::dot(on.centre - ray.origin, on.normal) / along, 0.0) : 0;
+    const Vec3 point = ray.origin + way * ray.direction;
+    const Material& material = mesh_.material(on);
+    const bool is_near = way * way < near_sides * near_sides * on.area;
+    if (seed && is_near && material.reflectance != Vec3(0.0)) {
+        found[sample.place] += sample.light * (material.emission - left_out);
+        // Russian roulette (Arvo and Kirk 1990) keeps the paths in narrow gaps short.
+        const Vec3& rho = material.reflectance;
+        const double kept = std::max({rho.x, rho.y, rho.z});
+        if (Rng(hash_words({*seed, 2})).uniform() < kept)
+            go_on({point, on.normal, on.facet}, sample.light * rho / kept, sample.place, *seed,
+                  next);
+        return;
     }
-    rays_ += batch.random.size();
-    batch.random.clear();
-    batch.from_patch.clear();
-    batch.sees_emission.clear();
+    found[sample.place] += sample.light * (radiosity_at(mesh_, light_, patch, point) - left_out);
+}
+
+void FinalGather::send(Batch& batch, std::span<Vec3> found) const {
+    std::vector<std::uint32_t> met_first;
+    for (unsigned bounce = 0; !batch.random.empty(); ++bounce) {
+        send_shadow_rays(batch,
+                         [&](std::uint32_t place, const Vec3& light) { found[place] += light; });
+        batch.receivers.clear();
+        find_receivers(batch.random, mesh_, tracer_, batch.receivers);
+        Batch next;
+        for (std::size_t k = 0; k < batch.random.size(); ++k) {
+            const std::uint32_t patch = batch.receivers[k];
+            if (patch == escaped || patch == absorbed)
+                continue;
+            receive(patch, batch.random[k], batch.from_patch[k],
+                    batch.sees_emission[k] ? Vec3(0.0) : left_out_[patch],
+                    bounce < most_bounces ? &batch.seeds[k] : nullptr, next, found);
+        }
+        rays_ += batch.random.size();
+        if (bounce == 0)
+            met_first = std::move(batch.receivers);
+        batch = std::move(next);
+    }
+    batch.receivers = std::move(met_first);
 }
 
 std::vector<DirectLight> FinalGather::direct(std::span<const SurfacePoint> points,
@@ -221,7 +274,10 @@ void FinalGather::send_random_rays(Batch& batch, std::span<IndirectLight> found)
             constexpr double touching = 1e-6;
             found[place].nearness += share.x / std::max(hit.t, touching);
             if (const std::uint32_t patch = mesh_.patch_at(hit); patch != none)
-                found[place].irradiance += share * without_emitters_[patch];
+                found[place].irradiance +=
+                    share * (radiosity_at(mesh_, light_, patch,
+                                          rays[k].origin + hit.t * rays[k].direction) -
+                             left_out_[patch]);
         }
     }
     rays_ += batch.random.size();

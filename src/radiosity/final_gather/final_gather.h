@@ -5,8 +5,12 @@
 // a lamp that is near. So the light straight from small emitters is found by shadow rays with their
 // exact factor, and all other light by cosine-distributed rays that read the solution where they
 // strike (final gather: Reichert 1992; Lischinski, Tampieri and Greenberg 1993, "local pass").
+// Where a patch is so near that what it sends may not be what it sends on average, as in corners
+// and in gaps, a ray goes on as a path (Christensen 1999).
 
+#include "bvh/tracer.h"
 #include "geometry/polygon_sampler.h"
+#include "radiosity/final_gather/linear_light.h"
 #include "radiosity/final_gather/surface_points.h"
 #include "radiosity/gathering/emitter_choice.h"
 #include "radiosity/sampling/sobol.h"
@@ -20,7 +24,6 @@
 namespace hemilux {
 
 class StopFlag;
-class Tracer;
 class Workers;
 
 /// Random numbers of a point: `count` points of the Sobol sequence of a seed, `first` and those
@@ -46,11 +49,12 @@ struct IndirectLight {
 
 class FinalGather {
   public:
-    /// Rays of one round: 16 cosine-distributed ones and up to 4 shadow rays.
-    static constexpr unsigned random_rays = 16, shadow_rays = 4;
+    /// Rays of one round: cosine-distributed ones, and up to 4 shadow rays.
+    static constexpr unsigned usual_random_rays = 16, shadow_rays = 4;
 
-    /// `radiosity`: by patch [W/m2]. All of it outlives this.
-    FinalGather(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity);
+    /// `light`: what patches send. All of it outlives this.
+    FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
+                unsigned random_rays = usual_random_rays);
 
     /// `estimates` of the irradiance at each point [W/m2], independent of each other and without
     /// bias for the light that the solution sends: those of point k stand from k * estimates on.
@@ -61,8 +65,9 @@ class FinalGather {
                                                std::size_t estimates, const Workers& workers,
                                                const StopFlag& interrupted);
     /// The irradiance in two parts, at each point by its own samples. Straight from small emitters,
-    /// by a shadow ray for each sample; and all other, by a cosine-distributed ray for each. On the
-    /// calling thread. Where shadows are left out no ray is traced, and nothing arrives.
+    /// by a shadow ray for each sample; and all other, by a cosine-distributed ray for each, which
+    /// reads the patch that it meets, however near. On the calling thread. Where shadows are left
+    /// out no ray is traced, and nothing arrives.
     [[nodiscard]] std::vector<DirectLight> direct(std::span<const SurfacePoint> points,
                                                   std::span<const GatherSamples> samples,
                                                   Shadows shadows) const;
@@ -72,13 +77,13 @@ class FinalGather {
     /// so that more rounds reduce the error faster than independent estimates would.
     void set_rounds(unsigned rounds) { rounds_ = rounds; }
     /// From now on irradiance() also says what each cosine-distributed ray met: a patch, `escaped`
-    /// or `absorbed` (receivers.h), in the order of the estimates, rounds * 16 of each.
+    /// or `absorbed` (receivers.h), in the order of the estimates, rounds * random_rays of each.
     void record_receivers(std::vector<std::uint32_t>& receivers) { receivers_ = &receivers; }
     /// Traced so far.
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
   private:
-    FinalGather(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
+    FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light, unsigned random_rays,
                 const std::vector<std::uint32_t>& emitters);
 
     struct Emitter {
@@ -86,24 +91,51 @@ class FinalGather {
         PolygonSampler points;
         double near; ///< from the centre, see look_at
     };
-    struct Batch;
+    /// Rays that are not traced yet, of some points.
+    struct Batch {
+        struct Sample {
+            std::uint32_t place; ///< of the estimate
+            Vec3 light; ///< if nothing is in the way; of a random ray, its share of what it meets
+        };
+        std::vector<Ray> shadow, random;
+        std::vector<Sample> to_emitter, from_patch;
+        std::vector<std::uint32_t> targets;
+        std::vector<std::uint32_t> receivers;
+        std::vector<std::uint8_t> blocked;
+        std::vector<bool> sees_emission;  ///< of random rays: emitters are left to them
+        std::vector<std::uint64_t> seeds; ///< of random rays, for what follows from them
+        EmitterChoice::Cut cut;
+
+        void clear_shadow_rays() {
+            shadow.clear();
+            targets.clear();
+            to_emitter.clear();
+        }
+    };
     void gather(const SurfacePoint& point, std::uint64_t seed, std::size_t estimates,
                 std::uint32_t place, Batch& batch) const;
     /// By `count` points of the block, `first` and those after it, each with a share of 1 / `of`.
     void add_shadow_rays(const SurfacePoint& point, const SobolBlocks<5>& numbers,
                          std::uint32_t first, std::uint32_t count, std::uint32_t of,
                          std::uint32_t place, Batch& batch) const;
-    void send(Batch& batch, std::span<Vec3> found);
+    void go_on(const SurfacePoint& point, const Vec3& light, std::uint32_t place,
+               std::uint64_t seed, Batch& batch) const;
+    void receive(std::uint32_t patch, const Ray& ray, const Batch::Sample& sample,
+                 const Vec3& left_out, const std::uint64_t* seed, Batch& next,
+                 std::span<Vec3> found) const;
+    /// Afterwards the batch holds nothing but what its first random rays met.
+    void send(Batch& batch, std::span<Vec3> found) const;
     template <class Add>
     void send_shadow_rays(Batch& batch, const Add& add) const;
     void send_random_rays(Batch& batch, std::span<IndirectLight> found) const;
 
     const Mesh& mesh_;
     const Tracer& tracer_;
-    std::span<const Vec3> radiosity_;
+    PatchLight light_;
+    unsigned random_rays_;
     unsigned rounds_ = 1;
     std::vector<std::uint32_t>* receivers_ = nullptr;
-    std::vector<Vec3> without_emitters_; ///< the same less what the emitters below emit
+    std::vector<Vec3> left_out_; ///< by patch, what the emitters below emit
     std::vector<Patch> sides_;
     std::vector<Emitter> emitters_; ///< those reached by shadow rays
     EmitterChoice choice_;

@@ -4,6 +4,7 @@
 #include "radiosity/final_gather/surface_points.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solution.h"
 #include "radiosity/solving/stop_flag.h"
 
 #include <cmath>

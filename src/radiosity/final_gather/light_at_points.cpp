@@ -67,13 +67,15 @@ Sensor sensor_at(const Mesh& mesh, const Tracer& tracer, const Vec3& position, c
 std::vector<PointLight> light_at(std::span<const Sensor> sensors, const Mesh& mesh,
                                  const Tracer& tracer, const Solution& solution,
                                  const PointLightOptions& options, const Workers& workers) {
-    const unsigned rounds = std::max(1u, (options.rays + gathers * FinalGather::random_rays - 1) /
-                                             (gathers * FinalGather::random_rays));
-    const std::size_t rays_of_point = std::size_t{gathers} * FinalGather::random_rays * rounds;
+    const unsigned rounds =
+        std::max(1u, (options.rays + gathers * FinalGather::usual_random_rays - 1) /
+                         (gathers * FinalGather::usual_random_rays));
+    const std::size_t rays_of_point =
+        std::size_t{gathers} * FinalGather::usual_random_rays * rounds;
     const std::size_t block = std::max<std::size_t>(1, rays_per_block / rays_of_point);
     const double known = error_spread(mesh, solution).freedom;
     const double freedom = known >= 1 ? known : 1;
-    FinalGather gather(mesh, tracer, solution.radiosity);
+    FinalGather gather(mesh, tracer, solution);
     std::vector<std::uint32_t> met;
     gather.set_rounds(rounds);
     gather.record_receivers(met);

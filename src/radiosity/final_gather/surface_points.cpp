@@ -38,7 +38,9 @@ std::vector<PatchPoint> points_over_surface(const Mesh& mesh, std::size_t count,
     return points;
 }
 
-std::vector<PatchPoint> points_on_patches(const Mesh& mesh, std::uint64_t seed) {
+std::vector<PatchPoint> points_on_patches(const Mesh& mesh, std::span<const std::uint32_t> some,
+                                          unsigned most_rows, std::uint64_t seed) {
+    constexpr double least_rows = 3;
     const auto patches = mesh.patches();
     double area = 0, count = 0;
     for (std::uint32_t i = 0; i < patches.size(); ++i)
@@ -47,14 +49,15 @@ std::vector<PatchPoint> points_on_patches(const Mesh& mesh, std::uint64_t seed) 
             ++count;
         }
     std::vector<PatchPoint> points;
-    for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    for (const std::uint32_t i : some) {
         if (mesh.material(i).reflectance == Vec3(0.0))
             continue;
         const PolygonSampler sampler(patches[i].shape);
         Rng rng(hash_words({seed, i}));
         // By the side of a square of the patch's area, against one of the mean.
         const double rows =
-            std::clamp(std::round(2 * std::sqrt(patches[i].area * count / area)), 2.0, 8.0);
+            std::clamp(std::round(least_rows * std::sqrt(patches[i].area * count / area)),
+                       least_rows, double(most_rows));
         for (double row = 0; row < rows; ++row)
             for (double column = 0; column < rows; ++column) {
                 const double u = (column + rng.uniform()) / rows, v = (row + rng.uniform()) / rows;

@@ -32,8 +32,11 @@ struct PatchPoint {
 [[nodiscard]] std::vector<PatchPoint> points_over_surface(const Mesh& mesh, std::size_t count,
                                                           std::uint64_t seed);
 
-/// Of each patch that reflects 4 to 64 points, one after the other, each uniform over an equal
-/// piece of it: more where the patch is large.
-[[nodiscard]] std::vector<PatchPoint> points_on_patches(const Mesh& mesh, std::uint64_t seed);
+/// Of each of some patches, if it reflects, `rows` x `rows` points, 3 x 3 to `most_rows` squared,
+/// one after the other, each uniform over an equal piece of it: more where the patch is large
+/// beside the mean of all.
+[[nodiscard]] std::vector<PatchPoint> points_on_patches(const Mesh& mesh,
+                                                        std::span<const std::uint32_t> some,
+                                                        unsigned most_rows, std::uint64_t seed);
 
 } // namespace hemilux

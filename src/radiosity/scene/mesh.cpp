@@ -345,20 +345,22 @@ struct Mesh::Refinement {
     std::vector<Division> divisions;
     CellTree cells;
     std::span<const std::uint8_t> levels;
+    std::vector<std::uint32_t> parents; ///< of the patches there are now
 
     [[nodiscard]] int levels_of(std::uint32_t front, bool two_sided) const {
         return std::max(levels[front], two_sided ? levels[front + 1] : levels[front]);
     }
 };
 
-void Mesh::refine(std::span<const std::uint8_t> levels) {
-    const Refinement before{std::exchange(patches_, {}), divisions_, std::exchange(cells_, {}),
-                            levels};
+std::vector<std::uint32_t> Mesh::refine(std::span<const std::uint8_t> levels) {
+    Refinement before{
+        std::exchange(patches_, {}), divisions_, std::exchange(cells_, {}), levels, {}};
     for (std::uint32_t f = 0; f < divisions_.size(); ++f)
         refine_facet(f, before);
+    return std::move(before.parents);
 }
 
-void Mesh::refine_facet(std::uint32_t facet, const Refinement& before) {
+void Mesh::refine_facet(std::uint32_t facet, Refinement& before) {
     Division& division = divisions_[facet];
     const std::uint32_t begin = division.first_patch;
     const std::uint32_t end = facet + 1 < divisions_.size()
@@ -368,8 +370,10 @@ void Mesh::refine_facet(std::uint32_t facet, const Refinement& before) {
     const auto levels = before.levels.subspan(begin, end - begin);
     const bool had_cells = division.first_cell != none;
     if (!had_cells && std::ranges::all_of(levels, [](std::uint8_t level) { return level == 0; })) {
-        for (std::uint32_t i = begin; i < end; ++i)
+        for (std::uint32_t i = begin; i < end; ++i) {
             patches_.push_back(before.patches[i]);
+            before.parents.push_back(i);
+        }
         if (only_patch_[facet] != none)
             only_patch_[facet] = division.first_patch;
         return;
@@ -387,27 +391,29 @@ void Mesh::refine_facet(std::uint32_t facet, const Refinement& before) {
         }
         const std::uint32_t patch = begin + q * (two_sided_ ? 2 : 1);
         refine_leaf(division.first_cell + q, cell_shape(facet, before.patches[patch].shape), facet,
-                    before.levels_of(patch, two_sided_));
+                    before.levels_of(patch, two_sided_), patch, before);
     }
 }
 
 void Mesh::refine_cell(std::uint32_t cell, std::uint32_t before_cell, std::uint32_t facet,
-                       const Refinement& before) {
+                       Refinement& before) {
     const CellTree::Cell old = before.cells[before_cell];
     if (old.cut == CellCut::leaf)
         return refine_leaf(cell, cell_shape(facet, before.patches[old.first].shape), facet,
-                           before.levels_of(old.first, two_sided_));
+                           before.levels_of(old.first, two_sided_), old.first, before);
     const std::uint32_t count = old.cut == CellCut::four ? 4 : 2, first = cells_.add(count);
     cells_[cell] = {first, old.cut};
     for (std::uint32_t q = 0; q < count; ++q)
         refine_cell(first + q, old.first + q, facet, before);
 }
 
-void Mesh::refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t facet,
-                       int levels) {
+void Mesh::refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t facet, int levels,
+                       std::uint32_t parent, Refinement& before) {
     if (levels == 0) {
         cells_[cell] = {static_cast<std::uint32_t>(patches_.size()), CellCut::leaf};
         add_patches(facet, shape.polygon());
+        for (std::uint32_t side = 0; side < (two_sided_ ? 2 : 1); ++side)
+            before.parents.push_back(parent + side);
         return;
     }
     const CellCut by = best_cut(shape);
@@ -415,7 +421,7 @@ void Mesh::refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t
     const std::uint32_t first = cells_.add(static_cast<std::uint32_t>(pieces.size()));
     cells_[cell] = {first, by};
     for (std::uint32_t q = 0; q < pieces.size(); ++q)
-        refine_leaf(first + q, pieces[q], facet, levels - 1);
+        refine_leaf(first + q, pieces[q], facet, levels - 1, parent, before);
 }
 
 } // namespace hemilux

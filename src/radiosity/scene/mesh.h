@@ -62,7 +62,8 @@ class Mesh {
 
     /// Divides patches: each level makes four of one, or two of a long one, and so on. `levels` by
     /// patch; of the two sides of a patch the larger counts. Facets, and tracers of them, remain.
-    void refine(std::span<const std::uint8_t> levels);
+    /// Returns which patch each of the new ones was a piece of.
+    std::vector<std::uint32_t> refine(std::span<const std::uint8_t> levels);
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const LocalFrame& frame() const { return frame_; }
@@ -129,10 +130,12 @@ class Mesh {
     static void check_room(double count, std::size_t room);
     [[nodiscard]] std::uint32_t pieces_of(std::uint32_t facet) const;
     [[nodiscard]] CellShape cell_shape(std::uint32_t facet, const Polygon& piece) const;
-    void refine_facet(std::uint32_t facet, const Refinement& before);
+    void refine_facet(std::uint32_t facet, Refinement& before);
     void refine_cell(std::uint32_t cell, std::uint32_t before_cell, std::uint32_t facet,
-                     const Refinement& before);
-    void refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t facet, int levels);
+                     Refinement& before);
+    /// `parent`: the front that it is a piece of.
+    void refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t facet, int levels,
+                     std::uint32_t parent, Refinement& before);
     void add_patches(std::uint32_t facet, const Polygon& shape);
     [[nodiscard]] Place place_in_quad(const Division& division, const Hit& hit) const;
     [[nodiscard]] Place place_in_triangle(const Division& division, const Hit& hit) const;

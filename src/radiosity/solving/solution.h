@@ -26,8 +26,16 @@ struct EnergyBalance {
     [[nodiscard]] double imbalance() const;
 };
 
+/// How the radiosity of a patch changes along the axes x and y of Frame::from_normal() of its
+/// normal [W/m2 per unit of the local frame].
+struct Slope {
+    Vec3 x{0.0}, y{0.0};
+};
+
 struct Solution {
-    std::vector<Vec3> radiosity;      ///< B per patch [W/m2 leaving], own emission included
+    std::vector<Vec3> radiosity; ///< B per patch [W/m2 leaving], own emission included
+    /// By patch: its light is a linear function whose mean is B. Empty: B everywhere on it.
+    std::vector<Slope> slope = {};
     std::vector<Vec3> standard_error; ///< of B [W/m2]; NaN before two steps
     std::vector<std::uint64_t> hits;  ///< energy rays that struck each patch
     /// Sum over patches and channels of area times the variance of B, where that is known better

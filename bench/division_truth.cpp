@@ -1,0 +1,333 @@
+// How far the whole error that `solve --divide auto` reports can be trusted, and what it costs: the
+// light as given out against long gathers at points drawn uniformly over the area.
+//
+//     hemilux_division_truth --scene examples/scenes/room_1002.obj --error 0.1,0.05,0.02 --seeds 10
+
+#include "app/command_line/option_kinds.h"
+#include "app/loading/load.h"
+#include "app/loading/sides.h"
+#include "app/running/division.h"
+#include "division_families.h"
+#include "radiosity/division/adaptive_division.h"
+#include "radiosity/final_gather/final_gather.h"
+#include "radiosity/final_gather/linear_light.h"
+#include "radiosity/rays/make_tracer.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/needs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <string>
+#include <vector>
+
+using namespace hemilux;
+using namespace hemilux::bench;
+
+namespace {
+
+struct Settings {
+    std::vector<std::string> scenes, families, asked{"0.05"};
+    std::size_t seeds = 10, points = 20000, estimates = 16;
+    double max_edge = 0; ///< 0: --divide auto
+    double reference_error = .01, reference_sampling = .005;
+    unsigned threads = 0;
+    bool every_run = false;
+};
+
+/// Where the truth is known: a point of a facet, whatever patch holds it.
+struct TruthPoint {
+    Hit hit;
+    SurfacePoint at;
+    Vec3 first, second; ///< reflected light [W/m2] by two independent gathers
+};
+
+/// A facet's half, as a hit on it is given.
+struct Half {
+    std::uint32_t facet;
+    bool second, front;
+    std::array<Vec3, 3> corner;
+    double area;
+};
+
+std::vector<Half> halves_of(const Mesh& mesh) {
+    std::vector<Half> halves;
+    for (std::uint32_t f = 0; f < mesh.scene().facets.size(); ++f) {
+        if (mesh.scene().materials[mesh.scene().facets[f].material].reflectance == Vec3(0.0))
+            continue;
+        const auto p = mesh.whole_side(f, false).shape.corner;
+        for (const bool front : {true, false})
+            for (const bool second : {false, true}) {
+                if (!front && mesh.patch_of(f, false) == none)
+                    continue;
+                const Vec3 a = second ? p[2] : p[1], b = second ? p[3] : p[2];
+                const double area = .5 * glm::length(glm::cross(a - p[0], b - p[0]));
+                if (area > 0)
+                    halves.push_back({f, second, front, {p[0], a, b}, area});
+            }
+    }
+    return halves;
+}
+
+/// By systematic sampling over the area. The mesh is not divided yet.
+std::vector<TruthPoint> draw_points(const Mesh& mesh, std::size_t count) {
+    const std::vector<Half> halves = halves_of(mesh);
+    double area = 0;
+    for (const Half& half : halves)
+        area += half.area;
+    Rng rng(20240229);
+    std::vector<TruthPoint> points;
+    const double each = area / double(count);
+    double next = each * rng.uniform(), end = 0;
+    for (const Half& half : halves)
+        for (end += half.area; next < end; next += each) {
+            double u = rng.uniform(), v = rng.uniform();
+            if (u + v > 1) {
+                u = 1 - u;
+                v = 1 - v;
+            }
+            const auto& [p, a, b] = half.corner;
+            Hit hit{};
+            hit.facet = half.facet;
+            hit.u = u;
+            hit.v = v;
+            hit.second_half = half.second;
+            hit.front = half.front;
+            const Patch side = mesh.whole_side(half.facet, !half.front);
+            points.push_back(
+                {hit, {p + u * (a - p) + v * (b - p), side.normal, half.facet}, Vec3(0), Vec3(0)});
+        }
+    return points;
+}
+
+/// A scene, and the light at its points.
+class Truth {
+  public:
+    Truth(const Scene& scene, const MeshOptions& options, const Settings& settings)
+        : scene_(scene), options_(options) {
+        Mesh mesh(scene, options);
+        points_ = draw_points(mesh, settings.points);
+        const MadeTracer made = make_tracer(mesh, find_needs(mesh).tree, settings.threads);
+        Monitor monitor;
+        AdaptiveDivision division;
+        division.error = settings.reference_error;
+        division.seed = 987654321;
+        division.most_patches = 200'000;
+        division.threads = settings.threads;
+        Solution rough = rough_solution(mesh, *made.tracer, division, monitor);
+        divide_where_light_changes(mesh, *made.tracer, rough, division, monitor);
+        SolveOptions solve;
+        solve.seed = 123456789;
+        solve.aim = settings.reference_sampling;
+        const Needs needs = find_needs(mesh);
+        const auto solver =
+            find_method("gathering")->make({mesh, *made.tracer, solve, monitor, needs});
+        run(*solver, {mesh, *made.tracer, solve, monitor, needs},
+            {.steps = {},
+             .seconds = {},
+             .error = settings.reference_sampling,
+             .rays = 400'000'000});
+        Solution solution = solver->solution();
+        SolveSettings auto_division;
+        auto_division.divide_auto = true;
+        Statistics unused;
+        add_slopes(auto_division, mesh, *made.tracer, solution, monitor.interrupted, unused);
+        patches_ = mesh.patches().size();
+        sampling_ = estimated_error(mesh, solution);
+        gather(mesh, *made.tracer, solution, settings);
+    }
+    [[nodiscard]] std::size_t patches() const { return patches_; }
+    [[nodiscard]] double sampling() const { return sampling_; }
+
+    /// Relative to the light as it is, RMS over area and channels.
+    [[nodiscard]] double error_of(const Mesh& mesh, const Solution& solution) const {
+        double square = 0, size = 0;
+        for (const TruthPoint& point : points_) {
+            const std::uint32_t patch = mesh.patch_at(point.hit);
+            const Vec3 light = radiosity_at(mesh, solution, patch, point.at.position) -
+                               mesh.material(patch).emission;
+            square += glm::dot(light - point.first, light - point.second);
+            size += glm::dot(point.first, point.second);
+        }
+        return std::sqrt(std::max(square / size, 0.0));
+    }
+    [[nodiscard]] Mesh mesh(double max_edge) const {
+        MeshOptions options = options_;
+        options.max_edge = max_edge;
+        return Mesh(scene_, options);
+    }
+
+  private:
+    void gather(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                const Settings& settings) {
+        FinalGather gather(mesh, tracer, solution);
+        std::vector<SurfacePoint> at;
+        std::vector<std::uint64_t> streams;
+        for (const TruthPoint& point : points_) {
+            at.push_back(point.at);
+            streams.push_back(hash_words({77, at.size()}));
+        }
+        const StopFlag never;
+        const std::size_t n = settings.estimates;
+        const std::vector<Vec3> found =
+            gather.irradiance(at, streams, 2 * n, Workers(settings.threads), never);
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            const Vec3 rho = mesh.material(mesh.patch_at(points_[k].hit)).reflectance;
+            for (std::size_t e = 0; e < 2 * n; ++e)
+                (e < n ? points_[k].first : points_[k].second) +=
+                    rho * found[2 * n * k + e] / double(n);
+        }
+    }
+
+    Scene scene_;
+    MeshOptions options_;
+    std::vector<TruthPoint> points_;
+    std::size_t patches_ = 0;
+    double sampling_ = 0;
+};
+
+struct Run {
+    double reported = 0, truth = 0, sampling = 0, division = 0, seconds = 0;
+    std::size_t patches = 0;
+};
+
+Run run_once(const Truth& truth, const Settings& settings, double error, std::uint64_t seed) {
+    const std::clock_t start = std::clock();
+    Mesh mesh = truth.mesh(settings.max_edge);
+    SolveSettings solve;
+    solve.method = &method_of(Role::standard);
+    solve.divide_auto = settings.max_edge == 0;
+    solve.options.seed = seed;
+    solve.options.threads = settings.threads;
+    solve.stop.error = error;
+    solve.verbosity = Verbosity::quiet;
+    const MadeTracer made = make_tracer(mesh, find_needs(mesh).tree, settings.threads);
+    Monitor monitor;
+    Statistics statistics;
+    SolveOptions options = solve.options;
+    options.aim = sampling_share * error;
+    Needs needs = find_needs(mesh);
+    const SolverInput input{mesh, *made.tracer, options, monitor, needs};
+    const auto begin = [&] { return solve.method->make(input); };
+    Divided divided = divide_as_asked(solve, mesh, input, begin, statistics);
+    needs = find_needs(mesh);
+    const auto solver = divided.begun ? std::move(divided.begun) : begin();
+    run(*solver, input, {.steps = {}, .seconds = {}, .error = options.aim, .rays = 2'000'000'000},
+        {}, divided.before);
+    Solution solution = solver->solution();
+    if (divided.linear)
+        add_slopes(solve, mesh, *made.tracer, solution, monitor.interrupted, statistics);
+    statistics.estimated_error = estimated_error(mesh, solution);
+    solve.divide_auto = true;
+    add_division_error(statistics, solve, mesh, *made.tracer, solution, monitor.interrupted);
+    Run done;
+    done.seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+    done.reported = statistics.estimated_error;
+    done.sampling = statistics.error_sampling;
+    done.division = statistics.error_division;
+    done.patches = mesh.patches().size();
+    done.truth = truth.error_of(mesh, solution);
+    return done;
+}
+
+void print_run(const Run& run) {
+    std::printf("    %7zu patches, reported %6.3f %% (sampling %6.3f, division %6.3f), true %6.3f "
+                "%%, ratio %.3f, %.3g s\n",
+                run.patches, 100 * run.reported, 100 * run.sampling, 100 * run.division,
+                100 * run.truth, run.reported / run.truth, run.seconds);
+}
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    const std::size_t n = values.size();
+    return n == 0 ? std::nan("") : .5 * (values[n / 2] + values[(n - 1) / 2]);
+}
+
+void measure(const std::string& name, const Scene& scene, const MeshOptions& options,
+             const Settings& settings) {
+    const Truth truth(scene, options, settings);
+    std::printf("%s: reference on %zu patches, sampling %.2g %%\n", name.c_str(), truth.patches(),
+                100 * truth.sampling());
+    for (const std::string& asked : settings.asked) {
+        const double error = parse_number(asked).value();
+        std::vector<double> ratio, patches, seconds, whole, reported;
+        std::size_t right = 0;
+        for (std::uint64_t seed = 1; seed <= settings.seeds; ++seed) {
+            const Run run = run_once(truth, settings, error, seed);
+            if (settings.every_run)
+                print_run(run);
+            ratio.push_back(run.reported / run.truth);
+            right += ratio.back() >= .8 && ratio.back() <= 1.25;
+            patches.push_back(double(run.patches));
+            seconds.push_back(run.seconds);
+            whole.push_back(run.truth);
+            reported.push_back(run.reported);
+        }
+        std::printf("  asked %5.3g %%: true %6.3f %%, reported %6.3f %%, ratio %.3f to %.3f, %zu "
+                    "of %zu right, %7.0f patches, %6.3g s\n",
+                    100 * error, 100 * median(whole), 100 * median(reported),
+                    *std::ranges::min_element(ratio), *std::ranges::max_element(ratio), right,
+                    ratio.size(), median(patches), median(seconds));
+        std::fflush(stdout);
+    }
+}
+
+Mesh read_mesh(const std::string& path) {
+    SceneSettings scene;
+    scene.path = path;
+    ReadResult read = load_scene(scene, {});
+    return divide_with_sides(std::move(read.scene), scene, {}, Verbosity::quiet).mesh;
+}
+
+void add_options(Command command, Settings& settings) {
+    command.add_texts("--scene", "FILE,...", settings.scenes, "scenes in files").separated_by(',');
+    command.add_texts("--family", "NAME,...", settings.families, "made scenes; all: all of them")
+        .separated_by(',');
+    command
+        .add_texts("--error", "X,...", settings.asked,
+                   "whole errors asked for, one after the other [0.05]")
+        .separated_by(',');
+    add_whole<std::size_t>(command, "--seeds", settings.seeds, 1, 1000, "runs of each [10]");
+    add_whole<std::size_t>(command, "--points", settings.points, 100, 10'000'000,
+                           "of the truth [20000]");
+    add_whole<std::size_t>(command, "--estimates", settings.estimates, 1, 10'000,
+                           "gathers of 16 rays at a point, twice [16]");
+    add_number(command, "--divide", "LENGTH", settings.max_edge, positive,
+               "patches of one size instead of --divide auto");
+    add_number(command, "--reference-error", "X", settings.reference_error, positive,
+               "of the reference's division [0.01]");
+    add_whole<unsigned>(command, "--threads", settings.threads, 0, 1024, "0: all cores");
+    command.add_flag("--every-run", settings.every_run, "a line for each run too");
+}
+
+} // namespace
+
+int main(int count, char** words) {
+    Settings settings;
+    try {
+        Arguments arguments("hemilux_division_truth",
+                            "Compares the whole error of --divide auto with the true one.");
+        add_options(arguments.program(), settings);
+        const std::string help = arguments.parse({words + 1, words + count});
+        std::fputs(help.c_str(), stdout);
+        if (!help.empty())
+            return 0;
+        for (const std::string& path : settings.scenes) {
+            const Mesh mesh = read_mesh(path);
+            const bool two_sided = mesh.patch_of(0, false) != none;
+            measure(path, mesh.scene(), {.max_edge = 0, .two_sided = two_sided}, settings);
+        }
+        for (const DivisionFamily& family : division_families())
+            if (std::ranges::any_of(settings.families, [&](const std::string& name) {
+                    return name == "all" || family.name == name;
+                }))
+                measure(family.name, family.make(), {.max_edge = 0, .two_sided = family.two_sided},
+                        settings);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+    return 0;
+}

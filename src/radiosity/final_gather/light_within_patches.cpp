@@ -1,0 +1,71 @@
+#include "radiosity/final_gather/light_within_patches.h"
+
+#include "radiosity/final_gather/final_gather.h"
+#include "radiosity/final_gather/linear_light.h"
+#include "radiosity/final_gather/surface_points.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/stop_flag.h"
+
+#include <algorithm>
+
+namespace hemilux {
+namespace {
+
+/// So many are gathered at a time: points and their light take memory.
+constexpr std::size_t patches_at_a_time = 16'384;
+
+/// Of an estimate at a point.
+constexpr unsigned rays_of_estimate = 8;
+
+/// Of each point two means, each over so many estimates.
+std::vector<Vec3> mean_of_halves(const std::vector<Vec3>& light, std::size_t estimates) {
+    std::vector<Vec3> halves(light.size() / estimates, Vec3(0.0));
+    for (std::size_t k = 0; k < light.size(); ++k)
+        halves[k / estimates] += light[k] / double(estimates);
+    return halves;
+}
+
+} // namespace
+
+LightWithinPatches light_within_patches(const LightSource& light,
+                                        std::span<const std::uint32_t> patches,
+                                        const WithinOptions& options, const Workers& workers,
+                                        const StopFlag& interrupted) {
+    LightWithinPatches result;
+    result.square.resize(patches.size());
+    result.slope.resize(patches.size());
+    FinalGather gather(light.mesh, light.tracer, light.solution, rays_of_estimate);
+    for (std::size_t done = 0; done < patches.size() && !interrupted; done += patches_at_a_time) {
+        const auto some = patches.subspan(done, std::min(patches_at_a_time, patches.size() - done));
+        const std::vector<PatchPoint> points =
+            points_on_patches(light.mesh, some, options.most_rows, hash_words({options.seed, 0}));
+        std::vector<SurfacePoint> at;
+        std::vector<std::uint64_t> streams;
+        for (const PatchPoint& point : points) {
+            at.push_back(point.at);
+            streams.push_back(hash_words({options.seed, 1, point.patch}));
+        }
+        const std::vector<Vec3> irradiance = mean_of_halves(
+            gather.irradiance(at, streams, 2 * options.estimates, workers, interrupted),
+            options.estimates);
+        for (std::size_t k = 0, begin = 0, end = 0; k < some.size(); ++k, begin = end) {
+            while (end < points.size() && points[end].patch == some[k])
+                ++end;
+            if (end - begin < LinearLight::least_points)
+                continue;
+            const Patch& patch = light.mesh.patches()[some[k]];
+            const LinearLight found(patch, std::span(points).subspan(begin, end - begin),
+                                    std::span(irradiance).subspan(2 * begin, 2 * (end - begin)));
+            const Vec3& rho = light.mesh.material(patch).reflectance;
+            const Slope slope = found.slope();
+            result.square[done + k] = patch.area * glm::dot(rho * rho, found.variance_left());
+            result.slope[done + k] = {rho * slope.x, rho * slope.y};
+        }
+    }
+    result.rays = gather.rays();
+    return result;
+}
+
+} // namespace hemilux

@@ -1,0 +1,54 @@
+#pragma once
+// How the light varies within patches: by a linear function, and how much besides.
+//
+// The light is gathered at points of a patch, twice (final_gather.h). The variance that a linear
+// function leaves is the mean product of what the two gathers are off from theirs. All points of a
+// patch share their random numbers, so that the noise of a gather is about the same everywhere on
+// it and hides little: a few rays are enough.
+
+#include "bvh/tracer.h"
+#include "geometry/vector.h"
+#include "radiosity/solving/solution.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+class StopFlag;
+class Workers;
+
+/// What the light is gathered from.
+struct LightSource {
+    const Mesh& mesh;
+    const Tracer& tracer;
+    const Solution& solution;
+};
+
+struct WithinOptions {
+    /// Twice so many are made at a point. More: slopes are less noisy.
+    std::size_t estimates = 1;
+    /// Of points, on large patches; at least 3.
+    unsigned most_rows = 8;
+    std::uint64_t seed = 1;
+};
+
+struct LightWithinPatches {
+    /// Of each patch that was asked for: area times the variance of the reflected light that a
+    /// linear function leaves, summed over channels [local area * (W/m2)^2]; an estimate from few
+    /// points, which may be negative.
+    std::vector<double> square;
+    std::vector<Slope> slope;
+    std::uint64_t rays = 0;
+};
+
+/// Of some patches. Where it was interrupted the rest is 0.
+[[nodiscard]] LightWithinPatches light_within_patches(const LightSource& light,
+                                                      std::span<const std::uint32_t> patches,
+                                                      const WithinOptions& options,
+                                                      const Workers& workers,
+                                                      const StopFlag& interrupted);
+
+} // namespace hemilux

@@ -1,0 +1,64 @@
+#pragma once
+// The light on a patch as a linear function of the place.
+//
+// The linear function that is nearest to the light has the patch's mean in its centre of mass and
+// two slopes. They are found by least squares from the light at some points of the patch; points
+// that share their random numbers have noise that is much the same, which slopes do not see.
+
+#include "radiosity/final_gather/surface_points.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solution.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+/// Two independent estimates of the irradiance at each of some points of one patch, in turn, with
+/// what linear functions are nearest to them.
+class LinearLight {
+  public:
+    LinearLight(const Patch& patch, std::span<const PatchPoint> points,
+                std::span<const Vec3> irradiance);
+
+    /// The variance over the patch that the linear function leaves, by channel: an estimate free of
+    /// noise, which may be negative.
+    [[nodiscard]] Vec3 variance_left() const;
+    /// The mean of both estimates, less where they do not agree.
+    [[nodiscard]] Slope slope() const;
+
+    /// Fewer leave nothing to judge a linear function by.
+    static constexpr std::size_t least_points = 4;
+
+  private:
+    [[nodiscard]] double count() const { return static_cast<double>(at_.size()); }
+
+    std::vector<Vec2> at_; ///< from the mean of the points
+    double xx_ = 0, xy_ = 0, yy_ = 0;
+    std::span<const Vec3> irradiance_;
+    std::array<Vec3, 2> mean_{};
+    std::array<Slope, 2> slope_{};
+};
+
+/// What patches send: by patch a mean [W/m2], and a slope, or no slopes at all. A view.
+struct PatchLight {
+    std::span<const Vec3> radiosity;
+    std::span<const Slope> slope;
+
+    PatchLight(std::span<const Vec3> of, std::span<const Slope> slopes = {})
+        : radiosity(of), slope(slopes) {}
+    PatchLight(const Solution& solution) : PatchLight(solution.radiosity, solution.slope) {}
+};
+
+/// B at a point of a patch whose mean is `radiosity` [W/m2]; what it reflects is not below 0.
+[[nodiscard]] Vec3 radiosity_at(const Mesh& mesh, std::uint32_t patch, const Vec3& radiosity,
+                                const Slope& slope, const Vec3& point);
+
+[[nodiscard]] Vec3 radiosity_at(const Mesh& mesh, const PatchLight& light, std::uint32_t patch,
+                                const Vec3& point);
+
+/// The variance of a linear function over its patch, by channel; of a quad as of a parallelogram.
+[[nodiscard]] Vec3 variance_of(const Patch& patch, const Slope& slope);
+
+} // namespace hemilux
