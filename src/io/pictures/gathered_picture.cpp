@@ -85,8 +85,7 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first) {
         parts[k].smooth_unshadowed = glm::vec3(lights[k].slow.unshadowed);
         parts[k].indirect = glm::vec3(lights[k].slow.indirect);
         if (places[k].count == offsets_.size())
-            whole_[static_cast<std::size_t>(rows[k]) * static_cast<std::size_t>(width_) +
-                   static_cast<std::size_t>(parts[k].x)] = parts[k];
+            whole_[index(parts[k].x, rows[k])] = parts[k];
         else
             parts_[static_cast<std::size_t>(rows[k])].push_back(parts[k]);
     }
@@ -104,9 +103,7 @@ glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
     for (int dy = std::max(-half_window, -y); dy <= std::min(half_window, height_ - 1 - y); ++dy)
         for (int dx = std::max(-half_window, -part.x);
              dx <= std::min(half_window, width_ - 1 - part.x); ++dx) {
-            const Part& there =
-                whole_[static_cast<std::size_t>(y + dy) * static_cast<std::size_t>(width_) +
-                       static_cast<std::size_t>(part.x + dx)];
+            const Part& there = whole_[index(part.x + dx, y + dy)];
             if (there.share == 0 ||
                 (there.patch != part.patch &&
                  !is_same_surface(Vec3(part.position), normal, Vec3(there.position),
