@@ -14,6 +14,10 @@ namespace {
 constexpr std::array<float, 5> window{.5f, 1, 1, 1, .5f};
 constexpr int half_window = 2;
 
+float weight_at(int step) {
+    return window[static_cast<std::size_t>(std::ptrdiff_t{step} + half_window)];
+}
+
 } // namespace
 
 GatheredPicture::GatheredPicture(const Mesh& mesh, const VisibleFacets& visible,
@@ -109,8 +113,7 @@ glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
                  !is_same_surface(Vec3(part.position), normal, Vec3(there.position),
                                   mesh_.patches()[there.patch].normal)))
                 continue;
-            add(there, window[static_cast<std::size_t>(dy + half_window)] *
-                           window[static_cast<std::size_t>(dx + half_window)]);
+            add(there, weight_at(dx) * weight_at(dy));
         }
     glm::vec3 light(0.0f);
     for (int c = 0; c < 3; ++c)
