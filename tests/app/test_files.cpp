@@ -253,7 +253,7 @@ TEST_CASE("a signal ends the rendering of a picture and leaves the other outputs
         std::pair(
             "solve room.obj --method stratified --steps 1 -o huge.png -o a.csv --size 2048x2048",
             "a.csv"),
-        std::pair("density room.obj -o a.svg -o huge.png", "a.svg"),
+        std::pair("density room.obj -o a.svg -o huge.png --size 8192x6144", "a.svg"),
         std::pair("compare room.obj -o huge --methods stratified --runs 1 "
                   "--budget-rays 1e4 --reference-error .1 --size 8192x6144",
                   "huge/error.svg"));

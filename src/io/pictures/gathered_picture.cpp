@@ -14,6 +14,10 @@ namespace {
 constexpr std::array<float, 5> window{.5f, 1, 1, 1, .5f};
 constexpr int half_window = 2;
 
+float weight_at(int step) {
+    return window[static_cast<std::size_t>(std::ptrdiff_t{step} + half_window)];
+}
+
 } // namespace
 
 GatheredPicture::GatheredPicture(const Mesh& mesh, const VisibleFacets& visible,
@@ -85,8 +89,7 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first) {
         parts[k].smooth_unshadowed = glm::vec3(lights[k].slow.unshadowed);
         parts[k].indirect = glm::vec3(lights[k].slow.indirect);
         if (places[k].count == offsets_.size())
-            whole_[static_cast<std::size_t>(rows[k]) * static_cast<std::size_t>(width_) +
-                   static_cast<std::size_t>(parts[k].x)] = parts[k];
+            whole_[index(parts[k].x, rows[k])] = parts[k];
         else
             parts_[static_cast<std::size_t>(rows[k])].push_back(parts[k]);
     }
@@ -104,16 +107,13 @@ glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
     for (int dy = std::max(-half_window, -y); dy <= std::min(half_window, height_ - 1 - y); ++dy)
         for (int dx = std::max(-half_window, -part.x);
              dx <= std::min(half_window, width_ - 1 - part.x); ++dx) {
-            const Part& there =
-                whole_[static_cast<std::size_t>(y + dy) * static_cast<std::size_t>(width_) +
-                       static_cast<std::size_t>(part.x + dx)];
+            const Part& there = whole_[index(part.x + dx, y + dy)];
             if (there.share == 0 ||
                 (there.patch != part.patch &&
                  !is_same_surface(Vec3(part.position), normal, Vec3(there.position),
                                   mesh_.patches()[there.patch].normal)))
                 continue;
-            add(there, window[static_cast<std::size_t>(dy + half_window)] *
-                           window[static_cast<std::size_t>(dx + half_window)]);
+            add(there, weight_at(dx) * weight_at(dy));
         }
     glm::vec3 light(0.0f);
     for (int c = 0; c < 3; ++c)

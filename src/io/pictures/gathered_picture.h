@@ -32,6 +32,10 @@ class GatheredPicture {
         float share = 0; ///< of the pixel
         int x = 0;
     };
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(x);
+    }
     void gather_band(const VisibleFacets::Band& band, int first);
     [[nodiscard]] glm::vec3 direct_light(const Part& part, int y) const;
     [[nodiscard]] glm::vec3 radiosity(const Part& part, int y) const;
