@@ -244,7 +244,7 @@ TEST_CASE("the estimate of memory is near what a run takes", "[slow]") {
     const std::string run = "solve room.obj --max-edge .0035 --rays 1 --steps 1 --method " +
                             std::string(GENERATE("monte-carlo", "stratified", "hemisphere"));
     CAPTURE(run);
-    const std::string message = place.hemilux(run + " -o a.png --memory 13M").err;
+    const std::string message = place.hemilux(run + " -o a.json --memory 13M").err;
     double need = 0;
     REQUIRE(std::sscanf(message.c_str(), "hemilux: room.obj: needs about %lf MB", &need) == 1);
     REQUIRE(place.hemilux(run + " -o a.json").code == 0);

@@ -50,7 +50,7 @@ TEST_CASE("the commands of README.md and of the tutorial work", "[slow]") {
         for (const std::string& command : commands) {
             CAPTURE(command);
             const std::string line =
-                "cd '" + root + "' && PATH='" + programs + "':$PATH && " + command;
+                "cd '" + root + "' && PATH='" + programs + "':$PATH && { " + command + "; }";
             CHECK(std::system((line + " </dev/null >/dev/null").c_str()) == 0);
         }
     }
