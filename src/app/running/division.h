@@ -10,7 +10,8 @@
 namespace hemilux {
 
 /// Where --divide auto is asked for: which share of the whole error may be left by the division,
-/// and which by sampling; their squares add up to two thirds: both are known to some ten or twenty per cent.
+/// and which by sampling; their squares add up to two thirds: both
+/// are known to some ten or twenty per cent.
 inline constexpr double division_share = .65, sampling_share = .5;
 
 /// The whole error that a run with --divide auto is to reach.
