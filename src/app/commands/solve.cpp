@@ -143,138 +143,208 @@ int finish(const SolveSettings& settings, const Results& results, const WriteRep
     return report.exit_code(results.interrupted);
 }
 
+/// A run of the program from its options to its last words, step by step.
+class SolveRun {
+  public:
+    explicit SolveRun(const SolveSettings& settings)
+        : settings_(settings), options_(with_memory(settings.options, settings.scene)) {}
+
+    void read_scene();
+    void build_tree();
+    void divide();
+    void read_the_reference();
+    void take_steps();
+    void estimate_errors();
+    /// Returns the exit code.
+    [[nodiscard]] int write();
+
+  private:
+    [[nodiscard]] const Mesh& mesh() const { return loaded_->mesh; }
+    [[nodiscard]] const Tracer& tracer() const { return *prepared_->made.tracer; }
+    [[nodiscard]] InputError as_input_error(const SolveError& error) const {
+        return hemilux::as_input_error(error, settings_.scene.path, loaded_->face_lines);
+    }
+    [[nodiscard]] double bytes_of_outputs() const;
+    [[nodiscard]] std::unique_ptr<Solver> begin();
+
+    const SolveSettings& settings_;
+    const Stopwatch started_;
+    Monitor monitor_;
+    InterruptGuard guard_;
+    Statistics statistics_;
+    SolveOptions options_;
+    std::optional<Checkpoint> resumed_;
+    std::vector<NamedPoint> points_;
+    std::optional<LoadedMesh> loaded_;
+    std::optional<Prepared> prepared_;
+    std::optional<SolverInput> input_;
+    Divided divided_;
+    std::optional<Reference> reference_;
+    std::unique_ptr<Solver> solver_;
+    std::vector<StepRow> rows_;
+    std::optional<RunNotes> notes_;
+    std::optional<Camera> camera_; ///< of pictures after steps, which the last one shares
+    WriteReport of_steps_;
+    std::optional<InputError> fault_; ///< in a step; those before it are written
+    bool completed_ = false;
+    double seconds_solver_ = 0;
+    std::optional<Solution> linear_;     ///< with slopes
+    const Solution* solution_ = nullptr; ///< that is written
+};
+
+void SolveRun::read_scene() {
+    const RunFiles files = check_files(settings_);
+    const std::span methods(&settings_.method, 1);
+    check_own_options(settings_.options, methods);
+    check_plain(settings_);
+    check_checkpoint_options(settings_);
+    Workers(settings_.options.threads).start();
+    resumed_ = read_resumed(settings_);
+    points_ = points_of(settings_);
+    loaded_ = load_mesh(settings_.scene, files, settings_.options, methods, settings_.verbosity,
+                        bytes_of_outputs());
+    check_distances(settings_, points_, mesh());
+    check_camera(settings_.view, mesh());
+    check_exact(settings_.options, mesh().patches().size());
+    check_plain(settings_, mesh().patches().size());
+    statistics_.seconds_read = loaded_->seconds_read;
+}
+
+double SolveRun::bytes_of_outputs() const {
+    const bool pictures = std::ranges::any_of(settings_.outputs, is_picture, &Output::kind) ||
+                          !settings_.error_map.empty();
+    return (pictures ? bytes_of_picture(settings_.view.size, settings_.gather_pictures) : 0) +
+           bytes_of_points(points_.size(), settings_.gather);
+}
+
+void SolveRun::build_tree() {
+    prepared_ = prepare(*loaded_, settings_.options);
+    statistics_.seconds_bvh = prepared_->seconds;
+    log_line(settings_.verbosity, Verbosity::verbose,
+             tracer_text(prepared_->made.tree, statistics_.seconds_bvh));
+    input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs});
+    guard_.watch(monitor_.interrupted);
+}
+
+/// Of the mesh as it is then.
+std::unique_ptr<Solver> SolveRun::begin() {
+    const std::size_t patches = mesh().patches().size();
+    const StopRule stop = stop_rule(settings_, patches);
+    options_.rays =
+        rays_of_step(settings_.options.rays, settings_.stop.seconds, *settings_.method, patches);
+    options_.growing_steps = !stop.steps;
+    options_.aim = stop.error.value_or(0);
+    options_.expected_steps = expected_steps(stop);
+    return make_solver(settings_, *input_, loaded_->face_lines);
+}
+
+/// Where --divide auto asks for it.
+void SolveRun::divide() {
+    try {
+        divided_ = divide_as_asked(
+            settings_, loaded_->mesh, *input_, [&] { return begin(); }, statistics_);
+    } catch (const SolveError& error) {
+        throw as_input_error(error);
+    }
+    if (divided_.patches && !settings_.options.keep_all)
+        prepared_->needs = find_needs(mesh());
+}
+
+/// Of the patches as they are divided. A signal ends the program while the file is read.
+void SolveRun::read_the_reference() {
+    std::vector<bool> detail = detail_mask(mesh(), settings_.detail);
+    if (settings_.reference.empty() || monitor_.interrupted)
+        return;
+    guard_.unwatch();
+    reference_ = read_reference(settings_.reference, mesh(), std::move(detail));
+    guard_.watch(monitor_.interrupted);
+}
+
+void SolveRun::take_steps() {
+    const StopRule stop = stop_rule(settings_, mesh().patches().size());
+    Progress progress(monitor_, share_of(stop, *settings_.method),
+                      settings_.verbosity != Verbosity::quiet && stderr_is_terminal());
+    const Stopwatch solving;
+    solver_ = divided_.begun && !resumed_ ? std::move(divided_.begun) : begin();
+    log_rays_of_step(settings_.verbosity, settings_.options.rays, options_.rays);
+    Before before = divided_.before;
+    before.seconds += statistics_.seconds_divide; // a time limit is of both
+    if (resumed_) {
+        before = resume(*resumed_, settings_, mesh(), *solver_);
+        rows_ = resumed_->rows;
+    }
+    Checkpointer checkpointer(settings_, mesh(), *solver_);
+    StepPictures step_pictures(settings_, mesh(), tracer(), monitor_.interrupted);
+    notes_.emplace(stop);
+    const auto after_step = [&](const StepRecord& record, const Solution& solution) {
+        notes_->step_done(record);
+        rows_.push_back({std::string(settings_.method->name), 0, record, std::nullopt});
+        if (reference_)
+            rows_.back().error = reference_->error(mesh(), solution.radiosity);
+        progress.step_done(record);
+        if (settings_.every_step)
+            step_pictures.write(solution.radiosity, record.step);
+        if (settings_.verbosity == Verbosity::verbose)
+            progress.log(step_text(rows_.back()));
+        checkpointer.step_done(rows_, record.seconds);
+    };
+    try {
+        completed_ = run(*solver_, *input_, stop, after_step, before);
+    } catch (const SolveError& error) {
+        fault_ = as_input_error(error);
+        if (solver_->solution().steps == 0)
+            throw *fault_;
+    }
+    seconds_solver_ = solving.seconds() + (resumed_ ? resumed_->seconds : divided_.before.seconds);
+    progress.close();
+    checkpointer.finish(rows_, seconds_solver_);
+    of_steps_ = step_pictures.report();
+    of_steps_.add(checkpointer.report());
+    camera_ = step_pictures.camera();
+}
+
+void SolveRun::estimate_errors() {
+    if (divided_.linear)
+        add_slopes(settings_, mesh(), tracer(), linear_.emplace(solver_->solution()),
+                   monitor_.interrupted, statistics_);
+    // Where a signal or the time left no step, there is the light by which patches were divided.
+    const bool has_step = solver_->solution().steps > 0 || divided_.rough.steps == 0;
+    solution_ = !has_step ? &divided_.rough : linear_ ? &*linear_ : &solver_->solution();
+    fill(statistics_, settings_, mesh(), *solution_, seconds_solver_);
+    add_division_error(statistics_, settings_, mesh(), tracer(), *solution_, monitor_.interrupted);
+    if (!settings_.plain) // which leaves out nothing
+        statistics_.left_out = left_out(prepared_->needs, *settings_.method, *solution_);
+    statistics_.bytes_peak = peak_memory_bytes();
+}
+
+int SolveRun::write() {
+    const bool interrupted = !completed_ && !fault_;
+    SolveSettings shown = settings_;
+    shown.view.camera = camera_;
+    const int code = finish(
+        shown, {mesh(), tracer(), *solution_, statistics_, rows_, points_, monitor_.interrupted},
+        of_steps_, reference_, *notes_, interrupted, started_, resumed_ ? resumed_->seconds : 0);
+    if (interrupted)
+        end_at_once(code);
+    if (!fault_ || code != exit_done)
+        return code;
+    log_line(settings_.verbosity, Verbosity::quiet,
+             std::string("hemilux: ") + fault_->what() + "\nthe outputs hold " +
+                 counted(solver_->solution().steps, "step", "steps") + " before that");
+    return exit_input;
+}
+
 } // namespace
 
 int solve(const SolveSettings& settings) {
-    const Stopwatch started;
-    const RunFiles files = check_files(settings);
-    const std::span methods(&settings.method, 1);
-    check_own_options(settings.options, methods);
-    check_plain(settings);
-    check_checkpoint_options(settings);
-    Monitor monitor;
-    InterruptGuard guard;
-    Statistics statistics;
-
-    Workers(settings.options.threads).start();
-    const std::optional<Checkpoint> resumed = read_resumed(settings);
-    const std::vector<NamedPoint> points = points_of(settings);
-    LoadedMesh loaded =
-        load_mesh(settings.scene, files, settings.options, methods, settings.verbosity,
-                  (std::ranges::any_of(settings.outputs, is_picture, &Output::kind) ||
-                           !settings.error_map.empty()
-                       ? bytes_of_picture(settings.view.size, settings.gather_pictures)
-                       : 0) +
-                      bytes_of_points(points.size(), settings.gather));
-    const Mesh& mesh = loaded.mesh;
-    check_distances(settings, points, mesh);
-    check_camera(settings.view, mesh);
-    check_exact(settings.options, mesh.patches().size());
-    check_plain(settings, mesh.patches().size());
-    statistics.seconds_read = loaded.seconds_read;
-    Prepared prepared = prepare(loaded, settings.options);
-    const auto& [tracer, tree] = prepared.made;
-    statistics.seconds_bvh = prepared.seconds;
-    log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, statistics.seconds_bvh));
-    const Needs& needs = prepared.needs;
-    SolveOptions options = with_memory(settings.options, settings.scene);
-    const SolverInput input{mesh, *tracer, options, monitor, needs};
-    const auto begin = [&] {
-        const StopRule stop = stop_rule(settings, mesh.patches().size());
-        options.rays = rays_of_step(settings.options.rays, settings.stop.seconds, *settings.method,
-                                    mesh.patches().size());
-        options.growing_steps = !stop.steps;
-        options.aim = stop.error.value_or(0);
-        options.expected_steps = expected_steps(stop);
-        return make_solver(settings, input, loaded.face_lines);
-    };
-    guard.watch(monitor.interrupted);
-    Divided divided;
-    try {
-        divided = divide_as_asked(settings, loaded.mesh, input, begin, statistics);
-    } catch (const SolveError& error) {
-        throw as_input_error(error, settings.scene.path, loaded.face_lines);
-    }
-    if (divided.patches && !settings.options.keep_all)
-        prepared.needs = find_needs(mesh);
-    const StopRule stop = stop_rule(settings, mesh.patches().size());
-    std::vector<bool> detail = detail_mask(mesh, settings.detail);
-    std::optional<Reference> reference;
-    if (!settings.reference.empty() && !monitor.interrupted) {
-        guard.unwatch();
-        reference = read_reference(settings.reference, mesh, std::move(detail));
-        guard.watch(monitor.interrupted);
-    }
-    Progress progress(monitor, share_of(stop, *settings.method),
-                      settings.verbosity != Verbosity::quiet && stderr_is_terminal());
-    const Stopwatch solving;
-    const std::unique_ptr<Solver> solver =
-        divided.begun && !resumed ? std::move(divided.begun) : begin();
-    log_rays_of_step(settings.verbosity, settings.options.rays, options.rays);
-    std::vector<StepRow> rows;
-    Before before = divided.before;
-    before.seconds += statistics.seconds_divide; // a time limit is of both
-    if (resumed) {
-        before = resume(*resumed, settings, mesh, *solver);
-        rows = resumed->rows;
-    }
-    Checkpointer checkpointer(settings, mesh, *solver);
-    StepPictures step_pictures(settings, mesh, *tracer, monitor.interrupted);
-    RunNotes notes(stop);
-    const auto after_step = [&](const StepRecord& record, const Solution& solution) {
-        notes.step_done(record);
-        rows.push_back({std::string(settings.method->name), 0, record, std::nullopt});
-        if (reference)
-            rows.back().error = reference->error(mesh, solution.radiosity);
-        progress.step_done(record);
-        if (settings.every_step)
-            step_pictures.write(solution.radiosity, record.step);
-        if (settings.verbosity == Verbosity::verbose)
-            progress.log(step_text(rows.back()));
-        checkpointer.step_done(rows, record.seconds);
-    };
-    bool completed = false;
-    std::optional<InputError> fault; // in a step; those before it are written
-    try {
-        completed = run(*solver, input, stop, after_step, before);
-    } catch (const SolveError& error) {
-        fault = as_input_error(error, settings.scene.path, loaded.face_lines);
-        if (solver->solution().steps == 0)
-            throw *fault;
-    }
-    const double seconds_solver =
-        solving.seconds() + (resumed ? resumed->seconds : divided.before.seconds);
-    progress.close();
-    checkpointer.finish(rows, seconds_solver);
-
-    std::optional<Solution> linear;
-    if (divided.linear)
-        add_slopes(settings, mesh, *tracer, linear.emplace(solver->solution()), monitor.interrupted,
-                   statistics);
-    // Where a signal or the time left no step, there is the light by which patches were divided.
-    const bool has_step = solver->solution().steps > 0 || divided.rough.steps == 0;
-    const Solution& solution = !has_step ? divided.rough : linear ? *linear : solver->solution();
-    fill(statistics, settings, mesh, solution, seconds_solver);
-    add_division_error(statistics, settings, mesh, *tracer, solution, monitor.interrupted);
-    if (!settings.plain) // which leaves out nothing
-        statistics.left_out = left_out(needs, *settings.method, solution);
-    statistics.bytes_peak = peak_memory_bytes();
-    WriteReport of_run = step_pictures.report();
-    of_run.add(checkpointer.report());
-    const bool interrupted = !completed && !fault;
-    SolveSettings shown = settings; // the last picture has the view of those before
-    shown.view.camera = step_pictures.camera();
-    const int code =
-        finish(shown, {mesh, *tracer, solution, statistics, rows, points, monitor.interrupted},
-               of_run, reference, notes, interrupted, started, resumed ? resumed->seconds : 0);
-    if (interrupted)
-        end_at_once(code);
-    if (!fault || code != exit_done)
-        return code;
-    log_line(settings.verbosity, Verbosity::quiet,
-             std::string("hemilux: ") + fault->what() + "\nthe outputs hold " +
-                 counted(solver->solution().steps, "step", "steps") + " before that");
-    return exit_input;
+    SolveRun run(settings);
+    run.read_scene();
+    run.build_tree();
+    run.divide();
+    run.read_the_reference();
+    run.take_steps();
+    run.estimate_errors();
+    return run.write();
 }
 
 } // namespace hemilux
