@@ -53,6 +53,8 @@ TEST_CASE("a row that is no point is refused with its line and what was expected
     check("1 2 3 0 0 0", "normal");
     check("1 2 3 -0 0 1e-999", "normal");
     check("1;2;3;0;0;1", "six numbers");
+    CHECK_THROWS_WITH(points_in("nan,2,3,0,0,1\n1,2,3,0,0,1\n"), // no header
+                      Catch::Contains("points.txt:1: expected"));
     for (const char* empty : {"", "\n\n", "# nothing\n", "x,y,z,nx,ny,nz\n"})
         CHECK_THROWS_WITH(points_in(empty), Catch::Contains("there is no point"));
     CHECK_THROWS_AS(points_in(std::string("1 2 3 0 0\0 1", 12)), InputError);

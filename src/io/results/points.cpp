@@ -32,10 +32,15 @@ std::string_view next_field(std::string_view& row) {
     return field;
 }
 
+/// Words, and no number among them: `nan,0,0,0,0,1` is a row that is wrong.
 bool is_header(std::string_view row) {
-    const std::string_view first = next_field(row);
-    return !parse_decimal(first) && !first.empty() &&
-           (std::isalpha(static_cast<unsigned char>(first.front())) != 0 || first.front() == '"');
+    while (!row.empty()) {
+        const std::string_view field = next_field(row);
+        if (parse_decimal(field) || (!field.empty() && field.front() != '"' &&
+                                     std::isalpha(static_cast<unsigned char>(field.front())) == 0))
+            return false;
+    }
+    return true;
 }
 
 NamedPoint point_from(const std::string& path, std::size_t line, std::string_view row) {
