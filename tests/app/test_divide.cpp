@@ -106,6 +106,7 @@ TEST_CASE("Ctrl-C while patches are divided leaves the light by which they were 
     run.interrupt();
     CHECK(run.wait() == 130);
     CHECK_THAT(place.read("log.txt"), Contains("interrupted; the outputs hold"));
+    CHECK_THAT(place.read("log.txt"), Contains("estimated error unknown"));
     CHECK(place.has("a.csv"));
 }
 

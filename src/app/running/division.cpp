@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace hemilux {
@@ -134,8 +135,12 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
                         const Tracer& tracer, const Solution& solution,
                         const StopFlag& interrupted) {
     statistics.error_sampling = statistics.estimated_error;
-    if (solution.steps == 0 || interrupted)
+    if (solution.steps == 0 || interrupted) {
+        if (settings.divide_auto) // the whole error is not known
+            statistics.estimated_error = statistics.estimated_error_uncertainty =
+                std::numeric_limits<double>::quiet_NaN();
         return;
+    }
     constexpr std::uint64_t share_of_rays = 2; // of all before, at most: one in so many
     const Stopwatch watch;
     const DivisionError found = division_error(
