@@ -42,7 +42,7 @@ lint() {
     then
         echo "clang-tidy finds nothing"
     else
-        grep -v 'warnings\{0,1\} generated\|treated as error' build/tidy/counts.txt >&2
+        grep -av 'warnings\{0,1\} generated\|treated as error' build/tidy/counts.txt >&2
         exit 1
     fi
 }
