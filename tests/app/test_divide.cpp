@@ -1,28 +1,17 @@
 // --divide, and the error of the light within patches.
 #include "app/program.h"
 #include "app/running.h"
+#include "app/statistics_file.h"
 
 #include "support/catch.h"
 
-#include <cmath>
 #include <string>
 
 using Catch::Matchers::Contains;
 using test::Running;
+using test::statistic;
 using test::wait_for;
 using test::Workplace;
-
-namespace {
-
-/// A number in a file of --stats; NaN for null.
-double statistic(const std::string& json, const std::string& key) {
-    const std::size_t at = json.find("\"" + key + "\": ");
-    REQUIRE(at != std::string::npos);
-    const std::string value = json.substr(at + key.size() + 4);
-    return value.rfind("null", 0) == 0 ? std::nan("") : std::stod(value);
-}
-
-} // namespace
 
 TEST_CASE("a run on fixed patches reports what sampling and what the division leaves") {
     const Workplace place;

@@ -1,6 +1,7 @@
 // Pictures whose light is gathered, and where the seconds of a run went.
 #include "app/program.h"
 #include "app/running.h"
+#include "app/statistics_file.h"
 #include "support/catch.h"
 
 #include <sstream>
@@ -8,19 +9,9 @@
 
 using Catch::Contains;
 using test::Running;
+using test::statistic;
 using test::wait_for;
 using test::Workplace;
-
-namespace {
-
-/// Of a line `"key": number,`.
-double number_in(const std::string& json, const std::string& key) {
-    const std::size_t at = json.find('"' + key + "\": ");
-    REQUIRE(at != std::string::npos);
-    return std::stod(json.substr(at + key.size() + 4));
-}
-
-} // namespace
 
 TEST_CASE("pictures are gathered, unless --no-gather; those of steps are not") {
     const Workplace place;
@@ -74,12 +65,12 @@ TEST_CASE("the seconds of the stages are all of a run") {
         double sum = 0;
         for (const char* stage : {"read", "bvh", "divide", "density", "solve", "division_error",
                                   "analysis", "gather", "picture", "write"}) {
-            const double seconds = number_in(json, std::string("seconds_") + stage);
+            const double seconds = statistic(json, std::string("seconds_") + stage);
             CHECK(seconds >= 0);
             sum += seconds;
         }
-        CHECK(sum == Approx(number_in(json, "seconds_total")).epsilon(.02));
-        CHECK(number_in(json, "seconds_gather") > 0);
-        CHECK(number_in(json, "seconds_picture") > 0);
+        CHECK(sum == Approx(statistic(json, "seconds_total")).epsilon(.02));
+        CHECK(statistic(json, "seconds_gather") > 0);
+        CHECK(statistic(json, "seconds_picture") > 0);
     }
 }

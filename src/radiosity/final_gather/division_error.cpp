@@ -13,7 +13,6 @@
 #include "radiosity/solving/stop_flag.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
