@@ -3,7 +3,6 @@
 #include "radiosity/final_gather/final_gather.h"
 #include "radiosity/final_gather/light_within_patches.h"
 #include "radiosity/final_gather/linear_light.h"
-#include "radiosity/final_gather/surface_points.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/workers.h"
@@ -48,25 +47,17 @@ struct Rounds {
 double product_over_surface(const Mesh& mesh, const Solution& solution, FinalGather& gather,
                             std::uint64_t seed, const Workers& workers,
                             const StopFlag& interrupted) {
-    std::vector<SurfacePoint> at;
-    std::vector<std::uint64_t> streams;
-    const std::vector<PatchPoint> points =
-        points_over_surface(mesh, points_per_round, hash_words({seed, 0}));
-    for (const PatchPoint& point : points) {
-        at.push_back(point.at);
-        streams.push_back(hash_words({seed, at.size()}));
-    }
-    const std::vector<Vec3> irradiance = gather.irradiance(at, streams, 2, workers, interrupted);
+    const auto [points, irradiance] =
+        gather_twice(mesh, gather, points_per_round, seed, workers, interrupted);
     double sum = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {
         const Material& material = mesh.material(points[k].patch);
         const Vec3 reflected =
             radiosity_at(mesh, solution, points[k].patch, points[k].at.position) -
             material.emission;
-        const auto off = [&](std::size_t e) {
-            return material.reflectance * irradiance[2 * k + e] - reflected;
-        };
-        sum += points[k].area * glm::dot(off(0), off(1));
+        const Vec3 off1 = material.reflectance * irradiance[2 * k] - reflected;
+        const Vec3 off2 = material.reflectance * irradiance[2 * k + 1] - reflected;
+        sum += points[k].area * glm::dot(off1, off2);
     }
     return sum;
 }

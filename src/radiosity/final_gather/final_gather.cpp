@@ -308,4 +308,18 @@ std::vector<IndirectLight> FinalGather::indirect(std::span<const SurfacePoint> p
     return found;
 }
 
+GatheredTwice gather_twice(const Mesh& mesh, FinalGather& gather, std::size_t points,
+                           std::uint64_t seed, const Workers& workers,
+                           const StopFlag& interrupted) {
+    GatheredTwice found{points_over_surface(mesh, points, hash_words({seed, 0})), {}};
+    std::vector<SurfacePoint> at;
+    std::vector<std::uint64_t> streams;
+    for (const PatchPoint& point : found.points) {
+        at.push_back(point.at);
+        streams.push_back(hash_words({seed, at.size()}));
+    }
+    found.irradiance = gather.irradiance(at, streams, 2, workers, interrupted);
+    return found;
+}
+
 } // namespace hemilux

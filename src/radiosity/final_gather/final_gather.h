@@ -142,4 +142,14 @@ class FinalGather {
     mutable std::atomic<std::uint64_t> rays_{0};
 };
 
+/// Points uniform over the surfaces, and two independent estimates of the irradiance at each: those
+/// of point k are 2 k and 2 k + 1.
+struct GatheredTwice {
+    std::vector<PatchPoint> points;
+    std::vector<Vec3> irradiance; ///< [W/m2]
+};
+[[nodiscard]] GatheredTwice gather_twice(const Mesh& mesh, FinalGather& gather, std::size_t points,
+                                         std::uint64_t seed, const Workers& workers,
+                                         const StopFlag& interrupted);
+
 } // namespace hemilux

@@ -1,8 +1,6 @@
 #include "radiosity/final_gather/known_light.h"
 
 #include "radiosity/final_gather/final_gather.h"
-#include "radiosity/final_gather/surface_points.h"
-#include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solution.h"
 #include "radiosity/solving/stop_flag.h"
@@ -16,23 +14,15 @@ KnownLight::KnownLight(const Mesh& mesh, const Tracer& tracer, std::span<const V
                        std::size_t points, std::uint64_t seed, const Workers& workers,
                        const StopFlag& interrupted)
     : mesh_(mesh) {
-    std::vector<SurfacePoint> at;
-    std::vector<std::uint64_t> streams;
-    for (const PatchPoint& point : points_over_surface(mesh, points, hash_words({seed, 0}))) {
-        points_.push_back({point.patch, {}, {}});
-        at.push_back(point.at);
-        streams.push_back(hash_words({seed, at.size()}));
-    }
     FinalGather gather(mesh, tracer, accurate);
-    const std::vector<Vec3> irradiance = gather.irradiance(at, streams, 2, workers, interrupted);
-    if (interrupted) {
-        points_.clear();
+    const GatheredTwice found = gather_twice(mesh, gather, points, seed, workers, interrupted);
+    if (interrupted)
         return;
-    }
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-        const Vec3& reflectance = mesh.material(points_[k].patch).reflectance;
-        points_[k].reflected1 = reflectance * irradiance[2 * k];
-        points_[k].reflected2 = reflectance * irradiance[2 * k + 1];
+    for (std::size_t k = 0; k < found.points.size(); ++k) {
+        const std::uint32_t patch = found.points[k].patch;
+        const Vec3& reflectance = mesh.material(patch).reflectance;
+        points_.push_back({patch, reflectance * found.irradiance[2 * k],
+                           reflectance * found.irradiance[2 * k + 1]});
     }
 }
 
