@@ -24,7 +24,7 @@ echo "2. The hemisphere of one patch: surfaces counted in each direction, divide
 $hemilux density "$scene" -o "$out/hemisphere.svg"
 echo
 echo "3. Error against rays: the paper's method, random directions, and the default method"
-$hemilux compare "$scene" --methods hemisphere,progressive-monte-carlo,gathering \
+$hemilux compare "$scene" --methods hemisphere,progressive-monte-carlo,stored-transport \
     --reference "$out/reference.csv" --budget-rays 500000 -q -o "$out/compare"
 echo
 echo "4. The default: as many rays as an error of 0.5 % takes"

@@ -1,11 +1,16 @@
 #include "bvh/bvh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 namespace hemilux {
 namespace {
+
+constexpr int bins = 16;              ///< candidates per axis; more: slightly better trees
+constexpr std::uint32_t max_leaf = 8; ///< facets in a leaf at most
+constexpr double cost_visit = 1.0;    ///< of a node's two boxes, relative to the test of one facet
 
 /// A facet's box and the point by which it is sorted into bins.
 struct Item {
@@ -29,11 +34,9 @@ struct Split {
 /// Maps a coordinate of the range's centres to its bin.
 struct Binning {
     double low, scale;
-    int bins;
 
-    Binning(const Box& centres, int axis, int count)
-        : low(centres.low[axis]), scale(count / (centres.high[axis] - centres.low[axis])),
-          bins(count) {}
+    Binning(const Box& centres, int axis)
+        : low(centres.low[axis]), scale(bins / (centres.high[axis] - centres.low[axis])) {}
     [[nodiscard]] int operator()(double coordinate) const {
         return std::min(static_cast<int>((coordinate - low) * scale), bins - 1);
     }
@@ -42,34 +45,22 @@ struct Binning {
 /// Divides ranges of items top-down and writes the nodes.
 class Builder {
   public:
-    Builder(const FacetSoup& soup, const BvhOptions& options, std::vector<Bvh::Node>& nodes)
-        : options_(options), nodes_(nodes), bins_(static_cast<std::size_t>(options.bins)),
-          right_area_(bins_.size()), right_count_(bins_.size()) {
+    Builder(const FacetSoup& soup, std::vector<Bvh::Node>& nodes) : nodes_(nodes) {
         items_.reserve(soup.facets.size());
         for (std::uint32_t f = 0; f < soup.facets.size(); ++f)
             add(soup, f);
     }
 
-    void build() {
-        if (items_.empty())
-            return;
+    Bvh::Child build() {
         // Float boxes and float ray origins are off by half an ulp of the largest coordinate each.
         const Vec3 reach = glm::max(glm::abs(bounds_.low), glm::abs(bounds_.high));
         widen_ = std::max({reach.x, reach.y, reach.z}) * 0x1p-22;
-        nodes_.emplace_back();
-        const auto n = static_cast<std::uint32_t>(items_.size());
-        const std::uint32_t middle = choose_or_halve(0, n, 0);
-        fill(0, 0, middle, n, 1);
-        quality_.nodes = nodes_.size();
-        quality_.sah_cost += options_.cost_visit;
+        return make(0, static_cast<std::uint32_t>(items_.size()), 0);
     }
 
     [[nodiscard]] const std::vector<Item>& items() const { return items_; }
-    [[nodiscard]] const BvhQuality& quality() const { return quality_; }
     /// Of all facets, widened like the nodes' boxes.
-    [[nodiscard]] Box bounds() const {
-        return items_.empty() ? bounds_ : Box{bounds_.low - widen_, bounds_.high + widen_};
-    }
+    [[nodiscard]] Box bounds() const { return {bounds_.low - widen_, bounds_.high + widen_}; }
 
   private:
     static constexpr int balanced_below = 64; ///< from this depth on ranges are halved
@@ -101,7 +92,7 @@ class Builder {
         for (int axis = 0; axis < 3; ++axis) {
             if (!(centres.high[axis] > centres.low[axis]))
                 continue;
-            const Binning bin_of(centres, axis, options_.bins);
+            const Binning bin_of(centres, axis);
             if (!std::isfinite(bin_of.scale))
                 continue;
             std::fill(bins_.begin(), bins_.end(), Bin{});
@@ -132,10 +123,8 @@ class Builder {
             count += bins_[b - 1].count;
             if (count == 0 || right_count_[b] == 0)
                 continue;
-            const double cost = options_.cost_visit +
-                                options_.cost_facet *
-                                    (left.half_area() * count + right_area_[b] * right_count_[b]) /
-                                    area;
+            const double cost =
+                cost_visit + (left.half_area() * count + right_area_[b] * right_count_[b]) / area;
             if (cost < best.cost)
                 best = {axis, static_cast<int>(b), cost};
         }
@@ -143,7 +132,7 @@ class Builder {
 
     std::uint32_t partition(std::uint32_t begin, std::uint32_t end, const Box& centres,
                             const Split& split) {
-        const Binning bin_of(centres, split.axis, options_.bins);
+        const Binning bin_of(centres, split.axis);
         const auto at = [&](std::uint32_t i) {
             return items_.begin() + static_cast<std::ptrdiff_t>(i);
         };
@@ -156,55 +145,36 @@ class Builder {
     /// Where to divide [begin, end); end when a leaf is cheaper.
     std::uint32_t choose(std::uint32_t begin, std::uint32_t end, int depth) {
         const std::uint32_t n = end - begin;
-        if (n == 1)
+        if (n <= 1)
             return end;
         if (depth < balanced_below) {
             Box boxes, centres;
             bounds_of(begin, end, boxes, centres);
             const Split split = best_split(begin, end, boxes, centres);
-            if (n <= options_.max_leaf && !(split.cost < options_.cost_facet * n))
+            if (n <= max_leaf && !(split.cost < n))
                 return end;
             if (split.axis >= 0)
                 return partition(begin, end, centres, split);
         }
-        return n <= options_.max_leaf ? end : begin + n / 2;
+        return n <= max_leaf ? end : begin + n / 2;
     }
 
-    /// Like choose, but never a leaf: the root is a node even over one facet (its second child is
-    /// then empty).
-    std::uint32_t choose_or_halve(std::uint32_t begin, std::uint32_t end, int depth) {
+    /// The tree of [begin, end).
+    Bvh::Child make(std::uint32_t begin, std::uint32_t end, int depth) {
         const std::uint32_t middle = choose(begin, end, depth);
-        return middle < end ? middle : begin + (end - begin + 1) / 2;
-    }
-
-    void fill(std::uint32_t node, std::uint32_t begin, std::uint32_t middle, std::uint32_t end,
-              int depth) {
-        set_child(node, 0, begin, middle, depth);
-        set_child(node, 1, middle, end, depth);
-    }
-
-    void set_child(std::uint32_t node, std::size_t child, std::uint32_t begin, std::uint32_t end,
-                   int depth) {
-        Box boxes, centres;
-        bounds_of(begin, end, boxes, centres);
-        write_box(nodes_[node], child, boxes);
-        quality_.depth = std::max(quality_.depth, depth);
-        const std::uint32_t middle = begin < end ? choose(begin, end, depth) : end;
-        const double share =
-            begin < end ? boxes.half_area() / std::max(bounds_.half_area(), 1e-300) : 0;
-        if (middle == end) {
-            nodes_[node].first[child] = begin;
-            nodes_[node].count[child] = end - begin;
-            ++quality_.leaves;
-            quality_.sah_cost += options_.cost_facet * share * (end - begin);
-            return;
-        }
-        quality_.sah_cost += options_.cost_visit * share;
-        const auto below = static_cast<std::uint32_t>(nodes_.size());
-        nodes_[node].first[child] = below;
-        nodes_[node].count[child] = none;
+        if (middle == end)
+            return {begin, end - begin};
+        const auto node = static_cast<std::uint32_t>(nodes_.size());
         nodes_.emplace_back();
-        fill(below, begin, middle, end, depth + 1);
+        const std::array<std::uint32_t, 3> limit{begin, middle, end};
+        for (std::size_t c = 0; c < 2; ++c) {
+            Box boxes, centres;
+            bounds_of(limit[c], limit[c + 1], boxes, centres);
+            write_box(nodes_[node], c, boxes);
+            const Bvh::Child child = make(limit[c], limit[c + 1], depth + 1);
+            nodes_[node].child[c] = child;
+        }
+        return {node, none};
     }
 
     void write_box(Bvh::Node& node, std::size_t child, const Box& box) const {
@@ -215,23 +185,20 @@ class Builder {
         }
     }
 
-    BvhOptions options_;
     std::vector<Bvh::Node>& nodes_;
     std::vector<Item> items_;
-    std::vector<Bin> bins_;
-    std::vector<double> right_area_;
-    std::vector<std::uint32_t> right_count_;
+    std::array<Bin, bins> bins_;
+    std::array<double, bins> right_area_;
+    std::array<std::uint32_t, bins> right_count_;
     Box bounds_;
     double widen_ = 0;
-    BvhQuality quality_;
 };
 
 } // namespace
 
-Bvh::Bvh(const FacetSoup& soup, const BvhOptions& options)
-    : vertices_(soup.vertices.begin(), soup.vertices.end()) {
-    Builder builder(soup, options, nodes_);
-    builder.build();
+Bvh::Bvh(const FacetSoup& soup) : vertices_(soup.vertices.begin(), soup.vertices.end()) {
+    Builder builder(soup, nodes_);
+    root_ = builder.build();
     facets_.reserve(builder.items().size());
     order_.reserve(builder.items().size());
     for (const auto& item : builder.items()) {
@@ -239,9 +206,6 @@ Bvh::Bvh(const FacetSoup& soup, const BvhOptions& options)
         order_.push_back(item.facet);
     }
     bounds_ = builder.bounds();
-    quality_ = builder.quality();
-    quality_.bytes = nodes_.size() * sizeof(Node) + facets_.size() * sizeof(FacetCorners) +
-                     order_.size() * sizeof(std::uint32_t) + vertices_.size() * sizeof(Vec3);
 }
 
 } // namespace hemilux

@@ -6,7 +6,6 @@
 // rounding of a box or of a ray's origin loses a hit.
 
 #include "bvh/intersect.h"
-#include "bvh/quality.h"
 #include "geometry/box.h"
 
 #include <cstddef>
@@ -14,31 +13,24 @@
 
 namespace hemilux {
 
-/// How the builder weighs its choices.
-struct BvhOptions {
-    double cost_visit = 1.0; ///< of a node's two boxes, relative to the test of one facet
-    double cost_facet = 1.0;
-    int bins = 16;              ///< candidates per axis; more: slightly better trees, longer builds
-    std::uint32_t max_leaf = 8; ///< facets in a leaf at most
-};
-
 class Bvh final : public Tracer {
   public:
     /// Copies what it needs. Facets with a coordinate that is not finite are never hit.
-    explicit Bvh(const FacetSoup& soup, const BvhOptions& options = {});
+    explicit Bvh(const FacetSoup& soup);
 
     [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override;
     [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target = none) const override;
     [[nodiscard]] std::uint32_t count(const Ray& ray) const override;
 
-    /// The bytes are those of nodes, facets and vertices.
-    [[nodiscard]] const BvhQuality& quality() const { return quality_; }
-
+    /// A node, or a leaf of so many facets from an entry of order_ on.
+    struct Child {
+        std::uint32_t first;
+        std::uint32_t count; ///< `none`: a node
+    };
     /// An inner node with the boxes of both children: 64 bytes.
     struct alignas(64) Node {
         std::array<std::array<float, 2>, 3> low, high; ///< [axis][child]
-        std::array<std::uint32_t, 2> first; ///< child's node, or first entry in order_ of a leaf
-        std::array<std::uint32_t, 2> count; ///< facets of a leaf; `none`: the child is a node
+        std::array<Child, 2> child;
     };
 
   private:
@@ -50,9 +42,9 @@ class Bvh final : public Tracer {
     std::vector<Vec3> vertices_;
     std::vector<FacetCorners> facets_; ///< in the order of the leaves
     std::vector<std::uint32_t> order_; ///< leaf slot -> facet as given
-    std::vector<Node> nodes_;          ///< nodes_[0] is the root; empty when there is no facet
+    std::vector<Node> nodes_;
+    Child root_;
     Box bounds_;
-    BvhQuality quality_;
 };
 
 } // namespace hemilux

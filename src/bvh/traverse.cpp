@@ -48,8 +48,9 @@ struct BoxRay {
     }
 };
 
+/// What is to be visited once nearer things are done, and where the ray enters its box.
 struct Pending {
-    std::uint32_t first, count;
+    Bvh::Child at;
     float enter;
 };
 
@@ -60,7 +61,7 @@ constexpr int stack_size = 128;
 
 template <class Leaf>
 void Bvh::traverse(const Ray& ray, const double& t_max, Leaf&& leaf) const {
-    if (nodes_.empty())
+    if (order_.empty())
         return;
     const BoxRay box_ray(ray, bounds_);
     if (box_ray.misses)
@@ -71,14 +72,14 @@ void Bvh::traverse(const Ray& ray, const double& t_max, Leaf&& leaf) const {
 
     std::array<Pending, stack_size> stack;
     int top = 0;
-    Pending now{0, none, 0};
+    Pending now{root_, 0};
     for (;;) {
-        if (now.count != none) {
-            for (std::uint32_t slot = now.first; slot < now.first + now.count; ++slot)
+        if (now.at.count != none) {
+            for (std::uint32_t slot = now.at.first; slot < now.at.first + now.at.count; ++slot)
                 if (leaf(slot))
                     return;
         } else {
-            const Node& node = nodes_[now.first];
+            const Node& node = nodes_[now.at.first];
             std::array<float, 2> enter{0.0f, 0.0f};
             const float far = limit();
             std::array<float, 2> leave{far, far};
@@ -95,9 +96,9 @@ void Bvh::traverse(const Ray& ray, const double& t_max, Leaf&& leaf) const {
             if (hit0 || hit1) {
                 const std::size_t near = hit0 && (!hit1 || enter[0] <= enter[1]) ? 0 : 1;
                 if (hit0 && hit1)
-                    stack[static_cast<std::size_t>(top++)] = {
-                        node.first[1 - near], node.count[1 - near], enter[1 - near]};
-                now = {node.first[near], node.count[near], enter[near]};
+                    stack[static_cast<std::size_t>(top++)] = {node.child[1 - near],
+                                                              enter[1 - near]};
+                now = {node.child[near], enter[near]};
                 continue;
             }
         }

@@ -58,12 +58,4 @@ double edge_term(const Vec3& a, const Vec3& b) {
     return length > 0 ? std::atan2(length, glm::dot(a, b)) * (m.z / length) : 0.0;
 }
 
-double projected_solid_angle(const ClippedPolygon& polygon) {
-    const auto n = static_cast<std::size_t>(polygon.size);
-    double sum = 0;
-    for (std::size_t i = 0; i < n; ++i)
-        sum += edge_term(polygon.vertex[i], polygon.vertex[(i + 1) % n]);
-    return std::max(0.0, 0.5 * sum);
-}
-
 } // namespace hemilux

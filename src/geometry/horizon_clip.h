@@ -23,7 +23,4 @@ struct ClippedPolygon {
 /// the projected solid angle (Lambert 1760). 0 for an edge without length.
 [[nodiscard]] double edge_term(const Vec3& a, const Vec3& b);
 
-/// Integral of cos(theta) over the polygon [sr].
-[[nodiscard]] double projected_solid_angle(const ClippedPolygon& polygon);
-
 } // namespace hemilux

@@ -1,6 +1,6 @@
 // --checkpoint and --resume: the same bytes as without an interruption, and no checkpoint that is
 // not of this run.
-#include "app/program.h"
+#include "app/check_fails.h"
 #include "app/running.h"
 #include "io/results/checkpoint.h"
 #include "radiosity/solving/solver.h"
@@ -22,10 +22,7 @@ const std::string run_of_8 =
 
 void check_refused(const Workplace& place, const std::string& arguments,
                    const std::string& message) {
-    CAPTURE(arguments);
-    const auto outcome = place.hemilux(arguments + " -o refused.csv");
-    CHECK(outcome.code == 2);
-    CHECK_THAT(outcome.err, Contains(message));
+    test::check_fails(place, 2, arguments + " -o refused.csv", message);
     CHECK_FALSE(place.has("refused.csv"));
 }
 
@@ -80,9 +77,9 @@ TEST_CASE("a resumed run ends with the bytes of one that was not interrupted") {
     const Workplace place;
     place.write_room();
     const std::string method =
-        GENERATE("gathering", "hemisphere", "hemisphere --literal", "hemisphere --guide visible",
-                 "hemisphere --guide learned", "hemisphere-1997", "monte-carlo",
-                 "progressive-monte-carlo", "stratified");
+        GENERATE("stored-transport", "hemisphere", "hemisphere --literal",
+                 "hemisphere --guide visible", "hemisphere --guide learned", "hemisphere-1997",
+                 "monte-carlo", "progressive-monte-carlo", "stratified");
     CAPTURE(method);
     const std::string run = "solve room.obj --rays 20 --method " + method;
     REQUIRE(place.hemilux(run + " --steps 6 -o whole.csv --steps-log whole_steps.csv").code == 0);
@@ -254,17 +251,14 @@ TEST_CASE("what contradicts a checkpoint is wrong usage") {
     const Workplace place;
     place.write_room();
     const auto check_usage = [&](const std::string& arguments, const std::string& message) {
-        CAPTURE(arguments);
-        const auto outcome = place.hemilux("solve room.obj -o a.png " + arguments);
-        CHECK(outcome.code == 1);
-        CHECK_THAT(outcome.err, Contains(message));
+        test::check_fails(place, 1, "solve room.obj -o a.png " + arguments, message);
     };
     check_usage("--every 3", "add it");
     check_usage("--checkpoint c --every -1", "--every");
     check_usage("--checkpoint a.png", "named twice");
     check_usage("--checkpoint room.obj", "named twice");
     check_usage("--resume a.png", "named twice");
-    check_usage("--method matrix --checkpoint c", "these do: gathering, hemisphere, ");
+    check_usage("--method matrix --checkpoint c", "these do: hemisphere, hemisphere-1997, ");
     check_usage("--method matrix --resume c", "monte-carlo");
     check_usage("--every-step --resume c", "--camera and --exposure");
     CHECK(place.hemilux("solve room.obj -o a.png --checkpoint no/where").code == 3);
@@ -273,7 +267,7 @@ TEST_CASE("what contradicts a checkpoint is wrong usage") {
 TEST_CASE("runs killed at random moments resume") {
     const Workplace place;
     place.write_room();
-    const std::string method = GENERATE("gathering", "hemisphere");
+    const std::string method = GENERATE("stored-transport", "hemisphere");
     check_kills(place, 6, "solve room.obj --rays 100 --max-edge .15 --steps 20 --method " + method,
                 4);
 }
@@ -284,7 +278,7 @@ TEST_CASE("runs of every method that saves resume, killed at 40 random moments",
     for (const hemilux::Method* const method : hemilux::methods()) {
         if (!method->can_resume())
             continue;
-        const std::string steps = method->name == "gathering" ? "40" : "150";
+        const std::string steps = method->name == "stored-transport" ? "40" : "150";
         CAPTURE(method->name);
         check_kills(place, 40,
                     "solve room.obj --rays 100 --max-edge .1 --steps " + steps + " --method " +

@@ -1,5 +1,5 @@
 // What `hemilux compare` writes and says.
-#include "app/program.h"
+#include "app/check_fails.h"
 #include "radiosity/solving/solver.h"
 #include "support/catch.h"
 
@@ -43,15 +43,6 @@ std::map<std::string, std::vector<std::string>> table_of(const std::string& out)
         table[fields.front()] = fields;
     }
     return table;
-}
-
-void check_fails(const Workplace& place, int code, const std::string& arguments,
-                 const std::string& message) {
-    CAPTURE(arguments);
-    const Workplace::Outcome outcome = place.hemilux("compare " + arguments);
-    CHECK(outcome.code == code);
-    CHECK_THAT(outcome.err, Contains(message));
-    CHECK(outcome.out.empty());
 }
 
 } // namespace
@@ -153,7 +144,7 @@ TEST_CASE("the uncertainty of a gain from one run is unknown") {
     CHECK_THAT(outcome.err, Contains("gains are from one run: uncertainty unknown"));
 }
 
-TEST_CASE("by default gathering and all unbiased methods are compared, by rays") {
+TEST_CASE("by default stored transport and all unbiased methods are compared, by rays") {
     const Workplace place;
     place.write_room();
     const auto outcome = place.hemilux("compare room.obj -o a --runs 1 --rays 4 -q " + quick);
@@ -162,11 +153,21 @@ TEST_CASE("by default gathering and all unbiased methods are compared, by rays")
     const auto table = table_of(outcome.out);
     std::size_t expected = 0;
     for (const hemilux::Method* const method : hemilux::methods()) {
-        const bool compared = method->unbiased || method->name == "gathering";
+        const bool compared = method->unbiased || method->name == "stored-transport";
         CHECK(table.contains(std::string(method->name)) == compared);
         expected += compared;
     }
     CHECK(table.size() == expected + 1);
+}
+
+TEST_CASE("a comparison labels a method as the user called it") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome =
+        place.hemilux("compare room.obj -o a --methods gathering --runs 1 --rays 4 " + quick);
+    REQUIRE(outcome.code == 0);
+    CHECK(table_of(outcome.out).contains("gathering"));
+    CHECK(place.has("a/gathering.png"));
 }
 
 TEST_CASE("hemisphere is compared with itself, guided in other ways") {
@@ -270,19 +271,21 @@ TEST_CASE("a scene that reflects nothing has no error, and says so by dashes") {
 TEST_CASE("what cannot be compared is refused before any work") {
     const Workplace place;
     place.write_room();
-    check_fails(place, 1, "room.obj -o a --methods hemisfere", "did you mean 'hemisphere'?");
-    check_fails(place, 1, "room.obj -o a --methods hemisphere,stratifed",
+    check_fails(place, 1, "compare room.obj -o a --methods hemisfere",
+                "did you mean 'hemisphere'?");
+    check_fails(place, 1, "compare room.obj -o a --methods hemisphere,stratifed",
                 "did you mean 'stratified'?");
-    check_fails(place, 1, "room.obj -o a --methods matrix,matrix", "named twice");
-    check_fails(place, 1, "room.obj -o a --methods hemisphere,", "--methods");
-    check_fails(place, 1, "room.obj -o a --budget-rays 1e6 --budget-time 3", "--budget-time");
-    check_fails(place, 1, "room.obj -o a --budget-rays 0", "--budget-rays");
-    check_fails(place, 1, "room.obj -o a --runs 0", "--runs");
-    check_fails(place, 1, "room.obj -o a --detail wals", "did you mean 'walls'?");
-    check_fails(place, 1, "room.obj", "output");
-    check_fails(place, 2, "room.obj -o a --reference none.csv", "none.csv");
-    check_fails(place, 2, "none.obj -o a", "none.obj");
-    check_fails(place, 3, "room.obj -o room.mtl", "room.mtl: is a file");
-    check_fails(place, 3, "room.obj -o room.mtl/a", "room.mtl/a");
+    check_fails(place, 1, "compare room.obj -o a --methods matrix,matrix", "named twice");
+    check_fails(place, 1, "compare room.obj -o a --methods hemisphere,", "--methods");
+    check_fails(place, 1, "compare room.obj -o a --budget-rays 1e6 --budget-time 3",
+                "--budget-time");
+    check_fails(place, 1, "compare room.obj -o a --budget-rays 0", "--budget-rays");
+    check_fails(place, 1, "compare room.obj -o a --runs 0", "--runs");
+    check_fails(place, 1, "compare room.obj -o a --detail wals", "did you mean 'walls'?");
+    check_fails(place, 1, "compare room.obj", "output");
+    check_fails(place, 2, "compare room.obj -o a --reference none.csv", "none.csv");
+    check_fails(place, 2, "compare none.obj -o a", "none.obj");
+    check_fails(place, 3, "compare room.obj -o room.mtl", "room.mtl: is a file");
+    check_fails(place, 3, "compare room.obj -o room.mtl/a", "room.mtl/a");
     CHECK_FALSE(place.has("a/error.csv"));
 }

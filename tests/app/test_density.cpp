@@ -1,5 +1,5 @@
 // What `hemilux density` writes and says.
-#include "app/program.h"
+#include "app/check_fails.h"
 #include "support/catch.h"
 
 using Catch::Contains;
@@ -56,10 +56,7 @@ TEST_CASE("density says what is wrong with what it is asked") {
     const Workplace place;
     place.write_room();
     const auto fails = [&](int code, const std::string& arguments, const std::string& message) {
-        CAPTURE(arguments);
-        const auto outcome = place.hemilux("density " + arguments);
-        CHECK(outcome.code == code);
-        CHECK_THAT(outcome.err, Contains(message));
+        test::check_fails(place, code, "density " + arguments, message);
     };
     fails(1, "room.obj", "--output");
     fails(1, "room.obj -o a.csv", ".svg or .png");

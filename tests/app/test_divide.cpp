@@ -66,6 +66,25 @@ TEST_CASE("--divide auto leaves alone what is even: it costs a thousand points")
     CHECK(place.read("a.csv").find("gradient") == std::string::npos);
 }
 
+TEST_CASE("--divide auto goes on until the whole error is as asked for, or says what ended it") {
+    const Workplace place;
+    place.write_room();
+    for (const std::string seed : {"1", "2", "3", "4"}) {
+        const auto outcome =
+            place.hemilux("solve room.obj --divide auto --error .06 --stats s.json "
+                          "--seed " +
+                          seed);
+        REQUIRE(outcome.code == 0);
+        CHECK(statistic(place.read("s.json"), "estimated_error") <= .06);
+        CHECK_THAT(outcome.err, !Contains("before the whole error"));
+    }
+    const auto outcome =
+        place.hemilux("solve room.obj --divide auto --error .01 --max-rays 5000 --stats s.json");
+    REQUIRE(outcome.code == 0);
+    CHECK(statistic(place.read("s.json"), "estimated_error") > .01);
+    CHECK_THAT(outcome.err, Contains("the run ended before the whole error of 1 % was reached"));
+}
+
 TEST_CASE("a run that divides patches can be resumed to the same bytes") {
     const Workplace place;
     place.write_room();

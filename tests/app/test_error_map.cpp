@@ -1,5 +1,5 @@
 // `hemilux solve --error-map`: where patches are too large.
-#include "app/program.h"
+#include "app/check_fails.h"
 #include "support/catch.h"
 
 using Catch::Contains;
@@ -23,10 +23,7 @@ TEST_CASE("--error-map takes a .png that is no other file of the run") {
     for (const auto& [arguments, message] :
          {std::pair("--error-map a.hdr", "--error-map: expected a file name that ends with .png"),
           {"--error-map a", "expected a file name that ends with .png"},
-          {"--error-map a.png -o a.png", "are one file"}}) {
-        const auto outcome = place.hemilux(std::string("solve room.obj ") + arguments);
-        CHECK(outcome.code == 1);
-        CHECK_THAT(outcome.err, Contains(message));
-    }
+          {"--error-map a.png -o a.png", "are one file"}})
+        test::check_fails(place, 1, std::string("solve room.obj ") + arguments, message);
     CHECK(place.hemilux("solve room.obj --error-map none/a.png").code == 3);
 }

@@ -1,25 +1,11 @@
 // Every way in which the program ends, with the message that goes with it.
-#include "app/program.h"
+#include "app/check_fails.h"
 #include "support/catch.h"
 
 #include <unistd.h>
 
-using test::Workplace;
-
-namespace {
-
 using Catch::Contains;
-
-void check_fails(const Workplace& place, int code, const std::string& arguments,
-                 const std::string& message) {
-    CAPTURE(arguments);
-    const Workplace::Outcome outcome = place.hemilux(arguments);
-    CHECK(outcome.code == code);
-    CHECK_THAT(outcome.err, Contains(message));
-    CHECK(outcome.out.empty());
-}
-
-} // namespace
+using test::Workplace;
 
 TEST_CASE("help and version go to stdout and end with 0") {
     const Workplace place;

@@ -1,5 +1,5 @@
 // What `hemilux formfactors` writes and says.
-#include "app/program.h"
+#include "app/check_fails.h"
 #include "support/catch.h"
 
 #include <cmath>
@@ -74,10 +74,7 @@ TEST_CASE("formfactors says what is wrong with what it is asked") {
     const Workplace place;
     place.write_room();
     const auto fails = [&](int code, const std::string& arguments, const std::string& message) {
-        CAPTURE(arguments);
-        const auto outcome = place.hemilux("formfactors " + arguments);
-        CHECK(outcome.code == code);
-        CHECK_THAT(outcome.err, Contains(message));
+        test::check_fails(place, code, "formfactors " + arguments, message);
     };
     fails(1, "room.obj", "--output");
     fails(1, "room.obj -o a.png", ".csv or .npy");

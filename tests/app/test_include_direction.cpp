@@ -30,7 +30,7 @@ const std::vector<std::string> rooms{
     "radiosity/plain",
     "radiosity/shooting",
     "radiosity/guiding",
-    "radiosity/gathering",
+    "radiosity/stored_transport",
     "radiosity/final_gather",
     "radiosity/strategies",
     "radiosity/solvers",

@@ -22,7 +22,7 @@ std::string repeated(const std::string& text, int times) {
 
 TEST_CASE("a step takes no more rays than its time allows") {
     const auto rays_of_step = [](double rays, std::optional<double> seconds, std::size_t patches,
-                                 const char* method = "gathering") {
+                                 const char* method = "stored-transport") {
         return hemilux::rays_of_step(rays, seconds, *hemilux::find_method(method), patches);
     };
     CHECK(rays_of_step(1e9, std::nullopt, 24) == 1e9);
@@ -51,7 +51,7 @@ TEST_CASE("a run to a time ends, whatever --rays asks for") {
 TEST_CASE("a comparison by time ends, whatever --rays asks for") {
     const Workplace place;
     place.write_room();
-    CHECK(place.hemilux("solve room.obj -o ref.csv --method gathering --steps 3").code == 0);
+    CHECK(place.hemilux("solve room.obj -o ref.csv --method stored-transport --steps 3").code == 0);
     const auto outcome =
         place.hemilux("compare room.obj --budget-time .05 --rays 1e9 --runs 1 --size 40x30 "
                       "--methods monte-carlo,hemisphere --reference ref.csv -o folder");

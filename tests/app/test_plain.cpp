@@ -1,5 +1,5 @@
 // --plain: the page of a method instead of its engine.
-#include "app/program.h"
+#include "app/check_fails.h"
 #include "support/catch.h"
 
 #include <string>
@@ -30,24 +30,22 @@ TEST_CASE("solve --plain writes all that a run writes, with the true error") {
                                        "--reference reference.csv -o a.png -o a.ply "
                                        "--steps-log steps.csv");
     CHECK(outcome.code == 0);
-    CHECK_THAT(outcome.err, Contains("gathering") && Contains("true error"));
+    CHECK_THAT(outcome.err, Contains("stored-transport") && Contains("true error"));
     CHECK(place.has("a.png"));
     CHECK(place.has("a.ply"));
-    CHECK_THAT(place.read("steps.csv"), Contains("gathering"));
+    CHECK_THAT(place.read("steps.csv"), Contains("stored-transport"));
 }
 
 TEST_CASE("solve --plain is refused where there is no page or the page has no such option") {
     const Workplace place;
     place.write_room();
     const auto refused = [&](const std::string& options, const std::string& message) {
-        CAPTURE(options);
-        const auto outcome = place.hemilux("solve room.obj -o a.csv --plain " + options);
-        CHECK(outcome.code == 1);
-        CHECK_THAT(outcome.err, Contains(message));
+        test::check_fails(place, 1, "solve room.obj -o a.csv --plain " + options, message);
         CHECK_FALSE(place.has("a.csv"));
     };
-    const std::string pages = "has no page; these have one: gathering, hemisphere, "
-                              "hemisphere-1997, monte-carlo, progressive-monte-carlo";
+    const std::string pages =
+        "has no page; these have one: hemisphere, "
+        "hemisphere-1997, monte-carlo, progressive-monte-carlo, stored-transport";
     for (const char* name : {"matrix", "progressive", "stratified"})
         refused("--method " + std::string(name), "--method " + std::string(name) + " " + pages);
     refused("--method hemisphere --guide visible", "leave out --guide visible");

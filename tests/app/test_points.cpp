@@ -1,5 +1,5 @@
 // `hemilux solve --points`: the light where the user wants to know it.
-#include "app/program.h"
+#include "app/check_fails.h"
 #include "support/catch.h"
 
 #include <fstream>
@@ -95,12 +95,8 @@ TEST_CASE("what --points cannot be is said at once") {
           {"--points p.txt --points-output room.mtl", 1, "are one file"},
           {"--points p.txt --points-output a.csv -o a.csv", 1, "are one file"},
           {"--points p.txt --points-output a.csv -o p.txt.csv --gather 0", 1, "--gather"},
-          {"--points p.txt --points-output a/b.csv", 3, "does not exist"}}) {
-        CAPTURE(arguments);
-        const auto outcome = place.hemilux(std::string("solve room.obj ") + arguments);
-        CHECK(outcome.code == code);
-        CHECK_THAT(outcome.err, Contains(message));
-    }
+          {"--points p.txt --points-output a/b.csv", 3, "does not exist"}})
+        test::check_fails(place, code, std::string("solve room.obj ") + arguments, message);
     REQUIRE(mkfifo(place.path("pipe").c_str(), 0600) == 0);
     const auto twice =
         place.hemilux("solve room.obj --points pipe --reference pipe --points-output a.csv");

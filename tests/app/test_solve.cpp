@@ -202,7 +202,7 @@ TEST_CASE("what a method alone can do is asked of that method alone") {
     CHECK_FALSE(place.has("b.json"));
 }
 
-TEST_CASE("gathering solves, or hemisphere where one of its own options is given") {
+TEST_CASE("stored transport solves, or hemisphere where one of its own options is given") {
     const Workplace place;
     place.write_room();
     const auto method_of = [&](const std::string& arguments) {
@@ -210,13 +210,14 @@ TEST_CASE("gathering solves, or hemisphere where one of its own options is given
         REQUIRE(outcome.code == 0);
         return outcome.err.substr(0, outcome.err.find(':'));
     };
-    CHECK(method_of("") == "gathering");
+    CHECK(method_of("") == "stored-transport");
+    CHECK(method_of("--method gathering") == "stored-transport"); // its former name
     for (const char* option : {"--depth 1", "--threshold 2", "--guide visible", "--literal"}) {
         CHECK(method_of(option) == "hemisphere");
         CHECK(method_of(std::string("--method stratified ") + option) == "stratified");
     }
     const auto unasked = place.hemilux("solve room.obj -o a.csv --stats a.json");
     CHECK(unasked.code == 0);
-    CHECK_THAT(unasked.err, Contains("gathering: ") && Contains("give or take"));
+    CHECK_THAT(unasked.err, Contains("stored-transport: ") && Contains("give or take"));
     CHECK_THAT(place.read("a.json"), Contains("\"estimated_error\": 0.00"));
 }

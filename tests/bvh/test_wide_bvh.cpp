@@ -1,7 +1,6 @@
 // The wide tree answers as brute force does, bit for bit, in every form and with every instruction
 // set.
 #include "bvh/brute_force.h"
-#include "bvh/wide/kernel_choice.h"
 #include "bvh/wide/wide_bvh.h"
 #include "support/catch.h"
 #include "support/soups.h"
@@ -98,7 +97,6 @@ std::vector<Ray> rays_through_both_halves(const Soup& soup, std::size_t each, st
 
 void check_answers(const WideBvh& wide_bvh, const Tracer& referee, const std::vector<Ray>& rays) {
     const Differences found(wide_bvh, referee, rays);
-    CAPTURE(wide_bvh.kernels());
     CHECK(found.closest == 0);
     CHECK(found.count == 0);
     CHECK(found.occluded == 0);
@@ -131,10 +129,9 @@ void check_streams(const WideBvh& bvh, const std::vector<Ray>& rays) {
 
 void check_soup(const Soup& soup, std::size_t rays, bool hierarchy = true) {
     const BruteForce referee(soup.view());
-    for (const wide::Kernels* kernels : wide::available_kernels()) {
-        const WideBvh wide_bvh(soup.view(), {.hierarchy = hierarchy, .kernels = kernels->name});
-        CHECK(wide_bvh.kernels() == kernels->name);
-        CAPTURE(kernels->name, soup.facets.size());
+    for (const InstructionSet kernels : available_instruction_sets()) {
+        const WideBvh wide_bvh(soup.view(), {.hierarchy = hierarchy, .kernels = kernels});
+        CAPTURE(name_of(kernels), soup.facets.size());
         check_answers(wide_bvh, referee, rays_for(soup, rays, 99));
         check_streams(wide_bvh, rays_for(soup, rays / 2, 98));
     }
@@ -150,10 +147,10 @@ TEST_CASE("The wide tree answers as brute force does") {
 TEST_CASE("Trees too large for the cache answer the same") {
     const Soup soup = test::random_soup(20'000, 3);
     const BruteForce referee(soup.view());
-    for (const wide::Kernels* kernels : wide::available_kernels()) {
-        const WideBvh wide_bvh(soup.view(), {.kernels = kernels->name});
+    for (const InstructionSet kernels : available_instruction_sets()) {
+        const WideBvh wide_bvh(soup.view(), {.kernels = kernels});
         REQUIRE(wide_bvh.quality().bytes > 1 << 20);
-        CAPTURE(kernels->name);
+        CAPTURE(name_of(kernels));
         check_streams(wide_bvh, rays_for(soup, 2000, 98));
         check_answers(wide_bvh, referee, rays_for(soup, 100, 97));
     }
@@ -171,8 +168,8 @@ TEST_CASE("The wide tree and what breaks tracers") {
         check_soup(soup, 2000);
         const BruteForce referee(soup.view());
         const std::vector<Ray> rays = rays_through_both_halves(soup, 20, 2);
-        for (const wide::Kernels* kernels : wide::available_kernels()) {
-            const WideBvh wide_bvh(soup.view(), {.kernels = kernels->name});
+        for (const InstructionSet kernels : available_instruction_sets()) {
+            const WideBvh wide_bvh(soup.view(), {.kernels = kernels});
             check_streams(wide_bvh, rays);
             check_answers(wide_bvh, referee, rays);
         }
@@ -295,11 +292,4 @@ TEST_CASE("Eight triangles need no tree") {
     }
     const Soup more = test::random_soup(20, 1);
     CHECK(WideBvh(more.view(), {.hierarchy = false}).quality().nodes > 0);
-}
-
-TEST_CASE("Kernels are chosen by name") {
-    REQUIRE_FALSE(wide::available_kernels().empty());
-    CHECK(std::string_view(wide::available_kernels().back()->name) == "baseline");
-    CHECK(std::string_view(wide::find_kernels("baseline").name) == "baseline");
-    CHECK_THROWS_AS(wide::find_kernels("abacus"), std::invalid_argument);
 }

@@ -35,7 +35,7 @@ std::vector<std::unique_ptr<Solver>> make_solvers() {
     static const SolveOptions options{.threads = 1};
     static Monitor monitor;
     std::vector<std::unique_ptr<Solver>> solvers;
-    for (const char* name : {"progressive-monte-carlo", "gathering"})
+    for (const char* name : {"progressive-monte-carlo", "stored-transport"})
         solvers.push_back(
             find_method(name)->make({mesh, tracer, options, monitor, everything_needed}));
     return solvers;

@@ -1,7 +1,6 @@
 // Form factors against the published digits, against each other and against numeric integration;
 // and the directions of shadow rays against the cosine density.
 
-#include "geometry/form_factor.h"
 #include "geometry/frame.h"
 #include "geometry/projected_polygon.h"
 #include "support/catch.h"
@@ -208,7 +207,6 @@ TEST_CASE("directions towards a polygon: factor, aim and horizon") {
         const Vec3 point = random_point(rng);
         const Frame frame = Frame::from_normal(random_direction(rng));
         const ProjectedPolygon projected(point, frame, p);
-        REQUIRE(projected.factor() == Approx(point_to_polygon(point, frame.z, p)).margin(1e-14));
         if (!(projected.factor() > 0))
             continue;
         ++seen;

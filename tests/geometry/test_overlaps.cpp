@@ -1,13 +1,11 @@
-// What flat polygons have in common, and which of many rectangles overlap.
+// What flat polygons have in common.
 #include "geometry/flat_polygon.h"
-#include "geometry/rectangle_pairs.h"
 #include "radiosity/sampling/rng.h"
 #include "support/catch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 using namespace hemilux;
 
@@ -70,42 +68,5 @@ TEST_CASE("Neighbours that share an edge are apart, however they are turned") {
         const FlatPolygon over{{o + .99 * x, o + 2.0 * x, o + 2.0 * x + y, o + .99 * x + y}, 4};
         CHECK_FALSE(are_apart(left, over, 1e-14));
         CHECK(common_part(left, over).area() == Approx(.01));
-    }
-}
-
-TEST_CASE("All pairs of rectangles that overlap are met, once each") {
-    for (const double largest : {.02, .3, 1.0}) { // of the smaller ones; some are as wide as all
-        Rng rng(7);
-        std::vector<Rectangle> rectangles;
-        for (std::uint32_t i = 0; i < 700; ++i) {
-            const double size = i % 100 == 0 ? 1 : largest;
-            const Vec2 low(rng.uniform(), rng.uniform());
-            rectangles.push_back({low, low + size * Vec2(rng.uniform(), rng.uniform()), i, i % 2});
-        }
-        std::set<std::pair<std::uint32_t, std::uint32_t>> expected, met;
-        for (const Rectangle& a : rectangles)
-            for (const Rectangle& b : rectangles)
-                if (a.index < b.index && a.low.x < b.high.x && b.low.x < a.high.x &&
-                    a.low.y < b.high.y && b.low.y < a.high.y)
-                    expected.emplace(a.index, b.index);
-        for_each_overlap(rectangles, [&](std::uint32_t a, std::uint32_t b) {
-            CHECK(met.emplace(std::min(a, b), std::max(a, b)).second);
-            return true;
-        });
-        CHECK(met == expected);
-        int calls = 0;
-        for_each_overlap(rectangles, [&](std::uint32_t, std::uint32_t) { return ++calls < 3; });
-        CHECK(calls == 3);
-    }
-}
-
-TEST_CASE("A crowd that cannot be halved is compared unless it is of one set") {
-    for (const bool one_set : {false, true}) {
-        std::vector<Rectangle> rectangles;
-        for (std::uint32_t i = 0; i < 200; ++i)
-            rectangles.push_back({Vec2(-1.0 - i), Vec2(1.0 + i), i, one_set ? 0 : i});
-        int met = 0;
-        for_each_overlap(rectangles, [&](std::uint32_t, std::uint32_t) { return ++met > 0; });
-        CHECK(met == (one_set ? 0 : 200 * 199 / 2));
     }
 }

@@ -71,7 +71,7 @@ TEST_CASE("a state is read in the order of writing, and no further", "[checkpoin
     CHECK(in.whole() == 7);
     CHECK(std::signbit(in.number()));
     Vec3 vector;
-    in.get(vector);
+    in.get(vector, bounds::finite);
     CHECK(vector == Vec3(1, 2, 3));
     CHECK(in.text() == "text");
     std::array<double, 2> numbers{};

@@ -66,7 +66,6 @@ TEST_CASE("the mean of runs is geometric and covers what all of them cover") {
         if (i > 0)
             CHECK(mean.x[i] > mean.x[i - 1]);
     }
-    CHECK(mean.points().size() == 20);
 }
 
 TEST_CASE("runs with nothing in common have no mean") {
@@ -79,16 +78,19 @@ TEST_CASE("runs with nothing in common have no mean") {
 }
 
 TEST_CASE("the gain is the ratio of costs at the smallest error that both reach") {
+    const auto gain = [](const ErrorCurve& curve, const ErrorCurve& base) {
+        return speed_up({&curve, 1}, {&base, 1});
+    };
     const ErrorCurve base = root_law(6, 100, 6);
-    CHECK(speed_up(base, base).value() == Approx(1));
+    CHECK(gain(base, base).value() == Approx(1));
     // Half the error at equal cost: a quarter of the cost at equal error.
-    CHECK(speed_up(root_law(3, 100, 6), base).value() == Approx(4));
-    CHECK(speed_up(base, root_law(3, 100, 6)).value() == Approx(0.25));
+    CHECK(gain(root_law(3, 100, 6), base).value() == Approx(4));
+    CHECK(gain(base, root_law(3, 100, 6)).value() == Approx(0.25));
     // The same law, seen at other places.
-    CHECK(speed_up(root_law(3, 37, 4), base).value() == Approx(4));
-    CHECK_FALSE(speed_up(root_law(1000, 100, 6), base));
-    CHECK_FALSE(speed_up({}, base));
-    CHECK_FALSE(speed_up(base, {}));
+    CHECK(gain(root_law(3, 37, 4), base).value() == Approx(4));
+    CHECK_FALSE(gain(root_law(1000, 100, 6), base));
+    CHECK_FALSE(gain({}, base));
+    CHECK_FALSE(gain(base, {}));
     // A method with a floor is judged where its floor is.
     const ErrorCurve floored{{100, 0.6}, {200, 0.5}, {400, 0.4}, {800, 0.4}};
     const std::vector<ErrorCurve> bases{base, base};
@@ -96,7 +98,7 @@ TEST_CASE("the gain is the ratio of costs at the smallest error that both reach"
     const std::vector<ErrorCurve> fast{root_law(3, 100, 6), root_law(1.5, 100, 6)};
     CHECK(speed_up(fast, bases).value() == Approx(8).epsilon(.2)); // 4 and 16
     CHECK_FALSE(speed_up(std::vector<ErrorCurve>{}, bases));
-    CHECK(speed_up(floored, base).value() == Approx(std::pow(6 / 0.4, 2) / 400));
+    CHECK(gain(floored, base).value() == Approx(std::pow(6 / 0.4, 2) / 400));
 }
 
 TEST_CASE("the standard error of a gain is that of the difference of logarithms") {

@@ -1,17 +1,19 @@
 // Pictures whose light is gathered at their pixels, against light in closed form.
 #include "bvh/bvh.h"
-#include "geometry/form_factor.h"
 #include "io/files/error.h"
 #include "io/pictures/render.h"
 #include "radiosity/scene/mesh.h"
 #include "support/catch.h"
+#include "support/closed_forms.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace hemilux;
 using test::Model;
+using test::point_to_polygon;
 
 namespace {
 
@@ -45,7 +47,8 @@ void add_wall(Scene& scene) {
 }
 
 Image picture_of(const Model& model, const Camera& camera, RenderOptions options = {}) {
-    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(2));
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(2));
     options.width = width;
     options.height = height;
     options.gather = options.gather > 0 ? options.gather : 16;
@@ -54,6 +57,14 @@ Image picture_of(const Model& model, const Camera& camera, RenderOptions options
 
 /// Of the centre of a pixel on the ground.
 Vec3 ground_at(int x, int y) { return {-2 + 4 * (x + .5) / width, 0, -1 + 2 * (y + .5) / height}; }
+
+/// Of the centre of a pixel of any camera, on the plane of the ground; local frame.
+Vec3 ground_at(const Model& model, const Camera& camera, int x, int y) {
+    const Ray ray = CameraRays(camera, model.mesh, double(width) / height)
+                        .ray((x + .5) / width, (y + .5) / height);
+    const double down = model.mesh.frame().to_local(Vec3(0)).y - ray.origin.y;
+    return ray.origin + down / ray.direction.y * ray.direction;
+}
 
 } // namespace
 
@@ -90,6 +101,58 @@ TEST_CASE("no light leaks below a wall, however thin") {
     }
 }
 
+TEST_CASE("the shadow of a thin thing is found") {
+    Scene scene = lamp_over_ground();
+    // Half as high as the lamp, and a fifth as wide: it hides .4 of the lamp from below its middle.
+    test::add_quad(scene, {.98, .5, -1}, {1.02, .5, -1}, {1.02, .5, 1}, {.98, .5, 1}, 1, 1, 2);
+    test::add_quad(scene, {1.02, .5, -1}, {.98, .5, -1}, {.98, .5, 1}, {1.02, .5, 1}, 1, 1, 2);
+    scene.faces += 2;
+    const Model model(std::move(scene));
+    Camera from_beside = from_above; // the ground where the shadow is stays in view
+    from_beside.eye.x = -1;
+    from_beside.target = {.5, 0, 0};
+    const Image shaded = picture_of(model, from_beside),
+                lit = picture_of(Model(lamp_over_ground()), from_beside);
+    const double near = model.mesh.frame().to_local(Vec3(.9, 0, 0)).x,
+                 far = model.mesh.frame().to_local(Vec3(1.1, 0, 0)).x;
+    float darkest = 1;
+    for (int x = 0; x < width; ++x)
+        if (const double at = ground_at(model, from_beside, x, height / 2).x; at > near && at < far)
+            darkest = std::min(darkest, shaded.at(x, height / 2).x / lit.at(x, height / 2).x);
+    CHECK(darkest == Approx(.6).margin(.12));
+}
+
+TEST_CASE("gathered light rises up to the edge of a surface") {
+    // A wall that shines stands along an edge of the ground, which runs askew through the picture.
+    Scene scene = lamp_over_ground();
+    scene.materials[1].emission = Vec3(0);
+    scene.materials.push_back({"wall", Vec3(0), Vec3(1)});
+    test::add_quad(scene, {-2, 0, 1}, {-2, 0, -1}, {-2, .5, -1}, {-2, .5, 1}, 1, 1, 3);
+    scene.faces += 1;
+    const Model model(std::move(scene));
+    constexpr double askew = .3;
+    Camera camera = from_above;
+    camera.eye = {-1.5, 2, 0};
+    camera.target = {-1.5, 0, 0};
+    camera.up = {std::sin(askew), 0, -std::cos(askew)};
+    const Image image = picture_of(model, camera);
+    const Polygon wall = model.mesh.whole_side(2, false).shape;
+    const double edge = model.mesh.frame().to_local(Vec3(-2, 0, 0)).x;
+    const double pixel =
+        glm::distance(ground_at(model, camera, 1, 0), ground_at(model, camera, 0, 0));
+    double square = 0, size = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const Vec3 at = ground_at(model, camera, x, y);
+            if (at.x < edge + pixel || at.x > edge + 4 * pixel)
+                continue;
+            const double light = .5 * point_to_polygon(at, {0, 1, 0}, wall);
+            square += std::pow(image.at(x, y).x - light, 2);
+            size += light * light;
+        }
+    CHECK(std::sqrt(square / size) < .006);
+}
+
 TEST_CASE("in a furnace every gathered pixel is the same") {
     const Model model(test::furnace_box(3, .5));
     const std::vector<Vec3> b(model.mesh.patches().size(), Vec3(2));
@@ -102,7 +165,8 @@ TEST_CASE("in a furnace every gathered pixel is the same") {
 
 TEST_CASE("more rays make a gathered picture less noisy") {
     const Model model(test::room_with_block());
-    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(4));
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(4));
     const Camera camera = automatic_camera(model.mesh, model.bvh, solution.radiosity);
     const auto picture = [&](unsigned rays) {
         return render(model.mesh, model.bvh, solution.radiosity, camera,
@@ -120,7 +184,8 @@ TEST_CASE("more rays make a gathered picture less noisy") {
 
 TEST_CASE("a gathered picture does not depend on threads; beside all surfaces it is black") {
     const Model model(test::open_scene());
-    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(2));
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(2));
     const Camera camera = automatic_camera(model.mesh, model.bvh, solution.radiosity);
     const auto picture = [&](unsigned threads, unsigned gather) {
         return render(model.mesh, model.bvh, solution.radiosity, camera,

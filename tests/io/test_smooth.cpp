@@ -1,5 +1,4 @@
 #include "io/results/smooth.h"
-#include "io/results/weld.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
 #include "support/catch.h"
@@ -133,12 +132,4 @@ TEST_CASE("the apex of a cone of many facets takes no quadratic time") {
         scene.facets.push_back({{0, i + 1, next, next}, i, 0, 0});
     }
     CHECK(find_corner_classes(Mesh(std::move(scene))).position.size() == n + 1);
-}
-
-TEST_CASE("points are welded within the distance, also across borders of cells") {
-    Welder welder(1e-3);
-    const std::uint32_t first = welder.add({0.0639999, 0.0639999, -1e-7}); // a corner of cells
-    CHECK(welder.add({0.0640001, 0.0640001, 1e-7}) == first);
-    CHECK(welder.add({0.0640001, 0.0640001, 2e-3}) != first);
-    CHECK(welder.take_points().size() == 2);
 }

@@ -107,15 +107,15 @@ class Deviations {
 TEST_CASE("Deviations from matrix are those of the reported errors", "[slow]") {
     // The spread of n batches or steps divided by n in place of n - 1 makes standard errors too
     // small by sqrt((n - 1) / n). With few of them this shows: shooting takes n = 4 steps, which
-    // makes .87, and gathering has n = 8 batches, which makes .94. Over 16 runs of some hundred
-    // independent patches both ratios below scatter by .01 (jackknife over the runs).
+    // makes .87, and stored-transport has n = 8 batches, which makes .94. Over 16 runs of some
+    // hundred independent patches both ratios below scatter by .01 (jackknife over the runs).
     constexpr int runs = 16;
     for (const std::string scene :
          {"cornell_box", "room_1002", "open_scene", "wall_before_crowd"}) {
         const Model model(example(scene));
         const Solution exact = test::reference(model, .002);
         for (const Method* method : methods()) {
-            const bool gathers = method->name == "gathering";
+            const bool gathers = method->name == "stored-transport";
             if (!method->unbiased && !gathers)
                 continue;
             Deviations all(model.mesh, exact);
@@ -135,13 +135,14 @@ TEST_CASE("Deviations from matrix are those of the reported errors", "[slow]") {
             CHECK(all.rms_ratio() < 1.05);
             // A patch's standard error is pooled over neighbours, or from its own spread where that
             // is more, which makes it larger by some 7 % where spreads are those of four steps.
-            // That of gathering is raised further where neighbours err together, by 12 to 23 %.
+            // That of stored-transport is raised further where neighbours err together, by 12 to 23
+            // %.
             CHECK(all.rms_score() > (gathers ? .7 : .88));
             CHECK(all.rms_score() < (gathers ? .92 : 1));
-            // Where few patches make most of the error, as in the open scene, the reported one is
-            // raised (error_spread.h), after four steps by some 12 %.
+            // Where few patches make most of the error, and all err together, as in the open scene,
+            // the reported one is raised (error_spread.h), after four steps by some 12 to 17 %.
             CHECK(all.median_ratio() > .9);
-            CHECK(all.median_ratio() < (scene == "open_scene" ? 1.15 : 1.1));
+            CHECK(all.median_ratio() < (scene == "open_scene" ? 1.2 : 1.1));
         }
     }
 }

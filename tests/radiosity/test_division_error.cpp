@@ -1,10 +1,10 @@
 // The error of the light on the surfaces, against light in closed form and against finer divisions.
-#include "geometry/form_factor.h"
 #include "geometry/frame.h"
 #include "radiosity/final_gather/division_error.h"
 #include "radiosity/final_gather/light_within_patches.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/sampling/workers.h"
+#include "support/closed_forms.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -15,6 +15,7 @@
 
 using namespace hemilux;
 using test::Model;
+using test::point_to_polygon;
 
 namespace {
 
@@ -79,7 +80,7 @@ TEST_CASE("the error of a division is that against light in closed form") {
     const double width = GENERATE(.02, .3);
     const double max_edge = GENERATE(1.0, .5, .2);
     const Model model(lamp_over_ground(width), {.max_edge = max_edge});
-    const Solution solution = test::solve(model, *find_method("gathering"), {},
+    const Solution solution = test::solve(model, *find_method("stored-transport"), {},
                                           {.steps = {}, .seconds = {}, .error = .002});
     const double truth = true_error_on_ground(model.mesh, solution);
     double mean_square = 0, mean_uncertainty = 0;
@@ -99,7 +100,7 @@ TEST_CASE("the error of a division is that against light in closed form") {
 
 TEST_CASE("linear functions are nearer to the light in closed form, and the error says how near") {
     const Model model(lamp_over_ground(.3), {.max_edge = .5});
-    Solution solution = test::solve(model, *find_method("gathering"), {},
+    Solution solution = test::solve(model, *find_method("stored-transport"), {},
                                     {.steps = {}, .seconds = {}, .error = .002});
     const double constant = true_error_on_ground(model.mesh, solution);
     std::vector<std::uint32_t> all(model.mesh.patches().size());
@@ -110,7 +111,11 @@ TEST_CASE("linear functions are nearer to the light in closed form, and the erro
     const LightWithinPatches three =
         light_within_patches({model.mesh, model.bvh, solution}, all, {}, Workers(3), never);
     CHECK(one.square == three.square);
-    solution.slope = one.slope;
+    CHECK(one.slopes.size() == all.size());
+    for (const std::uint32_t i : all) {
+        CHECK(one.slopes[i][0].x == three.slopes[i][0].x);
+        solution.slope.push_back(agreed_slope(model.mesh.patches()[i], one.slopes[i]).slope);
+    }
     const double linear = true_error_on_ground(model.mesh, solution);
     CHECK(linear < .5 * constant);
     // What is left, from few points a patch, is about the true one.
@@ -135,9 +140,47 @@ TEST_CASE("a linear function has the patch's value in its centre and does not fa
     CHECK(radiosity_at(model.mesh, solution, 0, patch.centre - axes.x).x == 0);
 }
 
+TEST_CASE("a slope is less where its two estimates do not agree, and says how noisy it is") {
+    const Model model(lamp_over_ground(.3));
+    const Patch& patch = model.mesh.patches()[0];
+    const Slope one{Vec3(3, 2, 1), Vec3(0)}, other{Vec3(1, 2, 3), Vec3(0)};
+    const AgreedSlope same = agreed_slope(patch, {one, one});
+    CHECK(same.slope.x == one.x);
+    CHECK(same.noise == 0);
+    const AgreedSlope less = agreed_slope(patch, {one, other});
+    CHECK(less.slope.x.x < 2);
+    CHECK(less.slope.x.x > 0);
+    CHECK(less.noise > 0);
+    CHECK(agreed_slope(patch, {one, {-one.x, -one.y}}).slope.x == Vec3(0));
+}
+
+TEST_CASE("an error of division is the same, and known better, by points where it is large") {
+    const Model model(lamp_over_ground(.02), {.max_edge = .5});
+    const Solution solution = test::solve(model, *find_method("stored-transport"), {},
+                                          {.steps = {}, .seconds = {}, .error = .002});
+    const double truth = true_error_on_ground(model.mesh, solution);
+    std::vector<std::uint32_t> all(model.mesh.patches().size());
+    std::iota(all.begin(), all.end(), 0u);
+    const StopFlag never;
+    const std::vector<double> square =
+        light_within_patches({model.mesh, model.bvh, solution}, all, {}, Workers(0), never).square;
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        const auto found = [&](std::span<const double> known) {
+            return division_error(model.mesh, model.bvh, solution,
+                                  {.seed = seed, .most_rays = 0, .square = known}, Workers(0),
+                                  never);
+        };
+        const DivisionError uniform = found({}), directed = found(square);
+        CAPTURE(truth, uniform.error, uniform.uncertainty, directed.error, directed.uncertainty);
+        CHECK(std::abs(directed.error - truth) < 4 * directed.uncertainty);
+        CHECK(directed.uncertainty < uniform.uncertainty);
+    }
+}
+
 TEST_CASE("light that does not change within patches has no error of division") {
     const Model model(test::furnace_box(3, .7));
-    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(1));
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(1));
     CHECK(division_error_of(model, solution, 1).error < 1e-9);
 }
 
@@ -155,7 +198,8 @@ TEST_CASE("noise of the patches' values is not taken for an error of division") 
 
 TEST_CASE("an error of division does not depend on the number of threads") {
     const Model model(test::room_with_block());
-    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(1));
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(1));
     const DivisionError one = division_error_of(model, solution, 7, 1);
     const DivisionError three = division_error_of(model, solution, 7, 3);
     CHECK(one.error == three.error);
@@ -169,11 +213,12 @@ TEST_CASE("an error of division is unknown where nothing is lit or the user has 
     for (Material& material : scene.materials)
         material.emission = Vec3(0.0);
     const Model dark(scene);
-    const Solution black = test::solve(dark, *find_method("gathering"), {}, test::steps(1));
+    const Solution black = test::solve(dark, *find_method("stored-transport"), {}, test::steps(1));
     CHECK(std::isnan(division_error_of(dark, black, 1).error));
 
     const Model model(test::furnace_box(2, .5));
-    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(1));
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(1));
     StopFlag now;
     now = true;
     CHECK(std::isnan(division_error(model.mesh, model.bvh, solution, {}, Workers(1), now).error));
@@ -181,7 +226,7 @@ TEST_CASE("an error of division is unknown where nothing is lit or the user has 
 
 TEST_CASE("the errors of patches add up to that of the division") {
     const Model model(lamp_over_ground(.3), {.max_edge = .5});
-    Solution solution = test::solve(model, *find_method("gathering"), {},
+    Solution solution = test::solve(model, *find_method("stored-transport"), {},
                                     {.steps = {}, .seconds = {}, .error = .002});
     const double truth = true_error_on_ground(model.mesh, solution);
     const StopFlag never;

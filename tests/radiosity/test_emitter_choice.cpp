@@ -1,9 +1,9 @@
 // Which emitters shadow rays go to.
 #include "radiosity/form_factors/pair_factor.h"
-#include "radiosity/gathering/direct_light.h"
-#include "radiosity/gathering/emitter_choice.h"
-#include "radiosity/gathering/small_emitters.h"
 #include "radiosity/rays/shot.h"
+#include "radiosity/stored_transport/direct_light.h"
+#include "radiosity/stored_transport/emitter_choice.h"
+#include "radiosity/stored_transport/small_emitters.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -57,7 +57,7 @@ TEST_CASE("An error of many parts is well known, one of few is not") {
     Solution nothing;
     nothing.steps = 1;
     CHECK(std::isnan(error_spread(model.mesh, nothing).bound()));
-    for (const char* name : {"gathering", "hemisphere", "matrix"}) {
+    for (const char* name : {"stored-transport", "hemisphere", "matrix"}) {
         const Solution s = test::solve(model, *find_method(name), {}, test::steps(3));
         const ErrorSpread spread = error_spread(model.mesh, s);
         CAPTURE(name, spread.freedom);
@@ -69,7 +69,7 @@ TEST_CASE("An error of many parts is well known, one of few is not") {
 
 TEST_CASE("Reported errors differ between seeds about as much as they say", "[slow]") {
     const test::Model model(test::room_with_block());
-    for (const char* name : {"gathering", "hemisphere", "monte-carlo", "matrix"}) {
+    for (const char* name : {"stored-transport", "hemisphere", "monte-carlo", "matrix"}) {
         double mean = 0, squares = 0, reported = 0;
         constexpr int seeds = 16;
         for (int seed = 1; seed <= seeds; ++seed) {
@@ -93,4 +93,21 @@ TEST_CASE("A step that happens to show many parts of an error does not undo what
     CHECK(believed_freedom(std::nullopt, 40) == 40);
     CHECK(believed_freedom(3.0, 40) == 3);
     CHECK(believed_freedom(3.0, 2) == 2);
+}
+
+TEST_CASE("What all patches err by together counts more where few steps have shown it") {
+    const test::Model model(test::room_with_block());
+    Solution s = test::solve(model, *find_method("hemisphere"), {}, test::steps(4));
+    CHECK(s.level_freedom == 3);
+    CHECK(s.variance_of_level < *s.variance);
+    const auto error = [&](double share, double freedom) {
+        s.variance_of_level = share * *s.variance;
+        s.level_freedom = freedom;
+        return estimated_error(model.mesh, s);
+    };
+    const double counted = error(.1, std::numeric_limits<double>::infinity());
+    CHECK(counted == Approx(error(0, 3)).epsilon(.1));
+    CHECK(error(.1, 15) > counted);
+    CHECK(error(.1, 3) > 1.15 * counted); // F with 1 and 3 degrees of freedom: 17.4 at .975
+    CHECK(error(1e-4, 3) == Approx(error(0, 3)).epsilon(1e-3));
 }

@@ -1,5 +1,4 @@
 // Form factors by contour integration, against closed forms and against plain quadrature.
-#include "geometry/form_factor.h"
 #include "radiosity/form_factors/exact_form_factors.h"
 #include "radiosity/form_factors/exchange_area.h"
 #include "radiosity/form_factors/matrix_quality.h"
@@ -12,7 +11,9 @@
 #include "support/solve.h"
 
 using namespace hemilux;
+using test::opposed_rectangles;
 using test::perpendicular_rectangles;
+using test::point_to_polygon;
 
 namespace {
 

@@ -1,7 +1,7 @@
 // The light at points that a user names, against closed forms.
-#include "geometry/form_factor.h"
 #include "radiosity/final_gather/light_at_points.h"
 #include "radiosity/sampling/workers.h"
+#include "support/closed_forms.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -11,6 +11,7 @@
 
 using namespace hemilux;
 using test::Model;
+using test::point_to_polygon;
 
 namespace {
 
@@ -38,7 +39,8 @@ Sensor sensor_of(const Model& model, const Vec3& position, const Vec3& normal) {
 
 TEST_CASE("light at points below a lamp is Lambert's") {
     const Model model(lamp_over_ground());
-    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(1));
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(1));
     const Vec3 tilted = glm::normalize(Vec3(.3, 1, .2));
     std::vector<Sensor> sensors;
     for (const double x : {0.0, .5, 1.0}) {
@@ -62,7 +64,8 @@ TEST_CASE("light at points below a lamp is Lambert's") {
 
 TEST_CASE("light in a furnace is the same at each point, in the air and on walls") {
     const Model model(test::furnace_box(3, .5));
-    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(2));
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(2));
     const Box box = [&] {
         Box all;
         for (const Vec3& vertex : model.mesh.vertices())
@@ -101,7 +104,7 @@ TEST_CASE("the standard error of a point's light is how far runs scatter", "[slo
         sensors.push_back(sensor_at(model.mesh, model.bvh, model.mesh.patches()[i].centre,
                                     model.mesh.patches()[i].normal));
     constexpr int runs = 40;
-    for (const char* method : {"gathering", "hemisphere"}) {
+    for (const char* method : {"stored-transport", "hemisphere"}) {
         std::vector<Vec3> sum(sensors.size()), squares(sensors.size()), reported(sensors.size());
         for (unsigned run = 0; run < runs; ++run) {
             const Solution solution = test::solve(model, *find_method(method),
@@ -128,7 +131,8 @@ TEST_CASE("the standard error of a point's light is how far runs scatter", "[slo
 
 TEST_CASE("light at points does not depend on the number of threads, and can be given up") {
     const Model model(test::room_with_block());
-    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(2));
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(2));
     std::vector<Sensor> sensors;
     for (const Patch& patch : model.mesh.patches())
         sensors.push_back(sensor_at(model.mesh, model.bvh, patch.centre, patch.normal));

@@ -165,7 +165,7 @@ TEST_CASE("A run to a time ends within its first step", "[slow]") {
 
 TEST_CASE("A step that the time has cut short is taken anew and gives what it would have given") {
     const Model model(test::room_with_block());
-    for (const char* name : {"hemisphere", "monte-carlo", "gathering"}) {
+    for (const char* name : {"hemisphere", "monte-carlo", "stored-transport"}) {
         CAPTURE(name);
         const Method& method = *find_method(name);
         const SolveOptions options{.rays = 64, .growing_steps = false, .threads = 2};

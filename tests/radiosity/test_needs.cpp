@@ -230,7 +230,7 @@ enum class Omission { black, convex, unlit, none, no_reflection };
 bool keeps_every_byte(const std::string& method, Guide guide, Omission omission) {
     if (omission == Omission::none || omission == Omission::no_reflection)
         return true;
-    if (method == "gathering" || guide != Guide::density)
+    if (method == "stored-transport" || guide != Guide::density)
         return false;
     if (method == "progressive")
         return omission == Omission::unlit;
@@ -332,7 +332,7 @@ TEST_CASE("Without the rays of black patches factors agree within the standard e
     const Mesh mesh(room_with_black_walls());
     const Needs needs = find_needs(mesh);
     REQUIRE(needs.black > mesh.patches().size() / 2);
-    const std::string name = GENERATE("matrix", "gathering");
+    const std::string name = GENERATE("matrix", "stored-transport");
     CAPTURE(name);
     const Method& method = *find_method(name);
     const std::uint32_t steps = name == "matrix" ? 2 : 7;

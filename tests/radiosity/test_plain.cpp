@@ -1,5 +1,5 @@
 // The engine against the pages of src/radiosity/plain: the same bits where the random numbers are
-// the same, within standard errors for gathering.
+// the same, within standard errors for stored-transport.
 #include "io/scene_files/obj.h"
 #include "support/catch.h"
 #include "support/scenes.h"
@@ -113,7 +113,7 @@ TEST_CASE("Every page ends a run at once where nothing reflects") {
     const SolveOptions options = with_rays(4);
     const SolverInput input{model.mesh, model.bvh, options, monitor, needs};
     for (const Method* const one : methods()) {
-        if (!one->plain || one == &method("gathering"))
+        if (!one->plain || one == &method("stored-transport"))
             continue;
         CAPTURE(one->name);
         const auto solver = one->plain(input), engine = one->make(input);
@@ -145,11 +145,12 @@ TEST_CASE("A page that is interrupted has the solution of the steps before") {
     }
 }
 
-TEST_CASE("Gathering on one page keeps furnaces exactly") {
+TEST_CASE("Stored transport on one page keeps furnaces exactly") {
     for (const Scene& scene : {test::furnace_box(3, .5), test::furnace_l_shape(.8)}) {
         const Model model(scene);
         const double rho = model.mesh.material(0).reflectance.x;
-        const Solution s = solve_plainly(model, method("gathering"), with_rays(16), test::steps(2));
+        const Solution s =
+            solve_plainly(model, method("stored-transport"), with_rays(16), test::steps(2));
         double largest = 0;
         for (const Vec3& B : s.radiosity)
             largest = std::max(largest, glm::length(B - Vec3(1 / (1 - rho))));
@@ -157,19 +158,20 @@ TEST_CASE("Gathering on one page keeps furnaces exactly") {
     }
 }
 
-TEST_CASE("Gathering on one page agrees with its engine", "[slow]") {
+TEST_CASE("Stored transport on one page agrees with its engine", "[slow]") {
     const Model model(test::room_with_block());
     SolveOptions many = with_rays(64);
     many.seed = 99;
-    const Solution engine =
-        test::solve(model, method("gathering"), many, {.steps = {}, .seconds = {}, .error = 1e-3});
+    const Solution engine = test::solve(model, method("stored-transport"), many,
+                                        {.steps = {}, .seconds = {}, .error = 1e-3});
     const std::size_t patches = model.mesh.patches().size(), runs = 12;
     std::vector<test::MeanTest> means(3 * patches);
     double squares = 0, told = 0;
     for (std::uint64_t seed = 1; seed <= runs; ++seed) {
         SolveOptions options = with_rays(512);
         options.seed = seed;
-        const Solution s = solve_plainly(model, method("gathering"), options, test::steps(2));
+        const Solution s =
+            solve_plainly(model, method("stored-transport"), options, test::steps(2));
         for (std::size_t k = 0; k < means.size(); ++k)
             means[k].add(s.radiosity[k / 3][int(k % 3)]);
         const double off = true_error(model.mesh, s.radiosity, engine.radiosity).all;
@@ -190,7 +192,7 @@ TEST_CASE("Gathering on one page agrees with its engine", "[slow]") {
 TEST_CASE("Pages have the engine's bits on 3576 patches", "[slow]") {
     const Model model(example("office_3576"));
     for (const Method* const one : methods())
-        if (one->plain && one != &method("gathering")) {
+        if (one->plain && one != &method("stored-transport")) {
             check_same(model, *one, with_rays(16), 3);
             if (one->has_literal)
                 check_same(model, *one, with_rays(16, true), 2);

@@ -124,7 +124,8 @@ TEST_CASE("the light of a furnace is the same on refined patches") {
     Model model(test::furnace_l_shape(.5));
     Rng rng(7);
     model.mesh.refine(random_levels(model.mesh, rng));
-    const Solution solution = test::solve(model, *find_method("gathering"), {}, test::steps(2));
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {}, test::steps(2));
     for (const Vec3& radiosity : solution.radiosity)
         CHECK(radiosity.x == Approx(2).epsilon(1e-6));
 }
@@ -146,6 +147,15 @@ TEST_CASE("patches are divided until what errs most errs little, and no further"
     CHECK(levels_of_division({}, {.goal = 0, .least_pieces = 0, .most_pieces = 7}).empty());
 }
 
+TEST_CASE("one patch that errs much is not a reason to divide all others") {
+    std::vector<double> square(100, 1e-6);
+    square[7] = 1;
+    const auto levels =
+        levels_of_division(square, {.goal = .001, .least_pieces = 0, .most_pieces = 10'000});
+    CHECK(levels[7] == 2);
+    CHECK(std::ranges::count(levels, 0) == 99);
+}
+
 TEST_CASE("division goes where the light changes, and ends at the error asked for") {
     Model model(test::room_with_block());
     const std::size_t before = model.mesh.patches().size();
@@ -153,18 +163,25 @@ TEST_CASE("division goes where the light changes, and ends at the error asked fo
     const AdaptiveDivision twentieth{.error = .05};
     Solution solution = rough_solution(model.mesh, model.bvh, twentieth, monitor);
     std::vector<double> errors;
-    CHECK(divide_where_light_changes(
-        model.mesh, model.bvh, solution, twentieth, monitor,
-        [&](const DivisionRound& round) { errors.push_back(round.error); }));
+    Division division(model.mesh, model.bvh, twentieth, monitor);
+    CHECK(division.divide(solution, twentieth.error,
+                          [&](const DivisionRound& round) { errors.push_back(round.error); }));
     REQUIRE(errors.size() > 1);
     CHECK(errors.front() > .05);
     CHECK(errors.back() <= .05);
-    CHECK(model.mesh.patches().size() > before);
-    CHECK(solution.radiosity.size() == model.mesh.patches().size());
+    const std::size_t patches = model.mesh.patches().size();
+    CHECK(patches > before);
+    CHECK(solution.radiosity.size() == patches);
+    division.add_slopes(solution, twentieth.error);
+    CHECK(solution.slope.size() == patches);
+    // In doubt, and asked for less, it goes on from where it was.
+    division.doubt();
+    CHECK(division.divide(solution, .03));
+    CHECK(model.mesh.patches().size() > patches);
 
     Model even(test::furnace_box(2, .5));
     const AdaptiveDivision hundredth{.error = .01};
     Solution furnace = rough_solution(even.mesh, even.bvh, hundredth, monitor);
-    CHECK_FALSE(divide_where_light_changes(even.mesh, even.bvh, furnace, hundredth, monitor));
+    CHECK_FALSE(Division(even.mesh, even.bvh, hundredth, monitor).divide(furnace, .01));
     CHECK(even.mesh.patches().size() == 24);
 }

@@ -34,13 +34,9 @@ struct Closed {
 
     Closed(const Scene& scene, bool is_convex)
         : mesh(scene), brute(mesh.soup()), bvh(mesh.soup()), wide(mesh.soup()), convex(is_convex) {
-        for (const char* name : {"baseline", "avx2"}) {
-            try {
-                kernels.push_back(
-                    std::make_unique<WideBvh>(mesh.soup(), WideBvhOptions{.kernels = name}));
-            } catch (const std::invalid_argument&) { // not on this machine
-            }
-        }
+        for (const InstructionSet set : available_instruction_sets())
+            kernels.push_back(
+                std::make_unique<WideBvh>(mesh.soup(), WideBvhOptions{.kernels = set}));
     }
 
     [[nodiscard]] std::vector<const Tracer*> tracers() const {

@@ -142,7 +142,7 @@ TEST_CASE("In a closed room of reflectance .999 too") {
         // of the standard error.
         const double error = estimated_error(model.mesh, s);
         const double unsolved =
-            method->name == "gathering" ? 2e-3 * (std::isnan(error) ? 1 : error) : 0;
+            method->name == "stored-transport" ? 2e-3 * (std::isnan(error) ? 1 : error) : 0;
         CAPTURE(method->name, unsolved);
         CHECK(share(off, emitted) < 1e-9 + unsolved);
     }

@@ -127,17 +127,18 @@ TEST_CASE("Wrong runs are counted by the binomial distribution") {
     CHECK(count.too_many_wrong(1e-3));
 }
 
-TEST_CASE("Gathering reports an error in which one can trust: one scene of each kind") {
-    check_scenes("gathering", scenes_named(one_of_each_kind), 3, {.seconds = 2, .rays = 1'000'000});
+TEST_CASE("Stored transport reports an error in which one can trust: one scene of each kind") {
+    check_scenes("stored-transport", scenes_named(one_of_each_kind), 3,
+                 {.seconds = 2, .rays = 1'000'000});
 }
 
 TEST_CASE("Every other method reports an error in which one can trust", "[slow]") {
     for (const Method* const method : methods())
-        if (method->name != "gathering")
+        if (method->name != "stored-transport")
             check_scenes(std::string(method->name), scenes_named(), 2,
                          {.seconds = 1, .rays = 300'000}, methods().size() - 1);
 }
 
-TEST_CASE("Gathering reports an error in which one can trust: all scenes", "[slow]") {
-    check_scenes("gathering", scenes_named(), 6, {.seconds = 20, .rays = 4'000'000});
+TEST_CASE("Stored transport reports an error in which one can trust: all scenes", "[slow]") {
+    check_scenes("stored-transport", scenes_named(), 6, {.seconds = 20, .rays = 4'000'000});
 }

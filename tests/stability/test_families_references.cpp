@@ -1,6 +1,5 @@
 // The references of the hard scenes, compared with closed forms and with each other: what they are
 // made of, what must hold for all of them, and walks from patch to patch that know nothing of it.
-#include "geometry/form_factor.h"
 #include "support/catch.h"
 #include "support/closed_forms.h"
 #include "support/families/builders.h"

@@ -191,7 +191,7 @@ TEST_CASE("Rooms of reflectance 1 with a way out are solved") {
             if (method->name != "progressive")           // which stops early
                 CHECK(std::abs(s.energy.unshot.x) < .5); // a ray may carry some per cent
             CHECK((is_open ? s.energy.absorbed.x : s.energy.escaped.x) == 0);
-            if (method->name == "gathering") { // the first step's error is unknown
+            if (method->name == "stored-transport") { // the first step's error is unknown
                 CHECK(estimated_error(model.mesh, s) < .1);
                 CHECK(s.rays_energy < 1000000);
             }
@@ -242,8 +242,8 @@ TEST_CASE("A series of bounces that seems not to end is ended", "[slow]") {
     options.rays = 4;
     CHECK_THROWS_WITH(
         test::solve(model, *find_method("progressive-monte-carlo"), options, test::steps(1)),
-        Contains("step 1: light is still on its way") && Contains("gathering"));
+        Contains("step 1: light is still on its way") && Contains("stored-transport"));
     const Solution s =
-        test::solve(model, *find_method("gathering"), options, test::steps(1)); // needs none
+        test::solve(model, *find_method("stored-transport"), options, test::steps(1)); // needs none
     CHECK(s.radiosity[0].x == Approx(1 / 1e-12).epsilon(1e-3));
 }

@@ -98,7 +98,7 @@ double relative_error(const Model& model, const Solution& s, const Solution& rig
 }
 
 bool stores_transport(const Method& method) {
-    return method.name == "gathering" || method.name == "matrix";
+    return method.name == "stored-transport" || method.name == "matrix";
 }
 
 /// What four steps of 64 rays make of the rooms below, with room to spare.
@@ -226,7 +226,7 @@ TEST_CASE("Triangles a million times as long as wide are a part of their wall", 
         const Solution s = solved(with, method);
         CHECK(relative_error(without, s, right, 45) < noise(method));
         check_balance(s);
-        if (method.name == "gathering") // a sliver has the light of the foot of the wall
+        if (method.name == "stored-transport") // a sliver has the light of the foot of the wall
             CHECK(mean(with, s, 45, 55) == Approx(right.radiosity[46].x).epsilon(.2));
     });
 }

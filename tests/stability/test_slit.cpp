@@ -152,7 +152,8 @@ TEST_CASE("Two rooms joined by a slit", "[slow]") {
         }
         CHECK((least > .9999 && most < 1.0001)); // nothing is missing from the reference
         const std::vector<Vec3> right = solve(model.mesh, f);
-        const Solution s = test::solve(model, *find_method("gathering"), {}, test::steps(11));
+        const Solution s =
+            test::solve(model, *find_method("stored-transport"), {}, test::steps(11));
         const RelativeError off = error_of(model.mesh, s, right);
         CAPTURE(rho, s.rays_energy, off.all, off.detail);
         CHECK(off.all < .01);

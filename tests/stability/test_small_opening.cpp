@@ -37,7 +37,7 @@ std::optional<double> brightness(const Model& model, const Method& method, std::
     try {
         solution = test::solve(model, method, options, stop);
     } catch (const SolveError& error) {
-        CHECK_THAT(error.what(), Contains("--rays") || Contains("--method gathering"));
+        CHECK_THAT(error.what(), Contains("--rays") || Contains("--method stored-transport"));
         CHECK_THAT(error.what(), !Contains("nan"));
         return std::nullopt;
     }
@@ -53,13 +53,13 @@ std::optional<double> brightness(const Model& model, const Method& method, std::
 } // namespace
 
 TEST_CASE("a glowing room of reflectance 1 is solved however small its opening is", "[slit]") {
-    const Method& gathering = *find_method("gathering");
+    const Method& stored = *find_method("stored-transport");
     for (const double share : {1e-2, 1e-3, 1.0 / 6000, 1e-4, 1e-5}) {
         const Model model(room_with_slit(share));
         for (const double rays : {1.0, 64.0})
             for (std::uint64_t seed = 1; seed <= 4; ++seed) {
                 CAPTURE(share, rays, seed);
-                const auto found = brightness(model, gathering, seed, rays, test::steps(3));
+                const auto found = brightness(model, stored, seed, rays, test::steps(3));
                 REQUIRE(found);
                 // Of few rays; the solution is inversely proportional to what they count.
                 CHECK(*found * share > .2);
@@ -86,7 +86,7 @@ TEST_CASE("an error is reached in a glowing room of reflectance 1 with a slit", 
             CAPTURE(share, seed);
             StopRule stop{.steps = {}, .seconds = {}, .error = .01};
             stop.rays = 10'000'000;
-            const auto found = brightness(model, *find_method("gathering"), seed, 64, stop);
+            const auto found = brightness(model, *find_method("stored-transport"), seed, 64, stop);
             REQUIRE(found);
             CHECK(*found * share == Approx(1).epsilon(.2));
         }

@@ -24,7 +24,7 @@ double relative_error(const Model& model, const Solution& s, const Solution& exa
 
 } // namespace
 
-TEST_CASE("Gathering needs no more rays for bright rooms than for dim ones") {
+TEST_CASE("Stored transport needs no more rays for bright rooms than for dim ones") {
     double rays_when_dim = 0;
     for (const double rho : {.5, .9, .99, .999, .9999}) {
         const Model model(test::cube_with_lit_floor(6, rho));
@@ -34,8 +34,9 @@ TEST_CASE("Gathering needs no more rays for bright rooms than for dim ones") {
         for (int run = 0; run < runs; ++run) {
             SolveOptions options;
             options.seed = 1 + std::uint64_t(run);
-            const Solution s = test::solve_as_needed(model, *find_method("gathering"), options,
-                                                     {.steps = {}, .seconds = {}, .error = .008});
+            const Solution s =
+                test::solve_as_needed(model, *find_method("stored-transport"), options,
+                                      {.steps = {}, .seconds = {}, .error = .008});
             rays += static_cast<double>(s.rays_energy) / runs;
             squares += std::pow(relative_error(model, s, exact), 2) / runs;
             for (int c = 0; c < 3; ++c)
@@ -60,7 +61,7 @@ TEST_CASE("Bright rooms of which parts are black, or no two patches alike") {
             scene.facets[f].material = f % 2 == 0 ? 2 : 3;
         const Model model(scene);
         const Solution exact = exact_solution(model);
-        const Solution s = test::solve(model, *find_method("gathering"), {}, test::steps(7));
+        const Solution s = test::solve(model, *find_method("stored-transport"), {}, test::steps(7));
         CAPTURE(rho);
         CHECK(relative_error(model, s, exact) < .02);
     }

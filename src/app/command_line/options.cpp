@@ -86,6 +86,8 @@ MethodVariant variant_by_name(std::string_view name) {
     for (const MethodVariant& variant : possible_variants()) {
         if (variant.name == name)
             return variant;
+        if (!variant.guide && variant.method == find_method(name))
+            return {std::string(name), variant.method, {}}; // results call it as the user does
         names.push_back(variant.name);
     }
     throw UsageError("--methods: " + unknown_name("method", name, names));
@@ -96,9 +98,12 @@ std::vector<MethodVariant> variants_from(std::string_view text) {
     std::vector<MethodVariant> list;
     for (bool more = true; more;) {
         const std::size_t comma = text.find(',');
-        list.push_back(variant_by_name(text.substr(0, comma)));
-        if (std::ranges::count(list, list.back().name, &MethodVariant::name) > 1)
-            throw UsageError("--methods: '" + list.back().name + "' is named twice");
+        MethodVariant variant = variant_by_name(text.substr(0, comma));
+        if (std::ranges::any_of(list, [&variant](const MethodVariant& other) {
+                return other.method == variant.method && other.guide == variant.guide;
+            }))
+            throw UsageError("--methods: '" + variant.name + "' is named twice");
+        list.push_back(std::move(variant));
         more = comma != std::string_view::npos;
         if (more)
             text.remove_prefix(comma + 1);
@@ -202,9 +207,10 @@ void add_point_options(Command command, SolveSettings& settings) {
         .add_text("--points-output", "FILE", settings.points.output,
                   "CSV table of --points: irradiance, radiosity, standard error")
         .group(output_group);
-    add_whole<unsigned>(command, "--gather", settings.gather, 1, SolveSettings::most_gather,
-                        "rays that gather light at a point of a picture; at one of --points 256 "
-                        "times as many [16]")
+    add_whole<unsigned>(
+        command, "--gather", settings.gather, 1, SolveSettings::most_gather,
+        "rays that gather light at a point of a picture, more at edges; at one of --points 256 "
+        "times as many [16]")
         .group(output_group);
     command
         .add_action(

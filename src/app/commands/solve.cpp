@@ -34,16 +34,12 @@ namespace hemilux {
 
 namespace {
 
-/// A run to an error ends at a number of rays at the latest, if nothing else ends it.
-std::uint64_t default_max_rays(std::size_t patches) {
-    constexpr std::uint64_t least = 100'000'000, each = 1000;
-    return least + each * patches;
-}
-
-StopRule stop_rule(const SolveSettings& settings, std::size_t patches) {
+/// `sampling`: the error that --divide auto leaves to the run, where that is known.
+StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
+                   std::optional<double> sampling = {}) {
     StopRule stop = settings.stop;
     if (settings.divide_auto && (stop.error || (!stop.steps && !stop.seconds)))
-        stop.error = sampling_share * whole_error(settings);
+        stop.error = sampling.value_or(sampling_share * whole_error(settings));
     if (!stop.steps && !stop.seconds && !stop.error) {
         stop = settings.method->default_stop;
         stop.rays = settings.stop.rays;
@@ -115,6 +111,9 @@ int finish(const SolveSettings& settings, const Results& results, const WriteRep
     report.add(of_steps);
     log_line(settings.verbosity, Verbosity::normal, run_text(results.statistics));
     for (const std::string& note : notes.texts(results.statistics.error_sampling, interrupted))
+        log_line(settings.verbosity, Verbosity::normal, "warning: " + note);
+    if (const std::string note = whole_error_note(settings, results.statistics);
+        !note.empty() && !interrupted)
         log_line(settings.verbosity, Verbosity::normal, "warning: " + note);
     if (!lost_light.empty())
         log_line(settings.verbosity, Verbosity::normal, "warning: " + lost_light);
@@ -261,11 +260,12 @@ void SolveRun::read_the_reference() {
 }
 
 void SolveRun::take_steps() {
-    const StopRule stop = stop_rule(settings_, mesh().patches().size());
+    const StopRule stop = stop_rule(settings_, mesh().patches().size(), divided_.sampling);
     Progress progress(monitor_, share_of(stop, *settings_.method),
                       settings_.verbosity != Verbosity::quiet && stderr_is_terminal());
     const Stopwatch solving;
-    solver_ = divided_.begun && !resumed_ ? std::move(divided_.begun) : begin();
+    const bool is_begun = divided_.begun && !resumed_;
+    solver_ = is_begun ? std::move(divided_.begun) : begin();
     log_rays_of_step(settings_.verbosity, settings_.options.rays, options_.rays);
     Before before = divided_.before;
     before.seconds += statistics_.seconds_divide; // a time limit is of both
@@ -288,6 +288,10 @@ void SolveRun::take_steps() {
             progress.log(step_text(rows_.back()));
         checkpointer.step_done(rows_, record.seconds);
     };
+    if (is_begun && before.steps > 0) {
+        divided_.last.seconds = before.seconds;
+        after_step(divided_.last, solver_->solution());
+    }
     try {
         completed_ = run(*solver_, *input_, stop, after_step, before);
     } catch (const SolveError& error) {
@@ -304,14 +308,14 @@ void SolveRun::take_steps() {
 }
 
 void SolveRun::estimate_errors() {
-    if (divided_.linear)
-        add_slopes(settings_, mesh(), tracer(), linear_.emplace(solver_->solution()),
-                   monitor_.interrupted, statistics_);
     // Where a signal or the time left no step, there is the light by which patches were divided.
     const bool has_step = solver_->solution().steps > 0 || divided_.rough.steps == 0;
-    solution_ = !has_step ? &divided_.rough : linear_ ? &*linear_ : &solver_->solution();
+    solution_ = has_step ? &solver_->solution() : &divided_.rough;
+    if (divided_.linear)
+        solution_ = &linear_.emplace(with_slopes(*solution_, divided_));
     fill(statistics_, settings_, mesh(), *solution_, seconds_solver_);
-    add_division_error(statistics_, settings_, mesh(), tracer(), *solution_, monitor_.interrupted);
+    add_division_error(statistics_, settings_, mesh(), tracer(), *solution_, divided_,
+                       monitor_.interrupted);
     if (!settings_.plain) // which leaves out nothing
         statistics_.left_out = left_out(prepared_->needs, *settings_.method, *solution_);
     statistics_.bytes_peak = peak_memory_bytes();

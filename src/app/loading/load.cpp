@@ -2,6 +2,7 @@
 
 #include "app/loading/sides.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/extension.h"
 #include "app/settings/memory.h"
 #include "app/settings/names.h"
 #include "app/settings/text.h"
@@ -14,19 +15,11 @@
 #include "radiosity/scene/convex_enclosure.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 namespace hemilux {
 
 namespace {
-
-std::vector<bool> materials_in_use(const Scene& scene) {
-    std::vector<bool> used(scene.materials.size());
-    for (const Facet& facet : scene.facets)
-        used[facet.material] = true;
-    return used;
-}
 
 void check_reflectances(const ReadResult& read, const std::string& path) {
     const std::vector<std::string> bad = find_bad_reflectances(read);
@@ -50,10 +43,7 @@ void check_emission(const Material& material, const std::string& path) {
 } // namespace
 
 ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
-    std::string extension = std::filesystem::path(settings.path).extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension != ".obj")
+    if (extension_of(settings.path) != ".obj")
         throw InputError(settings.path, "not a kind of scene that can be read; .obj can");
     ReadResult read = read_obj(settings.path, memory_guard(settings.path, settings.memory));
     for (const std::string& library : read.libraries)

@@ -46,12 +46,9 @@ std::string faces_text(const Orientation& found, const Scene& scene) {
 double emitted_power(const Scene& scene) {
     double power = 0;
     for (const Facet& facet : scene.facets) {
-        Polygon shape;
-        for (std::size_t i = 0; i < 4; ++i)
-            shape.corner[i] = scene.vertices[facet.vertex[i]];
         const Vec3& e = scene.materials[facet.material].emission;
         if (e != Vec3(0.0))
-            power += shape.area() * (e.r + e.g + e.b);
+            power += polygon_of(scene.vertices, facet.vertex).area() * (e.r + e.g + e.b);
     }
     return power;
 }

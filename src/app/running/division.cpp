@@ -5,7 +5,6 @@
 #include "app/terminal/stopwatch.h"
 #include "radiosity/division/adaptive_division.h"
 #include "radiosity/final_gather/division_error.h"
-#include "radiosity/final_gather/light_within_patches.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/solving/time_limit.h"
@@ -13,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace hemilux {
 namespace {
@@ -24,12 +22,12 @@ constexpr std::uint64_t bytes_of_patch = 16'384;
 /// Of the time of a run that the division may take.
 constexpr double share_of_time = .5;
 
-/// The noise of slopes is to be a small part of the error.
-std::size_t estimates_of_slopes(double error) {
-    constexpr double one_is_enough_at = .04, most = 8;
-    return static_cast<std::size_t>(
-        std::clamp(std::round(std::pow(one_is_enough_at / error, 1.5)), 1.0, most));
-}
+/// So often the division goes on where the whole error is too large still.
+constexpr unsigned most_attempts = 8;
+
+/// Rays to find out the error of the division: of all before, at most one in so many; where patches
+/// were divided by rays the second.
+constexpr std::uint64_t share_of_rays = 2, share_of_divided = 5;
 
 std::string round_text(const DivisionRound& round) {
     return "division: " + counted(round.patches, "patch", "patches") + ", within them the light " +
@@ -48,19 +46,158 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
     return division;
 }
 
-/// Whether one value on each patch leaves more than the share of the division: asked of a thousand
-/// points, however many patches there are.
-bool is_uneven(const SolveSettings& settings, const Mesh& mesh, const Tracer& tracer,
-               const Solution& solution, Monitor& monitor, Statistics& statistics) {
-    if (solution.steps == 0 || monitor.interrupted)
-        return false;
-    const double most = division_share * whole_error(settings);
-    const DivisionError found = division_error(
-        mesh, tracer, solution,
-        {.seed = hash_words({settings.options.seed, 4}), .most_rays = 0, .negligible = most},
-        Workers(settings.options.threads), monitor.interrupted);
-    statistics.rays_divide += found.rays;
-    return found.error > most;
+/// Divides the mesh for a run to come.
+class AutoDivision {
+  public:
+    AutoDivision(const SolveSettings& settings, Mesh& mesh, const SolverInput& input,
+                 const BeginSolver& begin, Statistics& statistics)
+        : settings_(settings), mesh_(mesh), input_(input), begin_(begin), statistics_(statistics),
+          options_(division_of(settings, mesh.patches().size())), whole_(whole_error(settings)),
+          is_own_(settings.method == &method_of(Role::standard) && !settings.plain) {}
+
+    [[nodiscard]] Divided divide();
+
+  private:
+    /// The light of the mesh as it is: by the run to come, where that is of the standard method.
+    void run_to(double error, const StopRule& most);
+    [[nodiscard]] DivisionError error_of(const Solution& light, std::uint64_t most_rays,
+                                         double negligible, std::span<const double> square);
+    void divide_once(Division& division);
+    void divide_until_enough();
+    /// Whether the whole error is as asked for; else less is left to what has the larger part.
+    [[nodiscard]] bool is_enough(double division, double sampling);
+    [[nodiscard]] bool is_over() const {
+        return input_.monitor.interrupted || divided_.rough.steps == 0;
+    }
+    void forget_run();
+
+    const SolveSettings& settings_;
+    Mesh& mesh_;
+    const SolverInput& input_;
+    const BeginSolver& begin_;
+    Statistics& statistics_;
+    AdaptiveDivision options_;
+    double whole_;
+    bool is_own_;
+    std::uint64_t gathers_ = 0;
+    double seconds_of_errors_ = 0;
+    bool divides_ = true; ///< in the next attempt
+    Divided divided_;
+};
+
+void AutoDivision::run_to(double error, const StopRule& most) {
+    if (!divided_.begun) {
+        divided_.begun = is_own_ ? begin_() : method_of(Role::standard).make(input_);
+        divided_.before = {};
+    }
+    StopRule stop = most;
+    stop.error = error;
+    if (is_own_)
+        stop.steps = settings_.stop.steps;
+    run(
+        *divided_.begun, input_, stop,
+        [&](const StepRecord& record, const Solution&) {
+            divided_.before = {record.step, record.seconds};
+            divided_.last = record;
+        },
+        Before(divided_.before));
+    divided_.rough = divided_.begun->solution();
+}
+
+void AutoDivision::forget_run() {
+    if (divided_.begun)
+        statistics_.rays_divide += divided_.begun->solution().rays_energy;
+    divided_.begun.reset();
+    divided_.before = {};
+}
+
+DivisionError AutoDivision::error_of(const Solution& light, std::uint64_t most_rays,
+                                     double negligible, std::span<const double> square) {
+    const Stopwatch watch;
+    const DivisionError found =
+        division_error(mesh_, input_.tracer, light,
+                       {.seed = hash_words({settings_.options.seed, 4, gathers_++}),
+                        .most_rays = most_rays,
+                        .negligible = negligible,
+                        .square = square},
+                       Workers(settings_.options.threads), input_.monitor.interrupted);
+    statistics_.rays_division_error += found.rays;
+    seconds_of_errors_ += watch.seconds();
+    return found;
+}
+
+/// What is left is aimed at with some room, as what was found is known to a tenth.
+bool AutoDivision::is_enough(double division, double sampling) {
+    constexpr double safe = .9, least_sampling = .6, least_step = .5, most_step = .9;
+    if (std::hypot(division, sampling) <= whole_)
+        return true;
+    const auto left = [&](double other) {
+        return safe * std::sqrt(std::max(whole_ * whole_ - other * other, 0.0));
+    };
+    divides_ = left(division) < least_sampling * *divided_.sampling;
+    if (divides_)
+        options_.error *= std::clamp(left(sampling) / division, least_step, most_step);
+    else
+        divided_.sampling = std::min(left(division), most_step * *divided_.sampling);
+    return false;
+}
+
+void AutoDivision::divide_once(Division& division) {
+    if (!division.divide(divided_.rough, options_.error, [&](const DivisionRound& round) {
+            statistics_.rays_divide += round.rays;
+            log_line(settings_.verbosity, Verbosity::verbose, round_text(round));
+        }))
+        return;
+    divided_.patches = true;
+    forget_run();
+}
+
+void AutoDivision::divide_until_enough() {
+    Division division(mesh_, input_.tracer, options_, input_.monitor);
+    for (unsigned attempt = 0; attempt < most_attempts; ++attempt) {
+        if (divides_)
+            divide_once(division);
+        if (is_over())
+            break;
+        StopRule stop;
+        stop.rays = settings_.stop.rays.value_or(default_max_rays(mesh_.patches().size()));
+        run_to(*divided_.sampling, stop);
+        if (is_over())
+            break;
+        statistics_.rays_divide += division.add_slopes(divided_.rough, options_.error);
+        const double sampling = estimated_error(mesh_, divided_.rough);
+        const std::uint64_t rays = divided_.rough.rays_energy + statistics_.rays_divide;
+        divided_.error =
+            error_of(divided_.rough, rays / share_of_divided, sampling / 2, division.squares());
+        const bool is_limited = !(sampling <= *divided_.sampling); // by rays or steps
+        if (is_over() || is_enough(divided_.error->error, sampling) || is_limited)
+            break;
+        division.doubt();
+    }
+    divided_.slope = division.slopes();
+}
+
+Divided AutoDivision::divide() {
+    const Stopwatch watch;
+    divided_.sampling = sampling_share * whole_;
+    const StopRule rough = rough_stop(options_, mesh_.patches().size());
+    run_to(*rough.error, rough);
+    if (!is_over()) {
+        const double most = division_share * whole_;
+        divided_.error = error_of(divided_.rough, 0, most, {});
+        divided_.linear = divided_.error->error > most;
+    }
+    if (divided_.linear)
+        divide_until_enough();
+    if (!is_own_) {
+        forget_run();
+        divided_.error.reset();
+    }
+    if (divided_.begun)
+        divided_.rough = {}; // which has it
+    statistics_.seconds_division_error = seconds_of_errors_;
+    statistics_.seconds_divide = watch.seconds() - divided_.before.seconds - seconds_of_errors_;
+    return std::move(divided_);
 }
 
 } // namespace
@@ -70,90 +207,56 @@ double whole_error(const SolveSettings& settings) {
     return settings.stop.error.value_or(usual);
 }
 
+std::uint64_t default_max_rays(std::size_t patches) {
+    constexpr std::uint64_t least = 100'000'000, each = 1000;
+    return least + each * patches;
+}
+
 Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, const SolverInput& input,
                         const BeginSolver& begin, Statistics& statistics) {
-    Divided divided;
     if (!settings.divide_auto)
-        return divided;
-    const Stopwatch watch;
-    Monitor& monitor = input.monitor;
+        return {};
     std::optional<double> seconds;
     if (settings.stop.seconds)
         seconds = share_of_time * *settings.stop.seconds;
-    const TimeLimit limit(monitor.interrupted, seconds);
-    const AdaptiveDivision division = division_of(settings, mesh.patches().size());
-    if (settings.method == &method_of(Role::standard) && !settings.plain) {
-        divided.begun = begin();
-        StopRule rough = rough_stop(division, mesh.patches().size());
-        rough.steps = settings.stop.steps;
-        run(*divided.begun, input, rough, [&](const StepRecord& record, const Solution&) {
-            divided.before = {record.step, record.seconds};
-        });
-        divided.rough = divided.begun->solution();
-    } else {
-        divided.rough = rough_solution(mesh, input.tracer, division, monitor);
-        statistics.rays_divide = divided.rough.rays_energy;
-    }
-    divided.linear = is_uneven(settings, mesh, input.tracer, divided.rough, monitor, statistics);
-    if (divided.linear)
-        divided.patches = divide_where_light_changes(
-            mesh, input.tracer, divided.rough, division, monitor, [&](const DivisionRound& round) {
-                statistics.rays_divide += round.rays;
-                log_line(settings.verbosity, Verbosity::verbose, round_text(round));
-            });
-    else if (divided.begun) // which has it
-        divided.rough = {};
-    if (divided.patches && divided.begun)
-        statistics.rays_divide += divided.begun->solution().rays_energy;
-    if (divided.patches) {
-        divided.begun.reset();
-        divided.before = {};
-    }
-    statistics.seconds_divide = watch.seconds() - divided.before.seconds;
-    return divided;
+    const TimeLimit limit(input.monitor.interrupted, seconds);
+    return AutoDivision(settings, mesh, input, begin, statistics).divide();
 }
 
-void add_slopes(const SolveSettings& settings, const Mesh& mesh, const Tracer& tracer,
-                Solution& solution, const StopFlag& interrupted, Statistics& statistics) {
-    if (solution.steps == 0 || interrupted)
-        return;
-    std::vector<std::uint32_t> all(mesh.patches().size());
-    std::iota(all.begin(), all.end(), 0u);
-    const LightWithinPatches found =
-        light_within_patches({mesh, tracer, solution}, all,
-                             {.estimates = estimates_of_slopes(whole_error(settings)),
-                              .most_rows = 3,
-                              .seed = hash_words({settings.options.seed, 3})},
-                             Workers(settings.options.threads), interrupted);
-    if (interrupted)
-        return;
-    solution.slope = found.slope;
-    statistics.rays_divide += found.rays;
+Solution with_slopes(Solution solution, const Divided& divided) {
+    solution.slope = divided.slope;
+    return solution;
 }
 
 void add_division_error(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
-                        const Tracer& tracer, const Solution& solution,
+                        const Tracer& tracer, const Solution& solution, const Divided& divided,
                         const StopFlag& interrupted) {
     statistics.error_sampling = statistics.estimated_error;
-    if (solution.steps == 0 || interrupted) {
+    const bool is_known = divided.error && solution.steps == divided.before.steps;
+    if (!is_known && (solution.steps == 0 || interrupted)) {
         if (settings.divide_auto) // the whole error is not known
             statistics.estimated_error = statistics.estimated_error_uncertainty =
                 std::numeric_limits<double>::quiet_NaN();
         return;
     }
-    constexpr std::uint64_t share_of_rays = 2; // of all before, at most: one in so many
-    const Stopwatch watch;
-    const DivisionError found = division_error(
-        mesh, tracer, solution,
-        {.seed = hash_words({settings.options.seed, 1}),
-         .most_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
-                      share_of_rays,
-         .negligible = statistics.error_sampling / 2},
-        Workers(settings.options.threads), interrupted);
+    DivisionError found;
+    if (is_known)
+        found = *divided.error;
+    else {
+        const Stopwatch watch;
+        found = division_error(
+            mesh, tracer, solution,
+            {.seed = hash_words({settings.options.seed, 1}),
+             .most_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
+                          share_of_rays,
+             .negligible = statistics.error_sampling / 2},
+            Workers(settings.options.threads), interrupted);
+        statistics.rays_division_error += found.rays;
+        const double before = statistics.seconds_division_error;
+        statistics.seconds_division_error = (before > 0 ? before : 0) + watch.seconds();
+    }
     statistics.error_division = found.error;
     statistics.error_division_uncertainty = found.uncertainty;
-    statistics.rays_division_error = found.rays;
-    statistics.seconds_division_error = watch.seconds();
     if (!settings.divide_auto)
         return;
     const double whole = std::hypot(statistics.error_sampling, found.error);
@@ -162,6 +265,18 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
                    found.error * found.uncertainty) /
         whole;
     statistics.estimated_error = whole;
+}
+
+std::string whole_error_note(const SolveSettings& settings, const Statistics& statistics) {
+    const bool is_asked = settings.stop.error || (!settings.stop.steps && !settings.stop.seconds);
+    if (!settings.divide_auto || !is_asked || statistics.estimated_error <= whole_error(settings) ||
+        !std::isfinite(statistics.error_division))
+        return "";
+    const bool of_division = statistics.error_division > statistics.error_sampling;
+    return "the run ended before the whole error of " + percent(whole_error(settings)) +
+           " was reached; most of what is left is of " +
+           (of_division ? "the division, which more patches (--memory, --time) make less"
+                        : "sampling, which more rays (--max-rays, --time) make less");
 }
 
 } // namespace hemilux

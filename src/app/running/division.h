@@ -3,19 +3,25 @@
 
 #include "app/settings/settings.h"
 #include "io/results/statistics.h"
+#include "radiosity/final_gather/division_error.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace hemilux {
 
 /// Where --divide auto is asked for: which share of the whole error may be left by the division,
-/// and which by sampling; their squares add up to two thirds: both
-/// are known to some ten or twenty per cent.
-inline constexpr double division_share = .65, sampling_share = .5;
+/// and which by sampling, at first.
+inline constexpr double division_share = .7, sampling_share = .5;
 
 /// The whole error that a run with --divide auto is to reach.
 [[nodiscard]] double whole_error(const SolveSettings& settings);
+
+/// A run to an error ends at a number of rays at the latest, if nothing else ends it.
+[[nodiscard]] std::uint64_t default_max_rays(std::size_t patches);
 
 /// What --divide auto has made of the mesh.
 struct Divided {
@@ -23,29 +29,38 @@ struct Divided {
     bool linear = false;  ///< one value on each patch is not enough
     /// Of the mesh as it is now, where there is one: the light by which it was divided.
     Solution rough = {};
-    /// Of the mesh if nothing was divided: a run of `gathering` that can go on, after so many
-    /// steps. Empty for other methods.
+    std::vector<Slope> slope = {}; ///< by patch, of the light; empty where it is not linear
+    /// Of the mesh as it is now, a run of `stored-transport` that can go on, after so many steps.
+    /// Empty for other methods, and where it was not begun.
     std::unique_ptr<Solver> begun = nullptr;
     Before before = {};
+    StepRecord last = {}; ///< of these steps
+    /// The error of sampling that is left for the run, where it is known.
+    std::optional<double> sampling = {};
+    /// The error of the division, if that run does not go on.
+    std::optional<DivisionError> error = {};
 };
 
 using BeginSolver = std::function<std::unique_ptr<Solver>()>;
 
-/// Divides the mesh until the division leaves no more than its share. Nothing where it is not asked
-/// for. `input`: of the run to come, whose solver `begin` makes. A signal ends it, and where there
-/// is a time limit half of the time.
+/// Divides the mesh until the whole error is as asked for, as estimated from a run to a share of
+/// it. Nothing where it is not asked for. `input`: of the run to come, whose solver `begin` makes.
+/// A signal ends it, and where there is a time limit half of the time.
 [[nodiscard]] Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh,
                                       const SolverInput& input, const BeginSolver& begin,
                                       Statistics& statistics);
 
-/// Makes the light on patches linear functions of the place.
-void add_slopes(const SolveSettings& settings, const Mesh& mesh, const Tracer& tracer,
-                Solution& solution, const StopFlag& interrupted, Statistics& statistics);
+/// The solution that is given out, with the slopes of its patches.
+[[nodiscard]] Solution with_slopes(Solution solution, const Divided& divided);
 
 /// Adds the error of the division to the statistics of a solution, and with --divide auto makes the
 /// estimated error that of the light as given out.
 void add_division_error(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
-                        const Tracer& tracer, const Solution& solution,
+                        const Tracer& tracer, const Solution& solution, const Divided& divided,
                         const StopFlag& interrupted);
+
+/// Where --divide auto has not reached the whole error asked for: why. Else empty.
+[[nodiscard]] std::string whole_error_note(const SolveSettings& settings,
+                                           const Statistics& statistics);
 
 } // namespace hemilux

@@ -30,9 +30,10 @@ std::vector<std::string> RunNotes::texts(double error, bool interrupted) const {
     std::vector<std::string> notes;
     const bool known = std::isfinite(error);
     if (!known && steps_ > 1)
-        notes.push_back("the error is unknown: no light was found that is more than its own error; "
-                        "more rays (--steps, --time, --max-rays), --method gathering or another "
-                        "lamp may help");
+        notes.push_back(
+            "the error is unknown: no light was found that is more than its own error; "
+            "more rays (--steps, --time, --max-rays), --method stored-transport or another "
+            "lamp may help");
     if (jump_ > 0)
         notes.push_back("the estimated error rose from " + percent(before_jump_) + " to " +
                         percent(jump_) +

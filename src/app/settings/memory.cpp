@@ -29,8 +29,8 @@ constexpr double bytes_per_solution = 225;
 constexpr double bytes_per_factor = 32;
 /// Independent matrices that `matrix` keeps to know its error.
 constexpr double batches = 8;
-/// What `gathering` may use for its rays where --memory says nothing: a scene of a million patches
-/// then stays within 4 GiB.
+/// What `stored-transport` may use for its rays where --memory says nothing: a scene of a million
+/// patches then stays within 4 GiB.
 constexpr std::uint64_t usual_transport = std::uint64_t{5} << 29;
 /// Corners, planes and boxes of both sides of a facet, and its edges.
 constexpr double bytes_of_analysis = 350;

@@ -1,11 +1,11 @@
 #include "app/settings/outputs.h"
 
 #include "app/settings/exit_code.h"
+#include "app/settings/extension.h"
 #include "io/files/error.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -24,9 +24,7 @@ std::optional<Output> parse_output(std::string_view path) {
                                                                 {".ply", OutputKind::ply},
                                                                 {".csv", OutputKind::csv},
                                                                 {".json", OutputKind::json}});
-    std::string extension = fs::path(path).extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = extension_of(std::string(path));
     for (const auto& [known, kind] : kinds)
         if (extension == known)
             return Output{std::string(path), kind};

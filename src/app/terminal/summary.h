@@ -1,7 +1,7 @@
 #pragma once
 // What is said on stderr about a run: lines of text made from its figures.
 
-#include "bvh/bvh.h"
+#include "bvh/quality.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
 #include "radiosity/scene/mesh.h"

@@ -72,7 +72,7 @@ wide::ExactTest exact(Query& query) { return {&query, closer, hits, counts}; }
 } // namespace
 
 WideBvh::WideBvh(const FacetSoup& soup, const WideBvhOptions& options)
-    : soup_(soup), kernels_(&wide::find_kernels(options.kernels)),
+    : soup_(soup), kernels_(&wide::kernels_of(options.kernels)),
       built_(wide::build(soup, options.threads, options.hierarchy)), space_{built_.low, built_.high,
                                                                             1} {
     space_.size = wide::size_of(built_.low, built_.high);

@@ -5,15 +5,14 @@
 
 #include "bvh/wide/float_ray.h"
 #include "bvh/wide/wide_build.h"
-
-#include <string_view>
+#include "geometry/instruction_set.h"
 
 namespace hemilux {
 
 struct WideBvhOptions {
-    unsigned threads = 0;         ///< that build the tree; 0: one per core
-    bool hierarchy = true;        ///< false: up to eight triangles are tested at once, no boxes
-    std::string_view kernels{""}; ///< "baseline", "avx2", "avx512"; "": the machine's best
+    unsigned threads = 0;  ///< that build the tree; 0: one per core
+    bool hierarchy = true; ///< false: up to eight triangles are tested at once, no boxes
+    InstructionSet kernels = chosen_instruction_set();
 };
 
 class WideBvh final : public Tracer {
@@ -31,8 +30,6 @@ class WideBvh final : public Tracer {
     [[nodiscard]] Hit locate(const Ray& ray, std::uint32_t facet) const override;
 
     [[nodiscard]] const BvhQuality& quality() const { return built_.quality; }
-    /// Of the kernels in use.
-    [[nodiscard]] std::string_view kernels() const { return kernels_->name; }
 
   private:
     struct Block;

@@ -78,7 +78,6 @@ struct ExactTest {
 
 /// The kernels of one instruction set. In the streams the exact test knows a ray by its place.
 struct Kernels {
-    const char* name;
     void (*closest)(const Tree&, const FloatRay&, unsigned ray, Nearest&, const ExactTest&);
     bool (*occluded)(const Tree&, const FloatRay&, unsigned ray, float t_low, float t_high,
                      std::uint32_t target, const ExactTest&);

@@ -125,7 +125,7 @@ std::array<Range, 2> divide(std::span<Item> items, const Range& range, bool bala
     if (split.axis == 3)
         return halve(items, range);
 
-    // From both ends towards the middle, gathering the boxes of both parts.
+    // From both ends towards the middle, collecting the boxes of both parts.
     Range left{range.begin, range.begin, {}, {}}, right{range.end, range.end, {}, {}};
     while (left.end < right.begin) {
         const Item item = items[left.end];

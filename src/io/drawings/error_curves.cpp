@@ -47,13 +47,6 @@ void append(ErrorCurve& curve, CurvePoint point) {
         curve.push_back(point);
 }
 
-ErrorCurve MeanCurve::points() const {
-    ErrorCurve curve;
-    for (std::size_t i = 0; i < x.size(); ++i)
-        append(curve, {x[i], mean[i]});
-    return curve;
-}
-
 std::optional<double> error_at(const ErrorCurve& curve, double x) {
     const auto after = std::ranges::lower_bound(curve, x, {}, &CurvePoint::x);
     if (after == curve.end())
@@ -101,17 +94,6 @@ std::optional<double> x_of_error(const ErrorCurve& curve, double error) {
         return reached->x;
     const CurvePoint& before = *(reached - 1);
     return interpolate(before.error, before.x, reached->error, reached->x, error);
-}
-
-std::optional<double> speed_up(const ErrorCurve& curve, const ErrorCurve& base) {
-    if (curve.empty() || base.empty())
-        return std::nullopt;
-    const double error = std::max(least_error(curve), least_error(base));
-    const std::optional<double> cost = x_of_error(curve, error);
-    const std::optional<double> base_cost = x_of_error(base, error);
-    if (!cost || !base_cost)
-        return std::nullopt;
-    return *base_cost / *cost;
 }
 
 std::optional<double> speed_up(std::span<const ErrorCurve> runs,

@@ -25,8 +25,6 @@ struct MeanCurve {
     std::vector<double> x, mean, low, high;
 
     [[nodiscard]] bool empty() const { return x.empty(); }
-    /// The mean alone.
-    [[nodiscard]] ErrorCurve points() const;
 };
 
 /// The error at x, interpolated; empty where the curve does not reach.
@@ -40,13 +38,10 @@ struct MeanCurve {
 /// where the curve begins below it.
 [[nodiscard]] std::optional<double> x_of_error(const ErrorCurve& curve, double error);
 
-/// How many times less a curve costs than the base at the same error: the smallest that both reach.
-/// Empty where they have no error in common.
-[[nodiscard]] std::optional<double> speed_up(const ErrorCurve& curve, const ErrorCurve& base);
-
-/// The same for several runs of both, whose least errors and costs are averaged as logarithms. A
-/// run that begins below the error counts with its first point, so that the result may be too
-/// small.
+/// How many times less runs cost than those of the base at the same error: the smallest that both
+/// reach. Least errors and costs are averaged as logarithms. A run that begins below the error
+/// counts with its first point, so that the result may be too small. Empty where the two have no
+/// error in common.
 [[nodiscard]] std::optional<double> speed_up(std::span<const ErrorCurve> runs,
                                              std::span<const ErrorCurve> base_runs);
 

@@ -37,8 +37,6 @@ LogAxis::LogAxis(const std::vector<double>& numbers) {
 
 double LogAxis::place(double x) const { return std::log(x / low_) / std::log(high_ / low_); }
 
-double LogAxis::at(double place) const { return low_ * std::pow(high_ / low_, place); }
-
 std::vector<LogTick> LogAxis::ticks() const {
     const int first = static_cast<int>(std::floor(std::log10(low_)));
     const int last = static_cast<int>(std::floor(std::log10(high_)));

@@ -21,8 +21,6 @@ class LogAxis {
     [[nodiscard]] double high() const { return high_; }
     /// 0 at the low end, 1 at the high one.
     [[nodiscard]] double place(double x) const;
-    /// The inverse of `place`.
-    [[nodiscard]] double at(double place) const;
     /// Ascending. On a long axis only the powers of ten have labels, or only some of them.
     [[nodiscard]] std::vector<LogTick> ticks() const;
 

@@ -1,6 +1,7 @@
 #include "io/pictures/picture_gather.h"
 
 #include "io/files/error.h"
+#include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
@@ -37,6 +38,12 @@ constexpr double alike = .9;
 /// So far from the other's plane, as a share of their distance, a point still is of its surface.
 constexpr double flatness = .2;
 
+/// Points that average over fewer steps than these get more rays, or many.
+constexpr double steps_for_more = 7, steps_for_many = 3.5;
+
+/// Of sums of the same light in another order.
+constexpr double rounding = 1e-9;
+
 /// The bits of x at even places.
 std::uint32_t spread_bits(std::uint32_t x) {
     x = (x | x << 4) & 0x0f0fu;
@@ -59,10 +66,11 @@ PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight 
     : options_(options), final_gather_(mesh, tracer, light), width_(width), height_(height),
       columns_((width + step - 1) / step), rows_((height + step - 1) / step) {
     find_points(mesh, camera, workers);
-    gather(workers);
-    smooth_nearness(workers);
-    smooth_light(1, workers);
-    smooth_light(reach_points, workers);
+    gather([&](int, int) { return std::max(1u, options_.rays / 4); }, Shadows::traced, workers);
+    ask_neighbours(workers);
+    gather([&](int x, int y) { return more_rays(x, y); }, Shadows::left_out, workers);
+    fit_light(1, workers);
+    fit_light(reach_points, workers);
 }
 
 void PictureGather::give_up_if_asked() const {
@@ -71,11 +79,11 @@ void PictureGather::give_up_if_asked() const {
 }
 
 /// Along a Z-curve, so that each aligned square of points has a net of the sequence (Ahmed and
-/// Wonka 2020). Each block of 256 x 256 points has a sequence of its own.
+/// Wonka 2020). Each block of 256 x 256 points has a sequence of its own for each count.
 GatherSamples PictureGather::samples_of(int x, int y, unsigned count) const {
     const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
     const std::uint32_t place = spread_bits(column & 255u) | spread_bits(row & 255u) << 1;
-    return {hash_words({column >> 8, row >> 8}), place * count, count};
+    return {hash_words({column >> 8, row >> 8, count}), place * count, count};
 }
 
 const PictureGather::Record* PictureGather::record(int x, int y) const {
@@ -95,6 +103,8 @@ void PictureGather::find_points(const Mesh& mesh, const CameraRays& camera,
                                 offsets, workers.threads());
     const auto columns = static_cast<std::size_t>(columns_);
     records_.resize(columns * static_cast<std::size_t>(rows_));
+    light_.resize(records_.size());
+    slope_.resize(records_.size());
     for (Record& record : records_)
         record.at.facet = none;
     workers.for_chunks_with(
@@ -119,7 +129,9 @@ void PictureGather::find_points(const Mesh& mesh, const CameraRays& camera,
         });
 }
 
-void PictureGather::gather(const Workers& workers) {
+/// By rays_at(x, y) more rays at each point.
+template <class Rays>
+void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& workers) {
     struct Own {
         std::vector<std::size_t> places;
         std::vector<SurfacePoint> points;
@@ -134,27 +146,54 @@ void PictureGather::gather(const Workers& workers) {
             for (std::size_t k = begin; k < end; ++k) {
                 if (records_[k].at.facet == none)
                     continue;
+                const int x = static_cast<int>(k % columns), y = static_cast<int>(k / columns);
+                const unsigned rays = rays_at(x, y);
+                if (rays == 0)
+                    continue;
                 own.places.push_back(k);
                 own.points.push_back(records_[k].at);
-                own.samples.push_back(samples_of(static_cast<int>(k % columns),
-                                                 static_cast<int>(k / columns), options_.rays));
+                own.samples.push_back(samples_of(x, y, rays));
             }
             const std::vector<IndirectLight> lights =
                 final_gather_.indirect(own.points, own.samples);
             const std::vector<DirectLight> direct =
-                final_gather_.direct(own.points, own.samples, Shadows::left_out);
+                final_gather_.direct(own.points, own.samples, shadows);
             for (std::size_t i = 0; i < lights.size(); ++i) {
-                records_[own.places[i]].light.indirect = lights[i].irradiance;
-                records_[own.places[i]].light.unshadowed = direct[i].unshadowed;
-                records_[own.places[i]].nearness =
-                    std::max(lights[i].nearness, of_emitters * direct[i].nearness);
+                Record& record = records_[own.places[i]];
+                record.rays += own.samples[i].count;
+                const double share = double(own.samples[i].count) / record.rays;
+                SlowLight& light = light_[own.places[i]];
+                light.indirect = glm::mix(light.indirect, lights[i].irradiance, share);
+                light.unshadowed = glm::mix(light.unshadowed, direct[i].unshadowed, share);
+                record.nearness =
+                    glm::mix(record.nearness,
+                             std::max(lights[i].nearness, of_emitters * direct[i].nearness), share);
+                if (shadows == Shadows::left_out)
+                    continue;
+                if (direct[i].arriving != Vec3(0.0))
+                    record.shadow |= none_blocked;
+                if (mean_of_channels(direct[i].arriving) <
+                    (1 - rounding) * mean_of_channels(direct[i].unshadowed))
+                    record.shadow |= all_blocked;
             }
         });
 }
 
-/// A few rays estimate it badly.
-void PictureGather::smooth_nearness(const Workers& workers) {
-    std::vector<double> smoothed(records_.size());
+/// Where few points are near enough to average over.
+unsigned PictureGather::more_rays(int x, int y) const {
+    const double width = spacing(x, y), reach = reach_share / record(x, y)->nearness;
+    if (!(reach < steps_for_more * width) && width > 0)
+        return 0;
+    return reach < steps_for_many * width || width == 0 ? 4 * options_.rays : options_.rays;
+}
+
+/// A few rays estimate nearness badly, and may miss a shadow.
+void PictureGather::ask_neighbours(const Workers& workers) {
+    struct Asked {
+        double nearness = 0;
+        std::uint8_t shadow = 0;
+    };
+    std::vector<Asked> asked(records_.size());
     workers.for_chunks(static_cast<std::size_t>(rows_), 8, [&](std::size_t begin, std::size_t end) {
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
             for (int x = 0; x < columns_; ++x) {
@@ -162,18 +201,22 @@ void PictureGather::smooth_nearness(const Workers& workers) {
                 if (!here)
                     continue;
                 double sum = 0, count = 0;
+                Asked& of = asked[place_of(*here)];
                 for (int dy = -1; dy <= 1; ++dy)
                     for (int dx = -1; dx <= 1; ++dx)
                         if (const Record* const there = record(x + dx, y + dy);
                             there && here->is_of_surface(there->at)) {
                             sum += there->nearness;
                             ++count;
+                            of.shadow |= there->shadow;
                         }
-                smoothed[static_cast<std::size_t>(here - records_.data())] = sum / count;
+                of.nearness = sum / count;
             }
     });
-    for (std::size_t k = 0; k < records_.size(); ++k)
-        records_[k].nearness = smoothed[k];
+    for (std::size_t k = 0; k < records_.size(); ++k) {
+        records_[k].nearness = asked[k].nearness;
+        records_[k].shadow = asked[k].shadow;
+    }
 }
 
 /// From a point to the next ones on its surface; the larger of both directions.
@@ -202,11 +245,47 @@ double PictureGather::weight_of(const Record& here, const Record* there, double 
     return 1 - share * share * glm::dot(way, way);
 }
 
-/// Over points in opposite pairs, so that light which changes evenly stays as it is up to the edge
-/// of a surface. They are `stride` apart: what was smoothed with stride 1 has little detail between
-/// such points (the algorithme a trous: Dammertz et al. 2010).
-void PictureGather::smooth_light(int stride, const Workers& workers) {
-    std::vector<SlowLight> smoothed(records_.size());
+/// A linear function of steps from a point, by weighted least squares.
+struct PictureGather::Fit {
+    double n = 1;
+    Vec2 mean{0.0}, squares{.5}; ///< not 0, so that a few points do not say much of a slope
+    double product = 0;
+    SlowLight sum, by_x, by_y;
+
+    void add(const Vec2& offset, const SlowLight& light, double weight) {
+        n += weight;
+        mean += weight * offset;
+        squares += weight * offset * offset;
+        product += weight * offset.x * offset.y;
+        PictureGather::add(sum, light, weight);
+        PictureGather::add(by_x, light, weight * offset.x);
+        PictureGather::add(by_y, light, weight * offset.y);
+    }
+    /// From sums to the function: its slope, and its value at the point in `sum`.
+    void solve(std::array<SlowLight, 2>& slope) {
+        mean /= n;
+        squares -= n * mean * mean;
+        product -= n * mean.x * mean.y;
+        PictureGather::add(by_x, sum, -mean.x);
+        PictureGather::add(by_y, sum, -mean.y);
+        const double determinant = squares.x * squares.y - product * product;
+        slope = {};
+        PictureGather::add(slope[0], by_x, squares.y / determinant);
+        PictureGather::add(slope[0], by_y, -product / determinant);
+        PictureGather::add(slope[1], by_y, squares.x / determinant);
+        PictureGather::add(slope[1], by_x, -product / determinant);
+        sum = {sum.unshadowed / n, sum.indirect / n};
+        PictureGather::add(sum, slope[0], -mean.x);
+        PictureGather::add(sum, slope[1], -mean.y);
+        sum = {glm::max(sum.unshadowed, 0.0), glm::max(sum.indirect, 0.0)};
+    }
+};
+
+/// To the points around, so that light which changes evenly stays as it is up to the edge of a
+/// surface (local linear regression: Fan 1992). They are `stride` apart: what was smoothed with
+/// stride 1 has little detail between such points (the algorithme a trous: Dammertz et al. 2010).
+void PictureGather::fit_light(int stride, const Workers& workers) {
+    std::vector<SlowLight> fitted(records_.size());
     workers.for_chunks(static_cast<std::size_t>(rows_), 8, [&](std::size_t begin, std::size_t end) {
         give_up_if_asked();
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
@@ -215,36 +294,36 @@ void PictureGather::smooth_light(int stride, const Workers& workers) {
                 if (!here)
                     continue;
                 const double most = 1 / (least_steps * spacing(x, y));
-                SlowLight sum = here->light;
-                double weights = 1;
-                for (int dy = 0; dy <= reach_points; ++dy)
-                    for (int dx = dy > 0 ? -reach_points : 1; dx <= reach_points; ++dx) {
+                Fit fit;
+                fit.sum = light_[place_of(*here)];
+                for (int dy = -reach_points; dy <= reach_points; ++dy)
+                    for (int dx = -reach_points; dx <= reach_points; ++dx) {
                         const Record* const there = record(x + stride * dx, y + stride * dy);
-                        const Record* const opposite = record(x - stride * dx, y - stride * dy);
-                        const double weight = ends(dx) * ends(dy) *
-                                              std::min(weight_of(*here, there, most),
-                                                       weight_of(*here, opposite, most));
-                        if (!(weight > 0))
-                            continue;
-                        add(sum, there->light, weight);
-                        add(sum, opposite->light, weight);
-                        weights += 2 * weight;
+                        const double weight = ends(dx) * ends(dy) * weight_of(*here, there, most);
+                        if (weight > 0 && there != here)
+                            fit.add({dx, dy}, light_[place_of(*there)], weight);
                     }
-                smoothed[static_cast<std::size_t>(here - records_.data())] = {
-                    sum.unshadowed / weights, sum.indirect / weights};
+                std::array<SlowLight, 2> slope;
+                fit.solve(slope);
+                fitted[place_of(*here)] = fit.sum;
+                constexpr double enough = 10; // points that are wide apart know a slope better
+                if (stride == 1 || fit.n > enough)
+                    for (std::size_t k = 0; k < slope.size(); ++k)
+                        slope_[place_of(*here)][k] = {slope[k].unshadowed / double(stride),
+                                                      slope[k].indirect / double(stride)};
             }
     });
-    for (std::size_t k = 0; k < records_.size(); ++k)
-        records_[k].light = smoothed[k];
+    light_ = std::move(fitted);
 }
 
-/// From the four points around, as far as they are of the same surface. False where none is.
-bool PictureGather::interpolate(const Place& place, SlowLight& light) const {
+/// From the four points around, as far as they are of the same surface.
+std::optional<PictureGather::Around> PictureGather::interpolate(const Place& place) const {
     const double x = place.pixel.x / step - pixel_centre.x,
                  y = place.pixel.y / step - pixel_centre.y;
     const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
     constexpr double least = 1e-3; // on an edge of the square of points both sides count
-    SlowLight sum;
+    Around around;
+    SlowLight& sum = around.light;
     double weights = 0;
     for (int dy = 0; dy <= 1; ++dy)
         for (int dx = 0; dx <= 1; ++dx) {
@@ -256,43 +335,67 @@ bool PictureGather::interpolate(const Place& place, SlowLight& light) const {
             const double weight =
                 (least + (1 - std::abs(x - left - dx)) * (1 - std::abs(y - top - dy))) /
                 (1 + share * share * glm::dot(way, way));
-            add(sum, there->light, weight);
+            const std::size_t of = place_of(*there);
+            add(sum, light_[of], weight);
+            add(sum, slope_[of][0], weight * (x - left - dx));
+            add(sum, slope_[of][1], weight * (y - top - dy));
             weights += weight;
+            around.shadow |= there->shadow;
         }
     if (!(weights > 0))
-        return false;
-    light.unshadowed = sum.unshadowed / weights;
-    light.indirect = sum.indirect / weights;
-    return true;
+        return {};
+    sum.unshadowed = glm::max(sum.unshadowed / weights, 0.0);
+    sum.indirect = glm::max(sum.indirect / weights, 0.0);
+    return around;
 }
 
+/// Shadow rays are traced where some were blocked around, and some were not; all rays where no
+/// point is around.
 std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Place> places) const {
-    std::vector<SurfacePoint> points, alone;
-    std::vector<GatherSamples> samples, samples_alone;
-    std::vector<std::size_t> places_alone;
+    /// Which of the places, and with which samples.
+    struct Some {
+        std::vector<std::size_t> which;
+        std::vector<SurfacePoint> points;
+        std::vector<GatherSamples> samples;
+
+        void add(std::size_t place, const SurfacePoint& point, const GatherSamples& of) {
+            which.push_back(place);
+            points.push_back(point);
+            samples.push_back(of);
+        }
+    };
+    Some alone, in_penumbra;
     std::vector<Light> found(places.size());
-    const unsigned each = options_.shadow_rays_per_sample, of_pixel = each * options_.samples;
+    const unsigned each = std::max(1u, options_.rays / (2 * options_.samples)),
+                   of_pixel = each * options_.samples;
     for (std::size_t k = 0; k < places.size(); ++k) {
         const Place& place = places[k];
         const int x = static_cast<int>(place.pixel.x), y = static_cast<int>(place.pixel.y);
-        points.push_back(place.at);
-        samples.push_back(samples_of(x, y, of_pixel));
-        samples.back().first += each * place.sample;
-        samples.back().count = each * place.count;
-        if (interpolate(place, found[k].slow))
+        auto& [direct, slow] = found[k];
+        const std::optional<Around> around = interpolate(place);
+        if (around)
+            slow = around->light;
+        else
+            alone.add(k, place.at, samples_of(x, y, options_.rays));
+        if (around && (around->shadow == none_blocked || around->shadow == all_blocked)) {
+            direct.unshadowed = slow.unshadowed;
+            direct.arriving = around->shadow == none_blocked ? slow.unshadowed : Vec3(0.0);
             continue;
-        places_alone.push_back(k);
-        alone.push_back(place.at);
-        samples_alone.push_back(samples_of(x, y, options_.rays));
+        }
+        GatherSamples samples = samples_of(x, y, of_pixel);
+        samples.first += each * place.sample;
+        samples.count = each * place.count;
+        in_penumbra.add(k, place.at, samples);
     }
-    const std::vector<DirectLight> direct = final_gather_.direct(points, samples, Shadows::traced);
-    const std::vector<IndirectLight> lights = final_gather_.indirect(alone, samples_alone);
+    const std::vector<DirectLight> direct =
+        final_gather_.direct(in_penumbra.points, in_penumbra.samples, Shadows::traced);
+    for (std::size_t i = 0; i < direct.size(); ++i)
+        found[in_penumbra.which[i]].direct = direct[i];
+    const std::vector<IndirectLight> lights = final_gather_.indirect(alone.points, alone.samples);
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        found[places_alone[i]].slow.indirect = lights[i].irradiance;
-        found[places_alone[i]].slow.unshadowed = direct[places_alone[i]].unshadowed;
+        Light& light = found[alone.which[i]];
+        light.slow = {light.direct.unshadowed, lights[i].irradiance};
     }
-    for (std::size_t k = 0; k < found.size(); ++k)
-        found[k].direct = direct[k];
     return found;
 }
 

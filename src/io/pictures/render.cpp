@@ -109,10 +109,7 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
     const auto samples = static_cast<unsigned>(options.samples);
     const PictureGather gather(
         mesh, tracer, PatchLight(radiosity, options.slope), rays, options.width, options.height,
-        {.rays = options.gather,
-         .shadow_rays_per_sample = std::max(1u, options.gather / (4 * samples)),
-         .samples = samples,
-         .give_up = options.give_up},
+        {.rays = options.gather, .samples = samples, .give_up = options.give_up},
         Workers(options.threads));
     return GatheredPicture(mesh, visible, gather, offsets, options.width, options.height)
         .render(options.give_up, Workers(options.threads));

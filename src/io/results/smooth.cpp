@@ -2,7 +2,6 @@
 
 #include "bvh/tracer.h"
 #include "geometry/numeric.h"
-#include "io/results/weld.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/scene/mesh.h"
 
@@ -30,31 +29,43 @@ struct Meetings {
     std::vector<Vec3> position;
 };
 
-/// The numbers of the points of all corners in turn. A patch often has two of the one before,
-/// which need not be looked for.
-std::vector<std::uint32_t> weld_corners(std::span<const Patch> patches, Welder& welder) {
-    std::vector<std::uint32_t> point;
-    point.reserve(4 * patches.size());
-    std::span<const Vec3> before;
-    for (const Patch& patch : patches) {
-        const auto corners =
-            std::span(patch.shape.corner).first(static_cast<std::size_t>(patch.shape.size()));
-        const std::size_t first_before = point.size() - before.size();
-        for (const Vec3& corner : corners) {
-            const auto same =
-                static_cast<std::size_t>(std::ranges::find(before, corner) - before.begin());
-            point.push_back(same < before.size() ? point[first_before + same] : welder.add(corner));
-        }
-        before = corners;
+/// The first of those that are one with each, by a sweep along a direction in which hardly any two
+/// other points are as near.
+std::vector<std::uint32_t> first_of_point(std::span<const Vec3> corners) {
+    constexpr Vec3 along(0.4896791743, -0.5781243907, 0.6526183259);
+    std::vector<double> place;
+    for (const Vec3& corner : corners)
+        place.push_back(glm::dot(along, corner));
+    std::vector<std::uint32_t> order(corners.size()), first(corners.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(place[i], i); });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const std::uint32_t i = first[order[k]] = order[k];
+        for (std::size_t m = k; m-- > 0 && place[i] - place[order[m]] <= weld_distance;)
+            if (glm::distance(corners[i], corners[order[m]]) <= weld_distance) {
+                first[i] = first[order[m]];
+                break;
+            }
     }
-    return point;
+    return first;
 }
 
 Meetings find_meetings(std::span<const Patch> patches) {
-    Welder welder(weld_distance);
-    const std::vector<std::uint32_t> point = weld_corners(patches, welder);
+    std::vector<Vec3> corners;
+    for (const Patch& patch : patches)
+        corners.insert(corners.end(), patch.shape.corner.begin(),
+                       patch.shape.corner.begin() + patch.shape.size());
+    const std::vector<std::uint32_t> first = first_of_point(corners);
     Meetings result;
-    result.position = welder.take_points();
+    std::vector<std::uint32_t> number(corners.size(), none), point;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        std::uint32_t& of_point = number[first[k]];
+        if (of_point == none) {
+            of_point = static_cast<std::uint32_t>(result.position.size());
+            result.position.push_back(corners[k]);
+        }
+        point.push_back(of_point);
+    }
     result.first.assign(result.position.size() + 1, 0);
     for (const std::uint32_t v : point)
         ++result.first[v + 1];

@@ -3,7 +3,7 @@
 #include "geometry/polygon.h"
 #include "radiosity/scene/coplanar_layers.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/sides/welded_edges.h"
+#include "radiosity/scene/welded_edges.h"
 #include "radiosity/solving/check_input.h"
 
 #include <algorithm>
@@ -45,13 +45,6 @@ void add_doubt(std::string& text, const std::string& name, std::size_t count,
                const std::string& meaning) {
     if (count > 0)
         add_line(text, name, text_of(count) + " (" + meaning + ")");
-}
-
-std::vector<bool> find_used_materials(const Scene& scene) {
-    std::vector<bool> used(scene.materials.size(), false);
-    for (const Facet& facet : scene.facets)
-        used[facet.material] = true;
-    return used;
 }
 
 bool emits(const Vec3& e) { return e.x > 0 || e.y > 0 || e.z > 0; }
@@ -107,7 +100,7 @@ SceneInfo inspect(const ReadResult& read) {
     info.degenerate_faces = read.degenerate_faces;
     info.nonplanar_faces = read.nonplanar_faces;
     info.concave_faces = read.concave_faces;
-    const std::vector<bool> used = find_used_materials(scene);
+    const std::vector<bool> used = materials_in_use(scene);
     for (std::size_t m = 0; m < used.size(); ++m)
         if (used[m] && emits(scene.materials[m].emission))
             info.emitters.push_back(scene.materials[m].name);
@@ -116,7 +109,7 @@ SceneInfo inspect(const ReadResult& read) {
 }
 
 std::vector<std::string> find_bad_reflectances(const ReadResult& read) {
-    const std::vector<bool> used = find_used_materials(read.scene);
+    const std::vector<bool> used = materials_in_use(read.scene);
     std::vector<std::string> messages;
     for (std::size_t m = 0; m < used.size(); ++m) {
         const Material& material = read.scene.materials[m];

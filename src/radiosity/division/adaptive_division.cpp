@@ -4,13 +4,14 @@
 #include "radiosity/division/patch_levels.h"
 #include "radiosity/final_gather/division_error.h"
 #include "radiosity/final_gather/light_within_patches.h"
+#include "radiosity/final_gather/linear_light.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/scene/needs.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -22,11 +23,14 @@ constexpr unsigned most_rounds = 20;
 
 /// A round makes so many times more patches at the most, as what varies is known but roughly.
 /// At the least, as it costs as much as the patches that it would spare.
-constexpr double most_growth = 4, least_growth = 1.25;
+constexpr double most_growth = 4, least_growth = 1.1;
 constexpr std::size_t least_room = 256;
 
 /// Of points on large patches: when they are new, and in further rounds.
 constexpr unsigned rows_at_first = 6, rows_again = 3;
+
+/// In each round one in so many of the other patches is measured again.
+constexpr std::uint64_t one_again_in = 4;
 
 /// The light is solved anew when there are so many times more patches than were solved.
 constexpr double solved_at_growth = 6;
@@ -34,109 +38,19 @@ constexpr double solved_at_growth = 6;
 /// The rough solution's error: most of it is gone once the light is reflected.
 constexpr double least_rough_error = .02, most_rough_error = .05;
 
-/// What is known of the patches.
-class Division {
-  public:
-    Division(Mesh& mesh, const Tracer& tracer, Solution& solution, const AdaptiveDivision& options,
-             Monitor& monitor)
-        : mesh_(mesh), tracer_(tracer), solution_(solution), options_(options), monitor_(monitor),
-          workers_(options.threads), square_(mesh.patches().size()), times_(mesh.patches().size()),
-          solved_(mesh.patches().size()) {}
+/// Noise that is large beside what is allowed would divide patches for nothing.
+unsigned rays_of_estimate(double error) {
+    constexpr double at_error_of_one = .11, least = 4, most = 16;
+    return static_cast<unsigned>(std::clamp(std::round(at_error_of_one / error), least, most));
+}
 
-    [[nodiscard]] std::size_t patches() const { return mesh_.patches().size(); }
+/// Patches that hold so little light are not measured: if it varied by as much as it is, all that
+/// they leave would be this share of what is allowed.
+constexpr double negligible_share = .05;
 
-    /// Whether there is a rough solution.
-    [[nodiscard]] bool solve_if_due() {
-        rays_ = 0;
-        if (double(patches()) < solved_at_growth * double(solved_))
-            return true;
-        Solution solution = rough_solution(mesh_, tracer_, options_, monitor_);
-        if (solution.steps == 0)
-            return false;
-        rays_ = solution.rays_energy;
-        solution_ = std::move(solution);
-        solved_ = patches();
-        return true;
-    }
-    /// What varies within patches. Each is measured in each round, by new points: where a few
-    /// points miss something once, the patch must not count as even for ever.
-    void measure(std::uint64_t seed) {
-        monitor_.phase = "dividing";
-        fresh_ = fresh_squares_ = 0;
-        for (const bool is_new : {true, false}) {
-            std::vector<std::uint32_t> some;
-            for (std::uint32_t i = 0; i < patches(); ++i)
-                if ((times_[i] == 0) == is_new)
-                    some.push_back(i);
-            measure(some, is_new ? rows_at_first : rows_again, hash_words({seed, is_new}));
-        }
-    }
-    [[nodiscard]] DivisionRound round() const {
-        return {patches(), std::sqrt(std::max(fresh_, 0.0) / size()), rays_};
-    }
-    /// Whether the division is done, and that is known: few points may miss what few patches hold,
-    /// whose squares then scatter.
-    [[nodiscard]] bool is_done() const {
-        constexpr double doubt = .5;
-        const double most = fresh_ + doubt * std::sqrt(fresh_squares_);
-        return most <= options_.error * options_.error * size();
-    }
-    /// False where nothing can be divided.
-    [[nodiscard]] bool divide() {
-        const auto times = [&](double growth) {
-            return static_cast<std::size_t>(growth * double(patches()));
-        };
-        const std::vector<std::uint8_t> levels = levels_of_division(
-            square_,
-            {.goal = options_.error * options_.error * size(),
-             .least_pieces = times(least_growth),
-             .most_pieces = std::min(options_.most_patches, times(most_growth) + least_room)});
-        if (std::ranges::none_of(levels, [](std::uint8_t level) { return level > 0; }))
-            return false;
-        const std::size_t before = patches();
-        const std::vector<std::uint32_t> parents = mesh_.refine(levels);
-        std::vector<std::uint32_t> pieces(before);
-        for (const std::uint32_t parent : parents)
-            ++pieces[parent];
-        square_ = inherited(square_, parents);
-        times_ = inherited(times_, parents);
-        for (std::size_t k = 0; k < parents.size(); ++k)
-            if (pieces[parents[k]] > 1)
-                times_[k] = 0;
-        inherit(solution_, parents);
-        return true;
-    }
-
-  private:
-    void measure(std::span<const std::uint32_t> some, unsigned most_rows, std::uint64_t seed) {
-        const LightWithinPatches found = light_within_patches(
-            {mesh_, tracer_, solution_}, some,
-            {.estimates = 1, .most_rows = most_rows, .seed = seed}, workers_, monitor_.interrupted);
-        for (std::size_t k = 0; k < some.size(); ++k) {
-            fresh_ += found.square[k];
-            fresh_squares_ += found.square[k] * found.square[k];
-            double& times = times_[some[k]];
-            double& square = square_[some[k]];
-            square = (times * square + most_rows * found.square[k]) / (times + most_rows);
-            times += most_rows;
-        }
-        rays_ += found.rays;
-    }
-    [[nodiscard]] double size() const { return reflected_square(mesh_, solution_); }
-
-    Mesh& mesh_;
-    const Tracer& tracer_;
-    Solution& solution_;
-    const AdaptiveDivision& options_;
-    Monitor& monitor_;
-    Workers workers_;
-    std::vector<double> square_; ///< by patch, as of light_within_patches()
-    std::vector<double> times_;  ///< that the patch was measured, by rows of points
-    double fresh_ = 0;           ///< sum of what was measured in this round alone
-    double fresh_squares_ = 0;   ///< and of its squares
-    std::size_t solved_;
-    std::uint64_t rays_ = 0;
-};
+/// Of what is allowed, what the noise of slopes may be; and gathers in one place for it.
+constexpr double share_of_noise = .1;
+constexpr double most_estimates = 8;
 
 } // namespace
 
@@ -157,31 +71,181 @@ Solution rough_solution(const Mesh& mesh, const Tracer& tracer, const AdaptiveDi
     const StopRule stop = rough_stop(options, mesh.patches().size());
     solve.aim = stop.error.value_or(0);
     solve.memory = options.memory;
-    const auto solver = find_method("gathering")->make({mesh, tracer, solve, monitor, needs});
+    const auto solver = method_of(Role::standard).make({mesh, tracer, solve, monitor, needs});
     run(*solver, {mesh, tracer, solve, monitor, needs}, stop);
     return solver->solution();
 }
 
-bool divide_where_light_changes(Mesh& mesh, const Tracer& tracer, Solution& solution,
-                                const AdaptiveDivision& options, Monitor& monitor,
-                                const std::function<void(const DivisionRound&)>& after_round) {
-    if (solution.steps == 0 || !(reflected_square(mesh, solution) > 0))
-        return false;
-    const std::size_t patches = mesh.patches().size();
-    Division division(mesh, tracer, solution, options, monitor);
-    for (unsigned round = 0; round < most_rounds; ++round) {
-        if (!division.solve_if_due() || monitor.interrupted)
+Division::Division(Mesh& mesh, const Tracer& tracer, const AdaptiveDivision& options,
+                   Monitor& monitor)
+    : mesh_(mesh), tracer_(tracer), options_(options), monitor_(monitor), workers_(options.threads),
+      solved_(mesh.patches().size()), square_(solved_), times_(solved_), slopes_(solved_),
+      is_due_(solved_, 1), measured_at_(solved_) {}
+
+bool Division::divide(Solution& light, double error,
+                      const std::function<void(const DivisionRound&)>& after_round) {
+    const std::size_t patches = mesh_.patches().size();
+    for (unsigned round = 0; round < most_rounds && light.steps > 0; ++round) {
+        rays_ = 0;
+        if (!solve_if_due(light))
             break;
-        division.measure(hash_words({options.seed, 2, round}));
-        if (monitor.interrupted)
+        const double size = reflected_square(mesh_, light), goal = error * error * size;
+        if (!(size > 0) || monitor_.interrupted)
             break;
-        const DivisionRound found = division.round();
+        monitor_.phase = "dividing";
+        ++round_;
+        measure(light, goal);
+        if (monitor_.interrupted)
+            break;
         if (after_round)
-            after_round(found);
-        if (division.is_done() || !division.divide())
+            after_round({mesh_.patches().size(), std::sqrt(std::max(fresh_, 0.0) / size), rays_});
+        if (is_done(goal) || !cut(light, goal))
             break;
     }
-    return mesh.patches().size() > patches;
+    return mesh_.patches().size() > patches;
 }
+
+/// False where no solution was found.
+bool Division::solve_if_due(Solution& light) {
+    const std::size_t patches = mesh_.patches().size();
+    if (double(patches) < solved_at_growth * double(solved_))
+        return true;
+    Solution solution = rough_solution(mesh_, tracer_, options_, monitor_);
+    if (solution.steps == 0)
+        return false;
+    rays_ += solution.rays_energy;
+    light = std::move(solution);
+    solved_ = patches;
+    return true;
+}
+
+void Division::measure(const Solution& light, double goal) {
+    const auto most = [&](std::uint32_t i) {
+        const Vec3 reflected = light.radiosity[i] - mesh_.material(i).emission;
+        const double all = mesh_.patches()[i].area * glm::dot(reflected, reflected);
+        return std::max(all, square_[i]); // inherited
+    };
+    std::vector<std::uint32_t> due;
+    for (std::uint32_t i = 0; i < is_due_.size(); ++i)
+        if (is_due_[i])
+            due.push_back(i);
+    std::ranges::sort(due, {}, [&](std::uint32_t i) { return std::pair(most(i), i); });
+    double left_out = 0;
+    const auto first = std::ranges::find_if(
+        due, [&](std::uint32_t i) { return (left_out += most(i)) > negligible_share * goal; });
+    fresh_ = fresh_squares_ = 0;
+    for (const bool is_new : {true, false}) {
+        std::vector<std::uint32_t> some;
+        std::copy_if(first, due.end(), std::back_inserter(some),
+                     [&](std::uint32_t i) { return (times_[i] == 0) == is_new; });
+        std::ranges::sort(some);
+        measure(light, some, 1, is_new ? rows_at_first : rows_again);
+    }
+    // Those that were chosen for what was measured there are not a fair sample of all; these are.
+    std::vector<std::uint32_t> some;
+    for (std::uint32_t i = 0; i < is_due_.size(); ++i)
+        if (times_[i] > 0 && measured_at_[i] < round_ &&
+            hash_words({options_.seed, measured_, i}) % one_again_in == 0)
+            some.push_back(i);
+    measure(light, some, 1, rows_again, one_again_in);
+}
+
+/// By new points each time.
+void Division::measure(const Solution& light, std::span<const std::uint32_t> some,
+                       std::size_t estimates, unsigned most_rows, double stand_for) {
+    const LightWithinPatches found =
+        light_within_patches({mesh_, tracer_, light}, some,
+                             {.estimates = estimates,
+                              .rays = rays_of_estimate(options_.error),
+                              .most_rows = most_rows,
+                              .seed = hash_words({options_.seed, 2, measured_++})},
+                             workers_, monitor_.interrupted);
+    rays_ += found.rays;
+    if (monitor_.interrupted)
+        return;
+    for (std::size_t k = 0; k < some.size(); ++k) {
+        const std::uint32_t i = some[k];
+        fresh_ += stand_for * found.square[k];
+        fresh_squares_ += stand_for * found.square[k] * found.square[k];
+        const double weight = double(estimates), of_new = weight / (times_[i] + weight);
+        square_[i] = std::lerp(square_[i], found.square[k], of_new);
+        for (std::size_t e = 0; e < 2; ++e) {
+            Slope& slope = slopes_[i][e];
+            slope.x = glm::mix(slope.x, found.slopes[k][e].x, of_new);
+            slope.y = glm::mix(slope.y, found.slopes[k][e].y, of_new);
+        }
+        times_[i] += weight;
+        measured_at_[i] = round_;
+        is_due_[i] = 0;
+    }
+}
+
+/// Whether the division is done, and that is known: few points may miss what few patches hold,
+/// whose squares then scatter.
+bool Division::is_done(double goal) const {
+    constexpr double doubt = .5;
+    return fresh_ + doubt * std::sqrt(fresh_squares_) <= goal;
+}
+
+/// False where nothing can be divided.
+bool Division::cut(Solution& light, double goal) {
+    const std::size_t before = mesh_.patches().size();
+    const auto times = [&](double growth) {
+        return static_cast<std::size_t>(growth * double(before));
+    };
+    const std::vector<std::uint8_t> levels = levels_of_division(
+        square_, {.goal = goal,
+                  .least_pieces = times(least_growth),
+                  .most_pieces = std::min(options_.most_patches, times(most_growth) + least_room)});
+    if (std::ranges::none_of(levels, [](std::uint8_t level) { return level > 0; }))
+        return false;
+    const std::vector<std::uint32_t> parents = mesh_.refine(levels);
+    square_ = inherited(square_, parents);
+    slopes_ = inherited(slopes_, parents);
+    times_ = inherited(times_, parents);
+    is_due_ = inherited(is_due_, parents);
+    measured_at_ = inherited(measured_at_, parents);
+    std::vector<std::uint32_t> pieces(before);
+    for (const std::uint32_t parent : parents)
+        ++pieces[parent];
+    for (std::size_t k = 0; k < parents.size(); ++k)
+        if (pieces[parents[k]] > 1) {
+            times_[k] = 0;
+            square_[k] /= pieces[parents[k]];
+            is_due_[k] = 1;
+        }
+    inherit(light, parents);
+    return true;
+}
+
+std::uint64_t Division::add_slopes(Solution& light, double error) {
+    rays_ = 0;
+    const auto patches = mesh_.patches();
+    const double allowed = share_of_noise * error * error * reflected_square(mesh_, light);
+    double noise = 0;
+    std::vector<std::uint32_t> noisy;
+    for (std::uint32_t i = 0; i < patches.size(); ++i) {
+        const double own = agreed_slope(patches[i], slopes_[i]).noise;
+        noise += own;
+        if (own * double(patches.size()) > allowed)
+            noisy.push_back(i);
+    }
+    if (noise > allowed && !monitor_.interrupted) {
+        const auto estimates =
+            static_cast<std::size_t>(std::min(std::round(noise / allowed), most_estimates));
+        measure(light, noisy, estimates, rows_again);
+    }
+    light.slope = slopes();
+    return rays_;
+}
+
+std::vector<Slope> Division::slopes() const {
+    std::vector<Slope> slopes;
+    for (std::size_t i = 0; i < slopes_.size(); ++i)
+        slopes.push_back(agreed_slope(mesh_.patches()[i], slopes_[i]).slope);
+    return slopes;
+}
+
+void Division::doubt() { is_due_.assign(is_due_.size(), 1); }
 
 } // namespace hemilux

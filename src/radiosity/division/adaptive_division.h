@@ -7,11 +7,14 @@
 // is as small as it is asked to be.
 
 #include "bvh/tracer.h"
+#include "radiosity/sampling/workers.h"
 #include "radiosity/solving/solver.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace hemilux {
 
@@ -41,11 +44,53 @@ struct DivisionRound {
 [[nodiscard]] Solution rough_solution(const Mesh& mesh, const Tracer& tracer,
                                       const AdaptiveDivision& options, Monitor& monitor);
 
-/// Divides the mesh; the tracer, which is of this mesh, remains right. `solution`: of the mesh as
-/// it is, and then of the divided one: pieces have what their patch had. Returns whether patches
-/// were divided. Where it was interrupted the mesh is divided as far as the rounds before came.
-bool divide_where_light_changes(Mesh& mesh, const Tracer& tracer, Solution& solution,
-                                const AdaptiveDivision& options, Monitor& monitor,
-                                const std::function<void(const DivisionRound&)>& after_round = {});
+/// What is known of how the light varies within patches. The tracer, which is of the mesh, remains
+/// right when patches are divided.
+class Division {
+  public:
+    Division(Mesh& mesh, const Tracer& tracer, const AdaptiveDivision& options, Monitor& monitor);
+
+    /// Divides until linear functions leave `error`, or nothing more can be divided; `light`: of
+    /// the mesh as it is, and then of the divided one: pieces have what their patch had. Returns
+    /// whether patches were divided. Where it was interrupted the mesh is divided as far as the
+    /// rounds before came.
+    bool divide(Solution& light, double error,
+                const std::function<void(const DivisionRound&)>& after_round = {});
+    /// Makes the light on patches linear functions of the place, whose noise is well below `error`.
+    /// Returns the rays that this took.
+    std::uint64_t add_slopes(Solution& light, double error);
+    /// By patch what linear functions leave, as far as it is known.
+    [[nodiscard]] std::span<const double> squares() const { return square_; }
+    /// By patch, of the light as it was measured.
+    [[nodiscard]] std::vector<Slope> slopes() const;
+    /// From now on each patch is measured once more before it is divided: what was missed so far
+    /// may be found.
+    void doubt();
+
+  private:
+    [[nodiscard]] bool solve_if_due(Solution& light);
+    void measure(const Solution& light, double goal);
+    void measure(const Solution& light, std::span<const std::uint32_t> some, std::size_t estimates,
+                 unsigned most_rows, double stand_for = 1);
+    [[nodiscard]] bool is_done(double goal) const;
+    [[nodiscard]] bool cut(Solution& light, double goal);
+
+    Mesh& mesh_;
+    const Tracer& tracer_;
+    AdaptiveDivision options_;
+    Monitor& monitor_;
+    Workers workers_;
+    std::size_t solved_;         ///< patches of the last solution
+    std::uint64_t measured_ = 0; ///< so many times
+    std::uint32_t round_ = 0;
+    // In this round:
+    std::uint64_t rays_ = 0;
+    double fresh_ = 0, fresh_squares_ = 0; ///< sums of what was measured, and of its squares
+    // By patch, the means of what was measured there, as of light_within_patches():
+    std::vector<double> square_, times_;
+    std::vector<std::array<Slope, 2>> slopes_;
+    std::vector<std::uint8_t> is_due_;       ///< to be measured
+    std::vector<std::uint32_t> measured_at_; ///< the round, at last
+};
 
 } // namespace hemilux

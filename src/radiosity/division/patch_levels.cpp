@@ -49,8 +49,10 @@ std::vector<std::uint8_t> levels_of_division(std::span<const double> square,
         if (outcome.pieces > static_cast<double>(options.most_pieces))
             break;
         bound = next;
-        if (outcome.square <= options.goal &&
-            outcome.pieces >= static_cast<double>(options.least_pieces))
+        const bool is_enough = outcome.square <= options.goal ||
+                               // All pieces together, if each errs so much.
+                               bound * outcome.pieces <= options.goal;
+        if (is_enough && outcome.pieces >= static_cast<double>(options.least_pieces))
             break;
     }
     for (std::size_t i = 0; i < square.size(); ++i)

@@ -22,8 +22,11 @@ namespace {
 /// Rounds of points: many, since the spread of a few would end them when it happens to be small.
 constexpr std::size_t points_per_round = 64, least_rounds = 16;
 
+/// By which the length of gathers is chosen.
+constexpr std::size_t first_rounds = 4;
+
 /// Relative uncertainty of the squared error at which it is known well enough.
-constexpr double well_known = .2;
+constexpr double well_known = .25;
 
 /// Sums over independent rounds of points.
 struct Rounds {
@@ -43,13 +46,18 @@ struct Rounds {
     }
 };
 
-/// The integral of (g1 - B)(g2 - B) over the surfaces, by one set of points.
-double product_over_surface(const Mesh& mesh, const Solution& solution, FinalGather& gather,
-                            std::uint64_t seed, const Workers& workers,
-                            const StopFlag& interrupted) {
+/// Integrals over the surfaces, by one set of points.
+struct Products {
+    double error = 0; ///< of (g1 - B)(g2 - B)
+    double noise = 0; ///< of (g1 - g2)^2 / 2
+};
+
+Products products_over_surface(const Mesh& mesh, const Solution& solution, FinalGather& gather,
+                               const PointsOverSurface& surface, std::uint64_t seed,
+                               const Workers& workers, const StopFlag& interrupted) {
     const auto [points, irradiance] =
-        gather_twice(mesh, gather, points_per_round, seed, workers, interrupted);
-    double sum = 0;
+        gather_twice(surface, gather, points_per_round, seed, workers, interrupted);
+    Products sums;
     for (std::size_t k = 0; k < points.size(); ++k) {
         const Material& material = mesh.material(points[k].patch);
         const Vec3 reflected =
@@ -57,9 +65,32 @@ double product_over_surface(const Mesh& mesh, const Solution& solution, FinalGat
             material.emission;
         const Vec3 off1 = material.reflectance * irradiance[2 * k] - reflected;
         const Vec3 off2 = material.reflectance * irradiance[2 * k + 1] - reflected;
-        sum += points[k].area * glm::dot(off1, off2);
+        sums.error += points[k].area * glm::dot(off1, off2);
+        sums.noise += points[k].area * .5 * glm::dot(off1 - off2, off1 - off2);
     }
-    return sum;
+    return sums;
+}
+
+/// Half of the points by area, half by the squared error.
+std::vector<double> density_of_points(const Mesh& mesh, std::span<const double> square) {
+    double area = 0, sum = 0;
+    for (std::size_t i = 0; i < square.size(); ++i) {
+        area += mesh.patches()[i].area;
+        sum += std::max(square[i], 0.0);
+    }
+    std::vector<double> density;
+    for (std::size_t i = 0; i < square.size() && sum > 0; ++i)
+        density.push_back(.5 + .5 * std::max(square[i], 0.0) / sum * area / mesh.patches()[i].area);
+    return density;
+}
+
+/// How long gathers are to be, in units of the shortest. The variance of a product is about
+/// (error^2 + noise^2 / length)^2, so that long ones know a small error sooner than many short
+/// ones; more points are needed anyway, as the error is not the same everywhere.
+unsigned length_of_gathers(double error_square, double noise_square) {
+    constexpr double noise_beside_error = 4, longest = 64;
+    const double length = noise_square / (noise_beside_error * error_square);
+    return static_cast<unsigned>(std::clamp(std::round(length), 1.0, longest));
 }
 
 /// The share of the variance that shows where the points are: all of what patches err each for
@@ -117,15 +148,29 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
     FinalGather gather(mesh, tracer, solution);
     const double known = seen_variance(mesh, solution) / size;
     const double freedom = std::max(error_spread(mesh, solution).freedom, 1.0);
+    const double negligible = options.negligible * options.negligible;
+    const PointsOverSurface surface(mesh, density_of_points(mesh, options.square));
+    const auto products = [&](std::uint64_t number) {
+        const Products sums =
+            products_over_surface(mesh, solution, gather, surface,
+                                  hash_words({options.seed, number}), workers, interrupted);
+        return Products{sums.error / size, sums.noise / size};
+    };
+    Rounds first, noise;
+    for (std::size_t k = 0; k < first_rounds && !interrupted; ++k) {
+        const Products found = products(k);
+        first.add(found.error);
+        noise.add(found.noise);
+    }
+    const double least = std::max(known, negligible);
+    gather.set_rounds(length_of_gathers(std::max(first.mean(), least), noise.mean()));
     Rounds rounds;
     while (rounds.count < least_rounds || gather.rays() < options.most_rays) {
-        const double product = product_over_surface(
-            mesh, solution, gather, hash_words({options.seed, rounds.count}), workers, interrupted);
+        const double product = products(first_rounds + rounds.count).error;
         if (interrupted)
             return result;
-        rounds.add(product / size);
-        const double enough =
-            std::max(well_known * (rounds.mean() - known), options.negligible * options.negligible);
+        rounds.add(product);
+        const double enough = std::max(well_known * (rounds.mean() - known), negligible);
         if (rounds.count >= least_rounds && rounds.uncertainty() <= enough)
             break;
     }
@@ -157,7 +202,7 @@ std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,
         const Patch& patch = mesh.patches()[i];
         double off = within.square[i];
         if (solution.slope.empty()) {
-            const Vec3 variance = variance_of(patch, within.slope[i]);
+            const Vec3 variance = variance_of(patch, agreed_slope(patch, within.slopes[i]).slope);
             off += patch.area * (variance.x + variance.y + variance.z);
         }
         const double of_place = patch.area > 0 ? off / size * area / patch.area : 0;

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -33,10 +34,13 @@ struct DivisionError {
 
 struct DivisionErrorOptions {
     std::uint64_t seed = 1;
-    /// Points are added until the error is known to a tenth of itself, or surely below
+    /// Points are added until the error is known to an eighth of itself, or surely below
     /// `negligible`, or so many rays were traced; but a thousand points there are always.
     std::uint64_t most_rays = 1'000'000;
     double negligible = 0;
+    /// Squared errors by patch, as far as they are known: where they are large more points are
+    /// drawn. Or empty.
+    std::span<const double> square = {};
 };
 
 /// The sum over patches of area times reflected radiosity squared, to which errors are relative.

@@ -1,13 +1,13 @@
 #include "radiosity/final_gather/final_gather.h"
 
 #include "radiosity/form_factors/point_to_patch.h"
-#include "radiosity/gathering/small_emitters.h"
 #include "radiosity/rays/receivers.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/solving/stop_flag.h"
+#include "radiosity/stored_transport/small_emitters.h"
 
 #include <algorithm>
 #include <array>
@@ -32,13 +32,14 @@ constexpr unsigned most_bounces = 8;
 } // namespace
 
 FinalGather::FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
-                         unsigned random_rays)
-    : FinalGather(mesh, tracer, light, random_rays, small_emitters(mesh)) {}
+                         unsigned random_rays, unsigned shadow_rays)
+    : FinalGather(mesh, tracer, light, random_rays, shadow_rays, small_emitters(mesh)) {}
 
 FinalGather::FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
-                         unsigned random_rays, const std::vector<std::uint32_t>& emitters)
+                         unsigned random_rays, unsigned shadow_rays,
+                         const std::vector<std::uint32_t>& emitters)
     : mesh_(mesh), tracer_(tracer), light_(light), random_rays_(random_rays),
-      left_out_(mesh.patches().size(), Vec3(0.0)),
+      shadow_rays_(shadow_rays), left_out_(mesh.patches().size(), Vec3(0.0)),
       sides_(whole_sides(mesh, one_of_each_side(mesh, emitters))), choice_(mesh, sides_) {
     for (const std::uint32_t i : emitters)
         left_out_[i] = mesh.material(i).emission;
@@ -75,28 +76,26 @@ std::vector<Vec3> FinalGather::irradiance(std::span<const SurfacePoint> points,
 
 void FinalGather::gather(const SurfacePoint& point, std::uint64_t seed, std::size_t estimates,
                          std::uint32_t place, Batch& batch) const {
-    const auto& [position, normal, facet] = point;
-    EmitterChoice::Cut& cut = batch.cut;
     const bool any = !emitters_.empty();
     if (any)
-        choice_.weigh(position, normal, cut);
-    const bool by_shadow_rays = any && !cut.dark() && cut.pays();
-    const Frame frame = Frame::from_normal(normal);
+        weigh(point, batch);
+    const bool by_shadow_rays = any && !batch.cut.dark() && batch.cut.pays();
+    const Frame frame = Frame::from_normal(point.normal);
     for (std::size_t e = 0; e < estimates; ++e, ++place) {
         SobolBlocks<5> numbers(hash_words({seed, e}));
         for (std::uint32_t round = 0; round < rounds_; ++round) {
             numbers.move_to(round * random_rays_);
             for (std::uint32_t k = 0; k < random_rays_; ++k) {
                 const auto u = numbers.point(k);
-                Ray ray{position, frame.to_world(cosine_direction({u[0], u[1]}))};
-                ray.from = facet;
+                Ray ray{point.position, frame.to_world(cosine_direction({u[0], u[1]}))};
+                ray.from = point.facet;
                 batch.random.push_back(ray);
                 batch.from_patch.push_back({place, Vec3(1.0 / (random_rays_ * rounds_))});
                 batch.sees_emission.push_back(any && !by_shadow_rays);
                 batch.seeds.push_back(hash_words({seed, e, round * random_rays_ + k}));
             }
             if (by_shadow_rays)
-                add_shadow_rays(point, numbers, 0, shadow_rays, shadow_rays * rounds_, place,
+                add_shadow_rays(point, numbers, 0, shadow_rays_, shadow_rays_ * rounds_, place,
                                 batch);
         }
     }
@@ -105,15 +104,14 @@ void FinalGather::gather(const SurfacePoint& point, std::uint64_t seed, std::siz
 void FinalGather::add_shadow_rays(const SurfacePoint& point, const SobolBlocks<5>& numbers,
                                   std::uint32_t first, std::uint32_t count, std::uint32_t of,
                                   std::uint32_t place, Batch& batch) const {
-    const auto& [position, normal, facet] = point;
     EmitterChoice::Choices choices;
     choice_.choose(batch.cut, numbers.coordinate(4), choices);
     for (std::uint32_t k = first; k < first + count; ++k) {
         const auto u = numbers.point(k);
         const Emitter& emitter = emitters_[choices[k].emitter];
         Ray ray{};
-        const double factor = look_from(position, normal, facet, emitter.side, emitter.points,
-                                        {u[2], u[3]}, emitter.near, ray);
+        const double factor = look_from(point.position, point.normal, point.facet, emitter.side,
+                                        emitter.points, {u[2], u[3]}, emitter.near, ray);
         if (!(factor > 0))
             continue;
         batch.shadow.push_back(ray);
@@ -135,61 +133,56 @@ void FinalGather::send_shadow_rays(Batch& batch, const Add& add) const {
     batch.clear_shadow_rays();
 }
 
+void FinalGather::weigh(const SurfacePoint& point, Batch& batch) const {
+    if (point.patch == none)
+        choice_.weigh(point.position, point.normal, batch.cut);
+    else if (point.patch != batch.weighed)
+        choice_.weigh(point.patch, 0, batch.cut);
+    batch.weighed = point.patch;
+}
+
 /// One ray at random, and one to an emitter where such are taken, of a path that goes on.
-void FinalGather::go_on(const SurfacePoint& point, const Vec3& light, std::uint32_t place,
-                        std::uint64_t seed, Batch& batch) const {
+void FinalGather::go_on(const Batch& from, std::size_t ray, std::uint32_t patch, const Vec3& point,
+                        Batch& next) const {
+    const std::uint64_t seed = from.seeds[ray];
+    const Patch& on = mesh_.patches()[patch];
+    const auto& [place, share] = from.from_patch[ray];
+    // Russian roulette (Arvo and Kirk 1990) keeps the paths in narrow gaps short.
+    const Vec3& rho = mesh_.material(on).reflectance;
+    const double kept = std::max({rho.x, rho.y, rho.z});
+    if (Rng(hash_words({seed, 2})).uniform() >= kept)
+        return;
+    const Vec3 light = share * rho / kept;
+    const SurfacePoint at{point, on.normal, on.facet, patch};
     Rng rng(seed);
     const bool any = !emitters_.empty();
     if (any)
-        choice_.weigh(point.position, point.normal, batch.cut);
-    const bool by_shadow_rays = any && !batch.cut.dark() && batch.cut.pays();
-    Ray ray{point.position, Frame::from_normal(point.normal).to_world(sample_cosine(rng))};
-    ray.from = point.facet;
-    batch.random.push_back(ray);
-    batch.from_patch.push_back({place, light});
-    batch.sees_emission.push_back(any && !by_shadow_rays);
-    batch.seeds.push_back(hash_words({seed, 1}));
+        weigh(at, next);
+    const bool by_shadow_rays = any && !next.cut.dark() && next.cut.pays();
+    Ray further{point, Frame::from_normal(on.normal).to_world(sample_cosine(rng))};
+    further.from = on.facet;
+    next.random.push_back(further);
+    next.from_patch.push_back({place, light});
+    next.sees_emission.push_back(any && !by_shadow_rays);
+    next.seeds.push_back(hash_words({seed, 1}));
     if (!by_shadow_rays)
         return;
     EmitterChoice::Choices choices;
     std::array<double, std::tuple_size_v<EmitterChoice::Choices>> which{};
     which.fill(rng.uniform());
-    choice_.choose(batch.cut, which.data(), choices);
+    choice_.choose(next.cut, which.data(), choices);
     const auto& [index, chance] = choices.front();
     const Emitter& emitter = emitters_[index];
     const double u = rng.uniform(), v = rng.uniform();
-    const double factor = look_from(point.position, point.normal, point.facet, emitter.side,
-                                    emitter.points, {u, v}, emitter.near, ray);
+    Ray shadow{};
+    const double factor = look_from(point, on.normal, on.facet, emitter.side, emitter.points,
+                                    {u, v}, emitter.near, shadow);
     if (!(factor > 0))
         return;
-    batch.shadow.push_back(ray);
-    batch.targets.push_back(emitter.side.facet);
-    batch.to_emitter.push_back(
+    next.shadow.push_back(shadow);
+    next.targets.push_back(emitter.side.facet);
+    next.to_emitter.push_back(
         {place, factor / chance * light * mesh_.material(emitter.side).emission});
-}
-
-/// The light of a random ray that struck a patch; near ones are followed, if they may.
-void FinalGather::receive(std::uint32_t patch, const Ray& ray, const Batch::Sample& sample,
-                          const Vec3& left_out, const std::uint64_t* seed, Batch& next,
-                          std::span<Vec3> found) const {
-    const Patch& on = mesh_.patches()[patch];
-    const double along = glm::dot(ray.direction, on.normal);
-    const double way =
-        along < 0 ? std::max(glm::dot(on.centre - ray.origin, on.normal) / along, 0.0) : 0;
-    const Vec3 point = ray.origin + way * ray.direction;
-    const Material& material = mesh_.material(on);
-    const bool is_near = way * way < near_sides * near_sides * on.area;
-    if (seed && is_near && material.reflectance != Vec3(0.0)) {
-        found[sample.place] += sample.light * (material.emission - left_out);
-        // Russian roulette (Arvo and Kirk 1990) keeps the paths in narrow gaps short.
-        const Vec3& rho = material.reflectance;
-        const double kept = std::max({rho.x, rho.y, rho.z});
-        if (Rng(hash_words({*seed, 2})).uniform() < kept)
-            go_on({point, on.normal, on.facet}, sample.light * rho / kept, sample.place, *seed,
-                  next);
-        return;
-    }
-    found[sample.place] += sample.light * (radiosity_at(mesh_, light_, patch, point) - left_out);
 }
 
 void FinalGather::send(Batch& batch, std::span<Vec3> found) const {
@@ -199,15 +192,37 @@ void FinalGather::send(Batch& batch, std::span<Vec3> found) const {
                          [&](std::uint32_t place, const Vec3& light) { found[place] += light; });
         batch.receivers.clear();
         find_receivers(batch.random, mesh_, tracer_, batch.receivers);
-        Batch next;
+        struct Near {
+            std::uint32_t patch;
+            std::size_t ray;
+            Vec3 point;
+        };
+        std::vector<Near> near;
         for (std::size_t k = 0; k < batch.random.size(); ++k) {
             const std::uint32_t patch = batch.receivers[k];
             if (patch == escaped || patch == absorbed)
                 continue;
-            receive(patch, batch.random[k], batch.from_patch[k],
-                    batch.sees_emission[k] ? Vec3(0.0) : left_out_[patch],
-                    bounce < most_bounces ? &batch.seeds[k] : nullptr, next, found);
+            const Patch& on = mesh_.patches()[patch];
+            const Ray& ray = batch.random[k];
+            const double along = glm::dot(ray.direction, on.normal);
+            const double way =
+                along < 0 ? std::max(glm::dot(on.centre - ray.origin, on.normal) / along, 0.0) : 0;
+            const Vec3 point = ray.origin + way * ray.direction;
+            const Material& material = mesh_.material(on);
+            const bool goes_on = bounce < most_bounces && material.reflectance != Vec3(0.0) &&
+                                 way * way < near_sides * near_sides * on.area;
+            if (goes_on)
+                near.push_back({patch, k, point});
+            const Vec3 sent =
+                goes_on ? material.emission : radiosity_at(mesh_, light_, patch, point);
+            const auto& [place, share] = batch.from_patch[k];
+            found[place] += share * (sent - left_out_of(batch, k, patch));
         }
+        // Those on one patch after each other, as emitters are weighed for it.
+        std::ranges::stable_sort(near, {}, &Near::patch);
+        Batch next;
+        for (const auto& [patch, ray, point] : near)
+            go_on(batch, ray, patch, point, next);
         rays_ += batch.random.size();
         if (bounce == 0)
             met_first = std::move(batch.receivers);
@@ -290,14 +305,14 @@ std::vector<IndirectLight> FinalGather::indirect(std::span<const SurfacePoint> p
     std::vector<IndirectLight> found(points.size());
     Batch batch;
     for (std::uint32_t k = 0; k < points.size(); ++k) {
-        const auto& [position, normal, facet] = points[k];
+        const SurfacePoint& point = points[k];
         const auto& [seed, first, count] = samples[k];
-        const Frame frame = Frame::from_normal(normal);
+        const Frame frame = Frame::from_normal(point.normal);
         SobolBlocks<5> numbers(seed);
         for (std::uint32_t next = first; next < first + count; ++next) {
             const auto u = numbers.at(next);
-            Ray ray{position, frame.to_world(cosine_direction({u[0], u[1]}))};
-            ray.from = facet;
+            Ray ray{point.position, frame.to_world(cosine_direction({u[0], u[1]}))};
+            ray.from = point.facet;
             batch.random.push_back(ray);
             batch.from_patch.push_back({k, Vec3(1.0 / count)});
         }
@@ -308,10 +323,10 @@ std::vector<IndirectLight> FinalGather::indirect(std::span<const SurfacePoint> p
     return found;
 }
 
-GatheredTwice gather_twice(const Mesh& mesh, FinalGather& gather, std::size_t points,
-                           std::uint64_t seed, const Workers& workers,
+GatheredTwice gather_twice(const PointsOverSurface& surface, FinalGather& gather,
+                           std::size_t points, std::uint64_t seed, const Workers& workers,
                            const StopFlag& interrupted) {
-    GatheredTwice found{points_over_surface(mesh, points, hash_words({seed, 0})), {}};
+    GatheredTwice found{surface.draw(points, hash_words({seed, 0})), {}};
     std::vector<SurfacePoint> at;
     std::vector<std::uint64_t> streams;
     for (const PatchPoint& point : found.points) {

@@ -12,9 +12,9 @@
 #include "geometry/polygon_sampler.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/final_gather/surface_points.h"
-#include "radiosity/gathering/emitter_choice.h"
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/stored_transport/emitter_choice.h"
 
 #include <atomic>
 #include <cstdint>
@@ -49,12 +49,12 @@ struct IndirectLight {
 
 class FinalGather {
   public:
-    /// Rays of one round: cosine-distributed ones, and up to 4 shadow rays.
-    static constexpr unsigned usual_random_rays = 16, shadow_rays = 4;
+    /// Rays of one round: cosine-distributed ones, and up to so many shadow rays; at most 16.
+    static constexpr unsigned usual_random_rays = 16, usual_shadow_rays = 4;
 
     /// `light`: what patches send. All of it outlives this.
     FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
-                unsigned random_rays = usual_random_rays);
+                unsigned random_rays = usual_random_rays, unsigned shadow_rays = usual_shadow_rays);
 
     /// `estimates` of the irradiance at each point [W/m2], independent of each other and without
     /// bias for the light that the solution sends: those of point k stand from k * estimates on.
@@ -84,7 +84,7 @@ class FinalGather {
 
   private:
     FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light, unsigned random_rays,
-                const std::vector<std::uint32_t>& emitters);
+                unsigned shadow_rays, const std::vector<std::uint32_t>& emitters);
 
     struct Emitter {
         Patch side; ///< of a whole facet
@@ -105,6 +105,7 @@ class FinalGather {
         std::vector<bool> sees_emission;  ///< of random rays: emitters are left to them
         std::vector<std::uint64_t> seeds; ///< of random rays, for what follows from them
         EmitterChoice::Cut cut;
+        std::uint32_t weighed = none; ///< the patch that the cut is of
 
         void clear_shadow_rays() {
             shadow.clear();
@@ -118,11 +119,12 @@ class FinalGather {
     void add_shadow_rays(const SurfacePoint& point, const SobolBlocks<5>& numbers,
                          std::uint32_t first, std::uint32_t count, std::uint32_t of,
                          std::uint32_t place, Batch& batch) const;
-    void go_on(const SurfacePoint& point, const Vec3& light, std::uint32_t place,
-               std::uint64_t seed, Batch& batch) const;
-    void receive(std::uint32_t patch, const Ray& ray, const Batch::Sample& sample,
-                 const Vec3& left_out, const std::uint64_t* seed, Batch& next,
-                 std::span<Vec3> found) const;
+    void weigh(const SurfacePoint& point, Batch& batch) const;
+    void go_on(const Batch& from, std::size_t ray, std::uint32_t patch, const Vec3& point,
+               Batch& next) const;
+    [[nodiscard]] Vec3 left_out_of(const Batch& batch, std::size_t ray, std::uint32_t patch) const {
+        return batch.sees_emission[ray] ? Vec3(0.0) : left_out_[patch];
+    }
     /// Afterwards the batch holds nothing but what its first random rays met.
     void send(Batch& batch, std::span<Vec3> found) const;
     template <class Add>
@@ -132,7 +134,7 @@ class FinalGather {
     const Mesh& mesh_;
     const Tracer& tracer_;
     PatchLight light_;
-    unsigned random_rays_;
+    unsigned random_rays_, shadow_rays_;
     unsigned rounds_ = 1;
     std::vector<std::uint32_t>* receivers_ = nullptr;
     std::vector<Vec3> left_out_; ///< by patch, what the emitters below emit
@@ -142,14 +144,14 @@ class FinalGather {
     mutable std::atomic<std::uint64_t> rays_{0};
 };
 
-/// Points uniform over the surfaces, and two independent estimates of the irradiance at each: those
-/// of point k are 2 k and 2 k + 1.
+/// Points over the surfaces, and two independent estimates of the irradiance at each: those of
+/// point k are 2 k and 2 k + 1.
 struct GatheredTwice {
     std::vector<PatchPoint> points;
     std::vector<Vec3> irradiance; ///< [W/m2]
 };
-[[nodiscard]] GatheredTwice gather_twice(const Mesh& mesh, FinalGather& gather, std::size_t points,
-                                         std::uint64_t seed, const Workers& workers,
-                                         const StopFlag& interrupted);
+[[nodiscard]] GatheredTwice gather_twice(const PointsOverSurface& surface, FinalGather& gather,
+                                         std::size_t points, std::uint64_t seed,
+                                         const Workers& workers, const StopFlag& interrupted);
 
 } // namespace hemilux

@@ -15,7 +15,8 @@ KnownLight::KnownLight(const Mesh& mesh, const Tracer& tracer, std::span<const V
                        const StopFlag& interrupted)
     : mesh_(mesh) {
     FinalGather gather(mesh, tracer, accurate);
-    const GatheredTwice found = gather_twice(mesh, gather, points, seed, workers, interrupted);
+    const GatheredTwice found =
+        gather_twice(PointsOverSurface(mesh), gather, points, seed, workers, interrupted);
     if (interrupted)
         return;
     for (std::size_t k = 0; k < found.points.size(); ++k) {

@@ -16,9 +16,6 @@ namespace {
 /// So many are gathered at a time: points and their light take memory.
 constexpr std::size_t patches_at_a_time = 16'384;
 
-/// Of an estimate at a point.
-constexpr unsigned rays_of_estimate = 8;
-
 /// Of each point two means, each over so many estimates.
 std::vector<Vec3> mean_of_halves(const std::vector<Vec3>& light, std::size_t estimates) {
     std::vector<Vec3> halves(light.size() / estimates, Vec3(0.0));
@@ -35,8 +32,8 @@ LightWithinPatches light_within_patches(const LightSource& light,
                                         const StopFlag& interrupted) {
     LightWithinPatches result;
     result.square.resize(patches.size());
-    result.slope.resize(patches.size());
-    FinalGather gather(light.mesh, light.tracer, light.solution, rays_of_estimate);
+    result.slopes.resize(patches.size());
+    FinalGather gather(light.mesh, light.tracer, light.solution, options.rays, options.rays / 2);
     for (std::size_t done = 0; done < patches.size() && !interrupted; done += patches_at_a_time) {
         const auto some = patches.subspan(done, std::min(patches_at_a_time, patches.size() - done));
         const std::vector<PatchPoint> points =
@@ -59,9 +56,9 @@ LightWithinPatches light_within_patches(const LightSource& light,
             const LinearLight found(patch, std::span(points).subspan(begin, end - begin),
                                     std::span(irradiance).subspan(2 * begin, 2 * (end - begin)));
             const Vec3& rho = light.mesh.material(patch).reflectance;
-            const Slope slope = found.slope();
             result.square[done + k] = patch.area * glm::dot(rho * rho, found.variance_left());
-            result.slope[done + k] = {rho * slope.x, rho * slope.y};
+            for (std::size_t e = 0; e < 2; ++e)
+                result.slopes[done + k][e] = {rho * found.slopes()[e].x, rho * found.slopes()[e].y};
         }
     }
     result.rays = gather.rays();

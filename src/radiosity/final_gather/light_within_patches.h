@@ -10,6 +10,7 @@
 #include "geometry/vector.h"
 #include "radiosity/solving/solution.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,6 +31,9 @@ struct LightSource {
 struct WithinOptions {
     /// Twice so many are made at a point. More: slopes are less noisy.
     std::size_t estimates = 1;
+    /// Cosine-distributed ones of an estimate, and half as many shadow rays. More: squares are less
+    /// noisy too.
+    unsigned rays = 8;
     /// Of points, on large patches; at least 3.
     unsigned most_rows = 8;
     std::uint64_t seed = 1;
@@ -40,7 +44,8 @@ struct LightWithinPatches {
     /// linear function leaves, summed over channels [local area * (W/m2)^2]; an estimate from few
     /// points, which may be negative.
     std::vector<double> square;
-    std::vector<Slope> slope;
+    /// Of its slope, two independent estimates.
+    std::vector<std::array<Slope, 2>> slopes;
     std::uint64_t rays = 0;
 };
 

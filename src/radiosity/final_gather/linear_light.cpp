@@ -56,17 +56,6 @@ Vec3 LinearLight::variance_left() const {
     return products / (count() - fitted);
 }
 
-Slope LinearLight::slope() const {
-    const auto product = [&](const Slope& a, const Slope& b) {
-        return xx_ * glm::dot(a.x, b.x) + xy_ * (glm::dot(a.x, b.y) + glm::dot(a.y, b.x)) +
-               yy_ * glm::dot(a.y, b.y);
-    };
-    const Slope mean{.5 * (slope_[0].x + slope_[1].x), .5 * (slope_[0].y + slope_[1].y)};
-    const double size = product(mean, mean);
-    const double agreed = size > 0 ? std::clamp(product(slope_[0], slope_[1]) / size, 0.0, 1.0) : 0;
-    return {agreed * mean.x, agreed * mean.y};
-}
-
 Vec3 radiosity_at(const Mesh& mesh, std::uint32_t patch, const Vec3& radiosity, const Slope& slope,
                   const Vec3& point) {
     const Patch& on = mesh.patches()[patch];
@@ -94,6 +83,20 @@ Vec3 variance_of(const Patch& patch, const Slope& slope) {
         squares += rises * rises;
     }
     return squares / (triangle ? 3.0 : 6.0);
+}
+
+AgreedSlope agreed_slope(const Patch& patch, const std::array<Slope, 2>& estimates) {
+    const auto& [a, b] = estimates;
+    const Slope mean{.5 * (a.x + b.x), .5 * (a.y + b.y)};
+    const Slope off{.5 * (a.x - b.x), .5 * (a.y - b.y)};
+    const auto size = [&](const Slope& slope) {
+        const Vec3 variance = variance_of(patch, slope);
+        return variance.x + variance.y + variance.z;
+    };
+    // The product of the estimates, free of noise, beside the square of their mean.
+    const double square = size(mean), noise = size(off);
+    const double agreed = square > 0 ? std::clamp(1 - noise / square, 0.0, 1.0) : 0;
+    return {{agreed * mean.x, agreed * mean.y}, agreed * agreed * patch.area * noise};
 }
 
 } // namespace hemilux

@@ -25,8 +25,8 @@ class LinearLight {
     /// The variance over the patch that the linear function leaves, by channel: an estimate free of
     /// noise, which may be negative.
     [[nodiscard]] Vec3 variance_left() const;
-    /// The mean of both estimates, less where they do not agree.
-    [[nodiscard]] Slope slope() const;
+    /// By either estimate.
+    [[nodiscard]] const std::array<Slope, 2>& slopes() const { return slope_; }
 
     /// Fewer leave nothing to judge a linear function by.
     static constexpr std::size_t least_points = 4;
@@ -60,5 +60,13 @@ struct PatchLight {
 
 /// The variance of a linear function over its patch, by channel; of a quad as of a parallelogram.
 [[nodiscard]] Vec3 variance_of(const Patch& patch, const Slope& slope);
+
+/// The mean of two estimates of a slope, less where they do not agree, and area times the variance
+/// over the patch that it has from their noise, summed over channels.
+struct AgreedSlope {
+    Slope slope;
+    double noise;
+};
+[[nodiscard]] AgreedSlope agreed_slope(const Patch& patch, const std::array<Slope, 2>& estimates);
 
 } // namespace hemilux

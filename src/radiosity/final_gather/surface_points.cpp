@@ -9,31 +9,32 @@
 
 namespace hemilux {
 
-std::vector<PatchPoint> points_over_surface(const Mesh& mesh, std::size_t count,
-                                            std::uint64_t seed) {
-    const auto patches = mesh.patches();
-    const auto area_of = [&](std::uint32_t i) {
-        return mesh.material(i).reflectance != Vec3(0.0) ? patches[i].area : 0;
-    };
-    double area = 0;
-    for (std::uint32_t i = 0; i < patches.size(); ++i)
-        area += area_of(i);
+PointsOverSurface::PointsOverSurface(const Mesh& mesh, std::span<const double> density)
+    : mesh_(mesh), density_(density.begin(), density.end()) {
+    density_.resize(mesh.patches().size(), 1);
+    double end = 0;
+    for (std::uint32_t i = 0; i < density_.size(); ++i) {
+        if (mesh.material(i).reflectance != Vec3(0.0))
+            end += density_[i] * mesh.patches()[i].area;
+        ends_.push_back(end);
+    }
+}
+
+std::vector<PatchPoint> PointsOverSurface::draw(std::size_t count, std::uint64_t seed) const {
     std::vector<PatchPoint> points;
-    if (!(area > 0))
+    const double all = ends_.empty() ? 0 : ends_.back();
+    if (!(all > 0))
         return points;
     Rng rng(seed);
-    const double each = area / static_cast<double>(count);
-    double next = each * rng.uniform(), end = 0;
-    for (std::uint32_t i = 0; i < patches.size(); ++i) {
-        end += area_of(i);
-        if (next >= end)
-            continue;
-        const PolygonSampler sampler(patches[i].shape);
-        for (; next < end; next += each) {
-            const double u = rng.uniform(), v = rng.uniform();
-            points.push_back(
-                {{sampler.sample({u, v}), patches[i].normal, patches[i].facet}, i, each});
-        }
+    const double each = all / static_cast<double>(count);
+    for (double next = each * rng.uniform(); next < all; next += each) {
+        const auto i =
+            static_cast<std::uint32_t>(std::ranges::upper_bound(ends_, next) - ends_.begin());
+        const Patch& patch = mesh_.patches()[i];
+        const double u = rng.uniform(), v = rng.uniform();
+        points.push_back({{PolygonSampler(patch.shape).sample({u, v}), patch.normal, patch.facet},
+                          i,
+                          each / density_[i]});
     }
     return points;
 }
@@ -61,7 +62,7 @@ std::vector<PatchPoint> points_on_patches(const Mesh& mesh, std::span<const std:
         for (double row = 0; row < rows; ++row)
             for (double column = 0; column < rows; ++column) {
                 const double u = (column + rng.uniform()) / rows, v = (row + rng.uniform()) / rows;
-                points.push_back({{sampler.sample({u, v}), patches[i].normal, patches[i].facet},
+                points.push_back({{sampler.sample({u, v}), patches[i].normal, patches[i].facet, i},
                                   i,
                                   patches[i].area / (rows * rows)});
             }

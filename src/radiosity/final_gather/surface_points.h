@@ -4,6 +4,7 @@
 #include "geometry/vector.h"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct SurfacePoint {
     Vec3 position;
     Vec3 normal;         ///< unit, to the side that receives
     std::uint32_t facet; ///< that it lies on, or none
+    /// Points of one patch that follow each other may choose emitters by the same chances. None: by
+    /// its own.
+    std::uint32_t patch = std::numeric_limits<std::uint32_t>::max();
 };
 
 /// A point of a patch, which stands for `area` of it.
@@ -25,12 +29,22 @@ struct PatchPoint {
     double area;
 };
 
-/// `count` points, uniform over the area of the patches that reflect: each stands for as much of
-/// it. They are drawn systematically: the areas are laid end to end in the order of the patches,
-/// and a comb with one random offset picks the patches (Madow and Madow 1944). Empty where nothing
-/// reflects.
-[[nodiscard]] std::vector<PatchPoint> points_over_surface(const Mesh& mesh, std::size_t count,
-                                                          std::uint64_t seed);
+/// Draws points over the area of the patches that reflect.
+class PointsOverSurface {
+  public:
+    /// Uniform, or with a density relative to that, by patch, which is above 0.
+    explicit PointsOverSurface(const Mesh& mesh, std::span<const double> density = {});
+
+    /// Each stands for as much as it is drawn from. Systematic: what is drawn from is laid end to
+    /// end in the order of the patches, and a comb with one random offset picks the patches (Madow
+    /// and Madow 1944). Empty where nothing reflects.
+    [[nodiscard]] std::vector<PatchPoint> draw(std::size_t count, std::uint64_t seed) const;
+
+  private:
+    const Mesh& mesh_;
+    std::vector<double> density_;
+    std::vector<double> ends_; ///< by patch, the sum up to it
+};
 
 /// Of each of some patches, if it reflects, `rows` x `rows` points, 3 x 3 to `most_rows` squared,
 /// one after the other, each uniform over an equal piece of it: more where the patch is large

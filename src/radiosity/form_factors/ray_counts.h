@@ -1,7 +1,7 @@
 #pragma once
-// Which patches the cosine-distributed rays of each patch struck, and how often: what gathering
-// keeps of them. One sequence of well-distributed points per patch (sobol.h), which can be
-// prolonged.
+// Which patches the cosine-distributed rays of each patch struck, and how often: what stored
+// transport keeps of them. One sequence of well-distributed points per patch (sobol.h), which can
+// be prolonged.
 
 #include "bvh/tracer.h"
 #include "radiosity/sampling/workers.h"

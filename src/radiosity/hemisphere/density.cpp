@@ -64,46 +64,6 @@ void walk_tree(const Hemisphere& hemisphere, double threshold, CountAt&& count_a
     TreeWalk(hemisphere, threshold, count_at, leaf).run();
 }
 
-/// Counts at all vertices that the walk will ask for, level by level: the rays of a level are
-/// traced together. Others are 0.
-template <class CountAll>
-std::vector<std::uint8_t> count_surfaces(const Hemisphere& hemisphere, double threshold,
-                                         const CountAll& count_all) {
-    const std::vector<Hemisphere::Cell>& cells = hemisphere.cells();
-    std::vector<std::uint8_t> counts(hemisphere.vertices().size());
-    std::vector<bool> asked(counts.size());
-    std::vector<std::uint16_t> vertices;
-    std::vector<std::uint32_t> found;
-    const auto ask = [&](std::uint16_t v) {
-        if (!asked[v])
-            vertices.push_back(v);
-        asked[v] = true;
-    };
-    std::vector<std::size_t> level{0, 1, 2, 3}, next;
-    for (const std::size_t root : level)
-        std::ranges::for_each(cells[root].vertex, ask);
-    for (;; level.swap(next)) {
-        found.resize(vertices.size());
-        count_all(vertices, found);
-        for (std::size_t k = 0; k < vertices.size(); ++k)
-            counts[vertices[k]] = static_cast<std::uint8_t>(std::min(found[k], 255u));
-        vertices.clear();
-        next.clear();
-        for (const std::size_t index : level) {
-            const Hemisphere::Cell& cell = cells[index];
-            const int sum =
-                counts[cell.vertex[0]] + counts[cell.vertex[1]] + counts[cell.vertex[2]];
-            if (cell.level == hemisphere.depth() || !is_divided(sum / 3.0, threshold))
-                continue;
-            std::ranges::for_each(cell.midpoint, ask);
-            for (std::size_t child = 0; child < 4; ++child)
-                next.push_back(cell.first_child + child);
-        }
-        if (next.empty())
-            return counts;
-    }
-}
-
 /// Below any mean: all triangles are divided.
 constexpr double divide_all = -1;
 
@@ -134,17 +94,13 @@ DensityMap::DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere&
             const Patch& patch = mesh.patches()[i];
             const Frame frame = mesh.hemisphere_frame(static_cast<std::uint32_t>(i));
             const std::size_t start = block.counts.size();
-            const std::vector<std::uint8_t> counted =
-                count_surfaces(hemisphere, counted_above, [&](const auto& vertices, auto& counts) {
-                    for (std::size_t k = 0; k < vertices.size(); ++k)
-                        counts[k] =
-                            tracer.count({.origin = patch.centre,
-                                          .direction = frame.to_world(directions[vertices[k]]),
-                                          .from = patch.facet});
-                });
             const auto count_at = [&](std::uint16_t v) {
-                block.counts.push_back(counted[v]);
-                return std::int16_t{counted[v]};
+                const Ray ray{.origin = patch.centre,
+                              .direction = frame.to_world(directions[v]),
+                              .from = patch.facet};
+                block.counts.push_back(
+                    static_cast<std::uint8_t>(std::min(tracer.count(ray), 255u)));
+                return std::int16_t{block.counts.back()};
             };
             walk_tree(hemisphere, counted_above, count_at, [](std::uint16_t, double) {});
             block.lengths[i - begin] = static_cast<std::uint16_t>(block.counts.size() - start);

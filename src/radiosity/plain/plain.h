@@ -4,8 +4,8 @@
 // A page is nested loops with the paper's names, one ray at a time: no threads, no vector
 // instructions, nothing kept but what the method is about. To read one, have the scene, the mesh,
 // the tracer and the random numbers at hand, and for section 5 the hemisphere. The tests hold the
-// engine to these pages with ==, all bits of radiosity and standard errors; `gathering`, whose page
-// shows the principle alone, within standard errors. On the command line: --plain.
+// engine to these pages with ==, all bits of radiosity and standard errors; `stored-transport`,
+// whose page shows the principle alone, within standard errors. On the command line: --plain.
 //
 // A page does everything, also what the scene does not need: only the end of a run where nothing
 // reflects follows the needs of the scene.
@@ -26,7 +26,7 @@ namespace hemilux::plain {
 [[nodiscard]] std::unique_ptr<Solver> hemisphere(const SolverInput& input);
 /// Not of the paper: all bounces solved on what rays struck. All pairs of patches are kept, 48
 /// bytes each; throws std::invalid_argument where there are more patches than that is meant for.
-[[nodiscard]] std::unique_ptr<Solver> gathering(const SolverInput& input);
-inline constexpr std::size_t most_patches_of_gathering = 2000;
+[[nodiscard]] std::unique_ptr<Solver> stored_transport(const SolverInput& input);
+inline constexpr std::size_t most_patches_of_stored_transport = 2000;
 
 } // namespace hemilux::plain

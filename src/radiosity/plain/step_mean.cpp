@@ -147,6 +147,9 @@ void StepMean::note_level(const Step& step) {
 /// A standard error is never below what one ray brings (D19).
 void StepMean::estimate_errors() {
     const double n = solution_.steps;
+    const double level = level_squares_ / (n * (n - 1)); // its variance, relative
+    const double level_freedom = std::max(n - 1, 2.0);   // one alone would bound nothing
+    const double times = ErrorSpread{1, level_freedom}.reported(), more = times * times - 1;
     std::vector<Vec3> variance;
     std::vector<double> of_patch;
     double sum = 0, value = 0;
@@ -169,18 +172,20 @@ void StepMean::estimate_errors() {
     purest = mean_of_channels(mean_ray()) * purest;
     for (std::uint32_t i = 0; i < squares_.size(); ++i) {
         Vec3& sigma = solution_.standard_error[i];
-        sigma = glm::max(glm::sqrt(variance[i]), one_ray(i));
+        const Vec3 reflected = solution_.radiosity[i] - input_.mesh.material(i).emission;
+        sigma = glm::max(glm::sqrt(variance[i] + more * level * reflected * reflected), one_ray(i));
         const double area = input_.mesh.patches()[i].area;
         const Vec3 rho = input_.mesh.material(i).reflectance;
         for (int c = 0; c < 3; ++c)
             if (variance[i][c] == 0 && area > 0) // this channel was not seen around here
                 sigma[c] = std::max(sigma[c], rho[c] * purest[c] / area);
     }
-    const double of_level = level_squares_ / (n * (n - 1)) * value;
     solution_.variance = sum;
+    solution_.variance_of_level = level * value;
+    solution_.level_freedom = level_freedom;
     solution_.unseen = unseen();
     if (sum > 0)
-        solution_.effective_freedom = effective_freedom_of(of_patch, of_level);
+        solution_.effective_freedom = effective_freedom_of(of_patch, level * value);
 }
 
 Vec3 StepMean::power_leaving() const {

@@ -88,11 +88,6 @@ std::size_t StateReader::count(std::size_t bytes_each) {
     return size;
 }
 
-void StateReader::get(Vec3& value) {
-    for (int c = 0; c < 3; ++c)
-        value[c] = number();
-}
-
 void StateReader::get(Vec3& value, const Bounds& bounds) {
     for (int c = 0; c < 3; ++c)
         value[c] = number(bounds);

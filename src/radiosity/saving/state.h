@@ -68,7 +68,6 @@ class StateReader {
     void get(std::uint64_t& value) { value = whole(); }
     void get(std::uint32_t& value);
     void get(double& value) { value = number(); }
-    void get(Vec3& value);
     void get(double& value, const Bounds& bounds) { value = number(bounds); }
     void get(Vec3& value, const Bounds& bounds);
     /// Exactly as many values as there is room for; else StateError.

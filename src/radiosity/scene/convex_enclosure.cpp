@@ -1,15 +1,12 @@
 #include "radiosity/scene/convex_enclosure.h"
 
 #include "radiosity/scene/mesh.h"
+#include "radiosity/scene/welded_edges.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <numeric>
 #include <set>
-#include <span>
-#include <tuple>
 #include <vector>
 
 namespace hemilux {
@@ -71,42 +68,19 @@ bool all_in_front(const FacetSoup& soup) {
     });
 }
 
-/// For each vertex a number that it shares with those at its position.
-std::vector<std::uint32_t> weld(std::span<const Vec3> vertices) {
-    std::vector<std::uint32_t> order(vertices.size()), welded(vertices.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::ranges::sort(order, {}, [&](std::uint32_t v) {
-        return std::tie(vertices[v].x, vertices[v].y, vertices[v].z);
+/// Each edge belongs to two facets that run along it in opposite directions.
+bool is_closed(const Scene& scene) {
+    bool closed = true;
+    for_each_place(welded_edges(scene), [&](auto first, auto last) {
+        closed = closed && last - first == 2 && first[0].forward != first[1].forward;
     });
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        const bool same = k > 0 && vertices[order[k]] == vertices[order[k - 1]];
-        welded[order[k]] = same ? welded[order[k - 1]] : order[k];
-    }
-    return welded;
-}
-
-/// Each directed edge once, and its opposite once.
-bool is_closed(const FacetSoup& soup) {
-    const std::vector<std::uint32_t> welded = weld(soup.vertices);
-    std::vector<std::uint64_t> edges;
-    for (const FacetCorners& corners : soup.facets)
-        for (std::size_t i = 0; i < 4; ++i) {
-            const std::uint64_t a = welded[corners[i]], b = welded[corners[(i + 1) % 4]];
-            if (a != b)
-                edges.push_back(a << 32 | b);
-        }
-    std::ranges::sort(edges);
-    if (std::ranges::adjacent_find(edges) != edges.end())
-        return false;
-    return std::ranges::all_of(edges, [&](std::uint64_t edge) {
-        return std::ranges::binary_search(edges, edge << 32 | edge >> 32);
-    });
+    return closed;
 }
 
 } // namespace
 
 bool is_convex_enclosure(const Mesh& mesh) {
-    return all_in_front(mesh.soup()) && is_closed(mesh.soup());
+    return all_in_front(mesh.soup()) && is_closed(mesh.scene());
 }
 
 } // namespace hemilux

@@ -88,10 +88,7 @@ class LayerFinder {
   private:
     static Member member(const Scene& scene, std::span<const Vec3> vertices, std::uint32_t f) {
         constexpr double odd = 0.3719;
-        Polygon shape;
-        for (std::size_t k = 0; k < 4; ++k)
-            shape.corner[k] = vertices[scene.facets[f].vertex[k]];
-        const Vec3 normal = shape.area_vector();
+        const Vec3 normal = polygon_of(vertices, scene.facets[f].vertex).area_vector();
         const Vec3& e = scene.materials[scene.facets[f].material].emission;
         const double area = glm::length(normal);
         return {normal, area, e.x + e.y + e.z, std::floor(std::log2(area) + odd), 0};

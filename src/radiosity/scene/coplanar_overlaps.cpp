@@ -3,7 +3,6 @@
 #include "geometry/box.h"
 #include "geometry/flat_polygon.h"
 #include "geometry/polygon.h"
-#include "geometry/rectangle_pairs.h"
 #include "radiosity/sampling/rng.h"
 
 #include <algorithm>
@@ -122,86 +121,50 @@ bool lie_in_one_place(const Polygon& a, const Polygon& b) {
                        });
 }
 
-/// The corners in an order that does not depend on where a facet begins or which way it faces.
-std::array<Vec3, 4> sorted_corners(const Facet& facet, std::span<const Vec3> vertices) {
-    std::array<Vec3, 4> corners = polygon_of(vertices, facet.vertex).corner;
-    std::sort(corners.begin(), corners.end() - (facet.is_triangle() ? 1 : 0),
-              [](const Vec3& a, const Vec3& b) {
-                  return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
-              });
-    if (facet.is_triangle())
-        corners[3] = corners[2];
-    return corners;
-}
-
-/// Equal for facets with the same corners.
-std::uint64_t hash_of(const Facet& facet, std::span<const Vec3> vertices) {
+/// Equal for facets with the same corners that face one way, wherever they begin.
+std::uint64_t shape_of(const Facet& facet, std::span<const Vec3> vertices) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // of -0, too
     std::uint64_t hash = 0;
     for (std::size_t i = 0; i < (facet.is_triangle() ? 3 : 4); ++i) {
         const Vec3& p = vertices[facet.vertex[i]];
         hash += mix_bits(bits(p.x) + mix_bits(bits(p.y) + mix_bits(bits(p.z))));
     }
-    return hash;
+    const Vec3 normal = polygon_of(vertices, facet.vertex).area_vector();
+    return normal[largest_axis(normal)] < 0 ? ~hash : hash;
 }
-
-/// Those that may have many of their corners: a count by hash leaves out most others at once.
-std::vector<std::uint32_t> perhaps_many(const Scene& scene, std::span<const Vec3> vertices) {
-    const std::size_t slots = std::bit_ceil(2 * scene.facets.size() + 64);
-    std::vector<std::uint32_t> count(slots, 0), many;
-    const auto slot_of = [&](const Facet& f) { return hash_of(f, vertices) & (slots - 1); };
-    for (const Facet& facet : scene.facets)
-        ++count[slot_of(facet)];
-    if (std::ranges::none_of(count, [](std::uint32_t c) { return c > kept_alike; }))
-        return many;
-    for (std::uint32_t f = 0; f < scene.facets.size(); ++f)
-        if (count[slot_of(scene.facets[f])] > kept_alike)
-            many.push_back(f);
-    return many;
-}
-
-/// One of many facets with the same corners.
-struct Alike {
-    std::array<Vec3, 4> corners;
-    bool turned; ///< faces the other way than most of its normal's axis does
-    double glow;
-    std::uint32_t facet;
-
-    Alike(const Scene& scene, std::span<const Vec3> vertices, std::uint32_t f)
-        : corners(sorted_corners(scene.facets[f], vertices)), facet(f) {
-        const Vec3 normal = polygon_of(vertices, scene.facets[f].vertex).area_vector();
-        turned = normal[largest_axis(normal)] < 0;
-        const Vec3& e = scene.materials[scene.facets[f].material].emission;
-        glow = e.x + e.y + e.z;
-    }
-    /// By shape and side; then what is to lie on top first.
-    [[nodiscard]] bool operator<(const Alike& other) const {
-        for (std::size_t i = 0; i < corners.size(); ++i)
-            for (int axis = 0; axis < 3; ++axis)
-                if (corners[i][axis] != other.corners[i][axis])
-                    return corners[i][axis] < other.corners[i][axis];
-        if (turned != other.turned)
-            return turned < other.turned;
-        return glow != other.glow ? glow > other.glow : facet < other.facet;
-    }
-    [[nodiscard]] bool has_shape_of(const Alike& other) const {
-        return corners == other.corners && turned == other.turned;
-    }
-};
 
 std::vector<Buried> find_buried(const Scene& scene, std::span<const Vec3> vertices) {
+    struct Alike {
+        std::uint64_t shape;
+        double dark;
+        std::uint32_t facet;
+        auto operator<=>(const Alike&) const = default; ///< what is to lie on top first
+    };
     std::vector<Alike> alike;
-    for (const std::uint32_t f : perhaps_many(scene, vertices))
-        alike.emplace_back(scene, vertices, f);
+    for (std::uint32_t f = 0; f < scene.facets.size(); ++f) {
+        const Vec3& e = scene.materials[scene.facets[f].material].emission;
+        alike.push_back({shape_of(scene.facets[f], vertices), -(e.x + e.y + e.z), f});
+    }
     std::ranges::sort(alike, [](const Alike& a, const Alike& b) { return a < b; });
     std::vector<Buried> buried;
     for (std::size_t first = 0, k = 0; k < alike.size(); ++k) {
-        if (!alike[k].has_shape_of(alike[first]))
+        if (alike[k].shape != alike[first].shape)
             first = k;
         if (k - first >= kept_alike)
             buried.push_back({alike[k].facet, alike[first + kept_alike - 1].facet});
     }
     return buried;
+}
+
+/// What a facet covers, seen along an axis.
+struct Rectangle {
+    Vec2 low, high;
+    std::uint32_t facet, face;
+};
+
+bool are_of_one_face(const std::vector<Rectangle>& rectangles) {
+    return std::ranges::all_of(rectangles,
+                               [&](const Rectangle& r) { return r.face == rectangles[0].face; });
 }
 
 class Finder {
@@ -240,80 +203,53 @@ class Finder {
         return polygon_of(vertices_, scene_.facets[facet].vertex);
     }
 
-    /// Facets of one cell beside each other, without most of those that are alone in theirs.
+    /// Facets of one cell beside each other.
     std::vector<Entry> facets_by_plane() const {
         std::vector<Entry> entries;
         entries.reserve(scene_.facets.size());
-        const std::size_t slots = std::bit_ceil(2 * scene_.facets.size() + 64);
-        const auto slot_of = [&](const Entry& e) { return mix_bits(e.cell) & (slots - 1); };
-        std::vector<std::uint32_t> end(slots, 0);
-        for (std::uint32_t f = 0; f < scene_.facets.size(); ++f) {
-            if (!is_buried_.empty() && is_buried_[f])
-                continue;
-            PlaneCells(shape(f)).for_each([&](std::uint64_t cell) {
-                entries.push_back({cell, f});
-                ++end[slot_of(entries.back())];
-            });
-        }
-        std::erase_if(entries, [&](const Entry& e) { return end[slot_of(e)] == 1; });
-        for (std::uint32_t sum = 0; std::uint32_t & count : end)
-            count = sum += count == 1 ? 0 : count;
-        std::vector<Entry> sorted(entries.size());
-        for (auto e = entries.rbegin(); e != entries.rend(); ++e)
-            sorted[--end[slot_of(*e)]] = *e;
-        for (std::size_t slot = 0; slot < slots; ++slot)
-            by_cell(std::span(sorted).subspan(
-                end[slot], (slot + 1 < slots ? end[slot + 1] : sorted.size()) - end[slot]));
-        return sorted;
+        for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
+            if (is_buried_.empty() || !is_buried_[f])
+                PlaneCells(shape(f)).for_each([&](std::uint64_t cell) {
+                    entries.push_back({cell, f});
+                });
+        std::ranges::sort(entries, {}, &Entry::cell);
+        return entries;
     }
 
-    static void by_cell(std::span<Entry> of_one_slot) {
-        if (!std::ranges::is_sorted(of_one_slot, {}, &Entry::cell))
-            std::ranges::stable_sort(of_one_slot, {}, &Entry::cell);
-    }
-
-    /// Facets whose planes are in one cell.
+    /// Facets whose planes are in one cell. They are seen along each axis that is steep enough for
+    /// any plane to have one. Two of a plane with several meet more than once.
     void search(std::span<const Entry> entries) {
-        constexpr std::size_t few = 16;
-        if (entries.size() > few)
-            return search_many(entries);
-        for (std::size_t i = 1; i < entries.size(); ++i) {
-            const Polygon b = shape(entries[i].facet);
-            const Box bounds_b = box_of(b);
-            for (std::size_t j = 0; j < i; ++j) {
-                const Polygon a = shape(entries[j].facet);
-                const Box bounds_a = box_of(a);
-                if (glm::all(glm::lessThanEqual(bounds_a.low, bounds_b.high + 2 * rounding)) &&
-                    glm::all(glm::lessThanEqual(bounds_b.low, bounds_a.high + 2 * rounding)))
-                    compare(entries[j].facet, entries[i].facet);
+        constexpr double steep = 0.57; // 1 / sqrt(3) and what neighbours in a cell may differ
+        for (int axis = 0; axis < 3; ++axis) {
+            std::vector<Rectangle> seen;
+            for (const Entry& entry : entries) {
+                const Polygon polygon = shape(entry.facet);
+                if (std::abs(polygon.normal()[axis]) > steep)
+                    seen.push_back(rectangle(box_of(polygon), entry.facet, axis));
             }
+            if (!compare_all(seen))
+                found_.complete = false;
         }
     }
 
-    /// They are seen along each axis that is steep enough for any plane to have one. Two of a plane
-    /// with several meet more than once.
-    void search_many(std::span<const Entry> entries) {
-        constexpr double steep = 0.57; // 1 / sqrt(3) and what neighbours in a cell may differ
-        std::array<std::vector<Rectangle>, 3> seen;
-        seen[static_cast<std::size_t>(largest_axis(shape(entries[0].facet).area_vector()))].reserve(
-            entries.size());
-        for (const Entry& entry : entries) {
-            const Polygon polygon = shape(entry.facet);
-            const Box bounds = box_of(polygon);
-            const Vec3 normal = polygon.normal();
-            for (int axis = 0; axis < 3; ++axis)
-                if (std::abs(normal[axis]) > steep)
-                    seen[static_cast<std::size_t>(axis)].push_back(
-                        rectangle(bounds, entry.facet, axis));
-        }
-        for (std::vector<Rectangle>& rectangles : seen)
-            if (!for_each_overlap(
-                    std::move(rectangles),
-                    [&](std::uint32_t a, std::uint32_t b) {
-                        return compare(std::min(a, b), std::max(a, b));
-                    },
-                    boxes_per_comparison * left_))
-                found_.complete = false;
+    /// Those that overlap, by a sweep along the first axis. False where there was more to be
+    /// compared than allowed. A face of many pieces alone in its plane is taken to be simple: the
+    /// boxes of its slivers may all lie over each other.
+    bool compare_all(std::vector<Rectangle>& seen) {
+        constexpr std::size_t many = 64;
+        if (seen.size() > many && are_of_one_face(seen))
+            return true;
+        std::ranges::sort(seen, {}, [](const Rectangle& r) { return std::pair(r.low.x, r.facet); });
+        std::size_t left = boxes_per_comparison * left_;
+        for (auto a = seen.begin(); a != seen.end(); ++a)
+            for (auto b = a + 1; b != seen.end() && b->low.x < a->high.x; ++b) {
+                if (left-- == 0)
+                    return false;
+                if (a->low.y < b->high.y && b->low.y < a->high.y &&
+                    !compare(std::min(a->facet, b->facet), std::max(a->facet, b->facet)))
+                    return false;
+            }
+        return true;
     }
 
     /// Smaller by what may be rounding, so that most neighbours are apart.

@@ -1,14 +1,11 @@
 #include "radiosity/scene/lit_facets.h"
 
-#include "geometry/box.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <limits>
-#include <span>
 
 namespace hemilux {
 namespace {
@@ -17,9 +14,8 @@ namespace {
 /// another from less would give it less than this share of its light.
 constexpr double least_height = 1e-12;
 
-constexpr std::size_t sides_per_leaf = 8;
-/// Nodes visited per side, on average, before the rest is taken to be lit.
-constexpr std::size_t most_visits = 64;
+/// Pairs looked at in vain before the rest is taken to be lit: a quarter of a second at most.
+constexpr std::size_t most_looks = 10'000'000;
 
 /// One side of a facet: its corners, and the plane normal . x = offset.
 struct Side {
@@ -62,79 +58,37 @@ struct Side {
     static double without_rounding(double warp) { return warp <= 1e-15 ? 0 : warp; }
 };
 
-/// What the shining sides below a node have in common: where their corners are, and bounds on their
-/// planes.
-struct Bounds {
-    Box corners, normals;
-    double least_offset = std::numeric_limits<double>::infinity();
-    double least_threshold = std::numeric_limits<double>::infinity();
-
-    void include(const Side& side) {
-        for (const Vec3& p : side.corner)
-            corners.include(p);
-        normals.include(side.normal);
-        least_offset = std::min(least_offset, side.offset);
-        least_threshold = std::min(least_threshold, side.threshold);
-    }
-    void include(const Bounds& other) {
-        corners.include(other.corners);
-        normals.include(other.normals);
-        least_offset = std::min(least_offset, other.least_offset);
-        least_threshold = std::min(least_threshold, other.least_threshold);
-    }
-    /// False only if none of them shines at the side.
-    [[nodiscard]] bool may_light(const Side& side) const {
-        if (corners.empty())
-            return false;
-        if (most(side.normal, corners) - side.offset <= side.threshold)
-            return false;
-        return std::ranges::any_of(side.corner, [&](const Vec3& p) {
-            return !(most(p, normals) - least_offset <= least_threshold);
-        });
-    }
-
-  private:
-    /// The largest a . x for x in the box.
-    static double most(const Vec3& a, const Box& box) {
-        const Vec3 m = glm::max(a * box.low, a * box.high);
-        return m.x + m.y + m.z;
-    }
-};
-
 class Spread {
   public:
     explicit Spread(const Mesh& mesh) : mesh_(mesh) {
         two_sided_ = std::ranges::any_of(mesh.patches(), &Patch::back);
         const FacetSoup soup = mesh.soup();
         for (const FacetCorners& corners : soup.facets) {
-            Polygon shape;
-            for (std::size_t i = 0; i < 4; ++i)
-                shape.corner[i] = soup.vertices[corners[i]];
+            const Polygon shape = polygon_of(soup.vertices, corners);
             sides_.emplace_back(shape);
             if (two_sided_)
                 sides_.emplace_back(shape.flipped());
         }
         lit_.resize(sides_.size());
-        leaves_ = std::bit_ceil((sides_.size() + sides_per_leaf - 1) / sides_per_leaf);
     }
 
     std::vector<bool> lit_patches() {
-        std::vector<std::uint32_t> shining;
         for (std::uint32_t s = 0; s < sides_.size(); ++s)
             if (glm::any(glm::greaterThan(material(s).emission, Vec3(0.0))))
-                shining.push_back(s);
+                shining_.push_back(s);
         std::vector<bool> shone(sides_.size());
-        while (!shining.empty()) {
-            for (const std::uint32_t s : shining)
+        while (!shining_.empty()) {
+            for (const std::uint32_t s : shining_)
                 shone[s] = true;
-            gather(shining);
-            shining.clear();
+            last_ = shining_.front();
+            std::vector<std::uint32_t> next;
             for (std::uint32_t s = 0; s < sides_.size(); ++s)
                 if (!lit_[s] && is_reached(s)) {
                     lit_[s] = true;
                     if (!shone[s] && glm::any(glm::greaterThan(material(s).reflectance, Vec3(0.0))))
-                        shining.push_back(s);
+                        next.push_back(s);
                 }
+            shining_ = std::move(next);
         }
         std::vector<bool> result;
         for (const Patch& patch : mesh_.patches())
@@ -149,41 +103,18 @@ class Spread {
         return scene.materials[scene.facets[two_sided_ ? side / 2 : side].material];
     }
 
-    /// The tree over the sides that have just begun to shine. It is complete and in the order of
-    /// the file, in which neighbours mostly follow each other.
-    void gather(std::span<const std::uint32_t> shining) {
-        shines_.assign(sides_.size(), false);
-        nodes_.assign(2 * leaves_, Bounds{});
-        for (const std::uint32_t s : shining) {
-            shines_[s] = true;
-            nodes_[leaves_ + s / sides_per_leaf].include(sides_[s]);
-        }
-        for (std::size_t i = leaves_ - 1; i > 0; --i) {
-            nodes_[i] = nodes_[2 * i];
-            nodes_[i].include(nodes_[2 * i + 1]);
-        }
-        last_ = shining.front();
-    }
-
-    /// Whether one of the tree's sides shines at this one. Looks at the last that was found first.
+    /// Whether one of those that have just begun to shine shines at this one. Looks at the last
+    /// that was found first.
     bool is_reached(std::uint32_t s) {
-        return sees(s, last_) || visits_ > most_visits * (sides_.size() + 1000) || search(s, 1);
-    }
-
-    bool search(std::uint32_t s, std::size_t node) {
-        ++visits_;
-        if (!nodes_[node].may_light(sides_[s]))
+        if (sees(s, last_) || looks_ > most_looks)
+            return true;
+        const auto found =
+            std::ranges::find_if(shining_, [&](std::uint32_t other) { return sees(s, other); });
+        looks_ += static_cast<std::size_t>(found - shining_.begin());
+        if (found == shining_.end())
             return false;
-        if (node < leaves_)
-            return search(s, 2 * node) || search(s, 2 * node + 1);
-        const std::size_t begin = (node - leaves_) * sides_per_leaf;
-        const std::size_t end = std::min(begin + sides_per_leaf, sides_.size());
-        for (std::size_t i = begin; i < end; ++i)
-            if (shines_[i] && sees(s, static_cast<std::uint32_t>(i))) {
-                last_ = static_cast<std::uint32_t>(i);
-                return true;
-            }
-        return false;
+        last_ = *found;
+        return true;
     }
 
     [[nodiscard]] bool sees(std::uint32_t s, std::uint32_t shining) const {
@@ -193,10 +124,9 @@ class Spread {
     const Mesh& mesh_;
     bool two_sided_ = false;
     std::vector<Side> sides_;
-    std::vector<bool> lit_, shines_;
-    std::vector<Bounds> nodes_; ///< [1] is the root
-    std::size_t leaves_ = 1;
-    std::size_t visits_ = 0;
+    std::vector<bool> lit_;
+    std::vector<std::uint32_t> shining_; ///< since the last round
+    std::size_t looks_ = 0;
     std::uint32_t last_ = 0;
 };
 

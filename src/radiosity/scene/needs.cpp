@@ -12,14 +12,6 @@ namespace {
 bool is_grey(const Vec3& v) { return v.r == v.g && v.g == v.b; }
 bool is_black(const Vec3& v) { return !glm::any(glm::greaterThan(v, Vec3(0.0))); }
 
-/// By material, whether some facet is made of it.
-std::vector<bool> materials_in_use(const Scene& scene) {
-    std::vector<bool> used(scene.materials.size());
-    for (const Facet& facet : scene.facets)
-        used[facet.material] = true;
-    return used;
-}
-
 /// A quad is two.
 std::size_t count_triangles(const Scene& scene) {
     std::size_t count = 0;

@@ -35,4 +35,12 @@ struct Scene {
     std::uint32_t faces = 0; ///< faces in the file, including those without area
 };
 
+/// By material, whether some facet is made of it.
+[[nodiscard]] inline std::vector<bool> materials_in_use(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size());
+    for (const Facet& facet : scene.facets)
+        used[facet.material] = true;
+    return used;
+}
+
 } // namespace hemilux

@@ -73,6 +73,7 @@ void ProgressivePass::begin(double rays_per_light) {
     for (std::uint32_t i = 0; i < hits_.size(); ++i)
         radiosity_.push_back(input_.mesh.material(i).emission);
     unshot_ = radiosity_;
+    unshot_variance_.assign(hits_.size(), Vec3(0.0));
     for (std::uint32_t i = 0; i < hits_.size(); ++i)
         rank(i);
     variance_.assign(hits_.size(), Vec3(0.0));
@@ -106,7 +107,8 @@ double ProgressivePass::unshot_power(std::uint32_t patch) const {
 void ProgressivePass::shoot(std::uint32_t step) {
     const auto shooter = static_cast<std::uint32_t>(brightest_.index_of_largest());
     Vec3 shot = unshot_[shooter]; // dB_s
-    unshot_[shooter] = Vec3(0.0);
+    const Vec3 shot_variance = unshot_variance_[shooter];
+    unshot_[shooter] = unshot_variance_[shooter] = Vec3(0.0);
     if (input_.options.progressive.overshoot) {
         // At most so much that it converges: as over-relaxation by less than 2 does.
         const Vec3 later = glm::clamp(input_.mesh.material(shooter).reflectance * ambient(),
@@ -121,7 +123,7 @@ void ProgressivePass::shoot(std::uint32_t step) {
     if (input_.monitor.interrupted)
         return;
     const ShotShares shares = balance_.settle(factors_.sum(), look_for_losses(shooter, shot));
-    receive(shot, shares);
+    receive(shot, shot_variance, shares);
     note_power_variance(shot, shares);
     const Vec3 power = shot * input_.mesh.patches()[shooter].area;
     escaped_ += shares.lost.escaped * power;
@@ -131,7 +133,8 @@ void ProgressivePass::shoot(std::uint32_t step) {
 }
 
 /// In the order of the patches, whatever thread has looked.
-void ProgressivePass::receive(const Vec3& shot, const ShotShares& shares) {
+void ProgressivePass::receive(const Vec3& shot, const Vec3& shot_variance,
+                              const ShotShares& shares) {
     for (std::uint32_t i = 0; i < hits_.size(); ++i) {
         const Sight& seen = factors_.sights()[i];
         const Vec3& rho = input_.mesh.material(i).reflectance;
@@ -140,8 +143,13 @@ void ProgressivePass::receive(const Vec3& shot, const ShotShares& shares) {
         unshot_[i] += rho * incident;
         if (seen.factor > 0)
             rank(i);
-        variance_[i] += rho * shot * rho * shot * (shares.scale * shares.scale * seen.variance) +
-                        rho * incident * rho * incident * shares.variance;
+        const double factor = shares.scale * seen.factor;
+        const Vec3 variance =
+            rho * rho *
+            (shot * shot * (shares.scale * shares.scale * seen.variance) +
+             incident * incident * shares.variance + shot_variance * (factor * factor));
+        variance_[i] += variance;
+        unshot_variance_[i] += variance;
         left_to_chance_[i] +=
             rho * shot * rho * shot * (shares.scale * shares.scale * seen.left_to_chance);
         absorbed_ += (1.0 - rho) * incident * input_.mesh.patches()[i].area;

@@ -3,10 +3,11 @@
 // shot.
 //
 // B is known with three errors. The pairs of patches err each for themselves, and the spread of
-// their points tells by how much. What a shot brings in all errs together with all that later shots
-// make of it; that error is taken to be spread evenly, as the ambient term of Cohen et al. (1988)
-// spreads light. And what is unshot will add to B, by up to the ambient term or in proportion to
-// the light that is there.
+// their points tells by how much; a shooter passes its error on with its light, which matters
+// between patches that nearly touch. What a shot brings in all errs together with all that later
+// shots make of it; that error is taken to be spread evenly, as the ambient term of Cohen et al.
+// (1988) spreads light. And what is unshot will add to B, by up to the ambient term or in
+// proportion to the light that is there.
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/sampling/largest_first.h"
@@ -50,7 +51,7 @@ class ProgressivePass {
     void rank(std::uint32_t patch);
     [[nodiscard]] double unshot_power(std::uint32_t patch) const;
     [[nodiscard]] ShotRays look_for_losses(std::uint32_t shooter, const Vec3& shot);
-    void receive(const Vec3& shot, const ShotShares& shares);
+    void receive(const Vec3& shot, const Vec3& shot_variance, const ShotShares& shares);
     void note_power_variance(const Vec3& shot, const ShotShares& shares);
     /// With a mean reflectance of at most `most`.
     [[nodiscard]] Reflected reflected(double most) const;
@@ -63,7 +64,8 @@ class ProgressivePass {
     Vec3 emitted_{0.0};
     std::vector<Vec3> radiosity_, unshot_; ///< B and dB
     LargestFirst brightest_;               ///< unshot power
-    std::vector<Vec3> variance_;           ///< of B by sampling, but for what is reflected again
+    std::vector<Vec3> variance_;           ///< of B by sampling, with what shooters err by
+    std::vector<Vec3> unshot_variance_;    ///< the part of it that is still to be shot
     std::vector<Vec3> left_to_chance_;     ///< of that, by pairs that were seldom looked at
     Vec3 power_variance_{0.0};             ///< of the power that all shots have brought
     CompensatedSum<Vec3> absorbed_, escaped_, by_chance_; ///< power, local units

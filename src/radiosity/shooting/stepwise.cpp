@@ -187,7 +187,7 @@ void check_bounces(const Mesh& mesh, std::uint64_t bounces, std::uint64_t step) 
     throw SolveError("step " + std::to_string(step) +
                          ": light is still on its way after ten million bounces, as between " +
                          name_of_patch(mesh, brightest) +
-                         " and others; --method gathering needs no bounces",
+                         " and others; --method stored-transport needs no bounces",
                      face_of(mesh, brightest));
 }
 
@@ -272,9 +272,13 @@ void StepwiseSolver::note_level(const std::vector<Vec3>& radiosity) {
 /// A patch that no ray has struck shows no spread, though one ray more might have struck it: a
 /// standard error is never below what one ray brings. Summed over all patches that would be too
 /// much; the variances themselves are right on average. The error is that of single patches, of
-/// which there are many, and that of the level, which is one.
+/// which there are many, and that of the level, which is one and is known from few steps: its part
+/// is reported larger than it shows (error_spread.h).
 void StepwiseSolver::estimate_errors() {
     const double n = solution_.steps;
+    const double level = level_squares_ / (n * (n - 1)); // its variance, relative
+    const double level_freedom = std::max(n - 1, 2.0);   // one alone would bound nothing
+    const double times = ErrorSpread{1, level_freedom}.reported(), more = times * times - 1;
     std::vector<Vec3> variance(squares_.size());
     std::vector<double> of_patch;
     double sum = 0, value = 0;
@@ -290,18 +294,20 @@ void StepwiseSolver::estimate_errors() {
     const Vec3 purest = purest_ray();
     for (std::uint32_t i = 0; i < variance.size(); ++i) {
         Vec3& sigma = solution_.standard_error[i];
-        sigma = glm::max(glm::sqrt(variance[i]), one_ray(i));
+        const Vec3 reflected = solution_.radiosity[i] - input_.mesh.material(i).emission;
+        sigma = glm::max(glm::sqrt(variance[i] + more * level * reflected * reflected), one_ray(i));
         const double area = input_.mesh.patches()[i].area;
         for (int c = 0; c < 3; ++c)
             if (variance[i][c] == 0 && area > 0) // nothing of this channel was seen around here
                 sigma[c] =
                     std::max(sigma[c], input_.mesh.material(i).reflectance[c] * purest[c] / area);
     }
-    const double of_level = level_squares_ / (n * (n - 1)) * value;
     solution_.variance = sum;
+    solution_.variance_of_level = level * value;
+    solution_.level_freedom = level_freedom;
     solution_.unseen = unseen();
     if (sum > 0)
-        solution_.effective_freedom = effective_freedom_of(of_patch, of_level);
+        solution_.effective_freedom = effective_freedom_of(of_patch, level * value);
 }
 
 /// What patches send by the solution and what rays have carried differ by chance: numbers of rays

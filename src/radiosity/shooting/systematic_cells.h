@@ -47,27 +47,11 @@ class SystematicCells {
     /// Cell by cell.
     template <class Found>
     void walk(double low, const Found& found) const {
-        constexpr std::size_t block = 16;
-        std::array<std::size_t, block> cell;
-        std::array<double, block> high;
-        for (std::size_t begin = 0, cells = allocation_.cells.size(); begin < cells;
-             begin += block) {
-            const std::size_t end = std::min(begin + block, cells);
-            if (end_of(end - 1) < low + 1)
-                continue;
-            std::size_t count = 0;
-            double before = low;
-            for (std::size_t k = begin; k < end; ++k) { // a branch would be guessed wrong
-                const double after = whole_below(end_of(k));
-                cell[count] = k;
-                high[count] = after;
-                count += after > before;
-                before = after;
-            }
-            for (std::size_t i = 0; i < count; ++i) {
-                found(allocation_.cells[cell[i]], rays_ * allocation_.rays(cell[i]), low, high[i]);
-                low = high[i];
-            }
+        for (std::size_t k = 0; k < allocation_.cells.size(); ++k) {
+            const double high = whole_below(end_of(k));
+            if (high > low)
+                found(allocation_.cells[k], rays_ * allocation_.rays(k), low, high);
+            low = high;
         }
     }
 

@@ -1,10 +1,10 @@
 #include "radiosity/sides/light_paths.h"
 
 #include "geometry/frame.h"
+#include "radiosity/rays/shot.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -16,11 +16,8 @@ namespace {
 constexpr double off_the_plane = 0x1p-23;
 
 Ray diffuse_ray_at(const Mesh& mesh, FacetSide side, const Vec3& point, Rng& rng) {
-    const double u = rng.uniform(), angle = 2 * std::numbers::pi * rng.uniform();
-    const Vec3 local(std::sqrt(u) * std::cos(angle), std::sqrt(u) * std::sin(angle),
-                     std::sqrt(1 - u));
     const Vec3 normal = mesh.whole_side(side.facet, side.back).normal;
-    const Vec3 direction = Frame::from_normal(normal).to_world(local);
+    const Vec3 direction = Frame::from_normal(normal).to_world(sample_cosine(rng));
     return {.origin = point, .direction = direction, .t_min = off_the_plane, .from = side.facet};
 }
 
@@ -85,11 +82,7 @@ std::optional<Ray> Targets::ray_from(FacetSide side, Rng& rng) const {
 }
 
 double area_of(const Mesh& mesh, std::uint32_t facet) {
-    const FacetSoup soup = mesh.soup();
-    Polygon shape;
-    for (std::size_t i = 0; i < 4; ++i)
-        shape.corner[i] = soup.vertices[soup.facets[facet][i]];
-    return shape.area();
+    return polygon_of(mesh.soup().vertices, mesh.soup().facets[facet]).area();
 }
 
 double power_of(const Mesh& mesh, std::uint32_t facet) {

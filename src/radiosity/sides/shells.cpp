@@ -1,7 +1,7 @@
 #include "radiosity/sides/shells.h"
 
 #include "geometry/polygon.h"
-#include "radiosity/sides/welded_edges.h"
+#include "radiosity/scene/welded_edges.h"
 
 #include <algorithm>
 #include <cmath>

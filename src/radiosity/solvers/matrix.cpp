@@ -240,7 +240,8 @@ class MatrixSolver final : public Solver {
         solution_.variance = 0;
         for (std::uint32_t i = 0; i < variance.size(); ++i)
             *solution_.variance += input_.mesh.patches()[i].area * glm::dot(variance[i], Vec3(1.0));
-        solution_.effective_freedom = effective_freedom(products, batches);
+        solution_.effective_freedom =
+            believed_freedom(solution_.effective_freedom, effective_freedom(products, batches));
         solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
         const std::vector<Vec3> unseen = unseen_light();
         const double share = unseen_loss();

@@ -56,9 +56,6 @@ RelativeError true_error(const Mesh& mesh, std::span<const Vec3> radiosity,
     return {all.root(), inside.root(), outside.root()};
 }
 
-/// One error in all, which is normally distributed with a known variance.
-constexpr ErrorSpread known_spread_of_one_part{1, std::numeric_limits<double>::infinity()};
-
 double estimated_error(const Mesh& mesh, const Solution& solution) {
     Ratio all;
     for (std::uint32_t i = 0; i < solution.radiosity.size(); ++i) {
@@ -72,7 +69,7 @@ double estimated_error(const Mesh& mesh, const Solution& solution) {
     all.value -= all.error; // the square of an estimate is too large by its variance
     if (all.error > 0) {
         const double more = error_spread(mesh, solution).reported();
-        const double of_level = known_spread_of_one_part.reported();
+        const double of_level = ErrorSpread{1, solution.level_freedom}.reported();
         const double rest = std::max(all.error - solution.variance_of_level, 0.0);
         all.error = std::max(all.error,
                              more * more * rest + of_level * of_level * solution.variance_of_level);

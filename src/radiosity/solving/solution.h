@@ -4,6 +4,7 @@
 #include "geometry/vector.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -41,9 +42,11 @@ struct Solution {
     /// Sum over patches and channels of area times the variance of B, where that is known better
     /// than from standard_error, which is on the safe side where few rays arrive.
     std::optional<double> variance;
-    /// The part of that sum by which all light of a part of the scene is off together, where it is
-    /// known by counting and not from a few samples.
+    /// The part of that sum by which all light of a part of the scene is off together.
     double variance_of_level = 0;
+    /// Degrees of freedom from which that part is known: infinite where it was found by counting
+    /// and not from the spread of a few samples.
+    double level_freedom = std::numeric_limits<double>::infinity();
     /// The same sum for what no ray may have seen so far, by the rule of three, or for light that
     /// is still to be shot: a squared error which counts besides the variance.
     double unseen = 0;
@@ -56,15 +59,15 @@ struct Solution {
     /// from standard_error, which does not tell what patches err together.
     std::optional<double> effective_freedom;
     EnergyBalance energy;
-    /// Patches from which `gathering` traces no more rays at random, as none of those that were
-    /// traced has found a path to them from an emitter.
+    /// Patches from which `stored-transport` traces no more rays at random, as none of those that
+    /// were traced has found a path to them from an emitter.
     std::size_t unlit = 0;
     std::uint32_t steps = 0;
     std::uint64_t rays_energy = 0;
     std::uint64_t rays_density = 0;
     std::uint64_t rays_density_spared = 0; ///< below triangles that were not divided
     std::uint64_t bytes_density = 0;       ///< of the density store; 0 where a method keeps none
-    std::uint64_t bytes_transport = 0;     ///< of the rays that `gathering` keeps
+    std::uint64_t bytes_transport = 0;     ///< of the rays that `stored-transport` keeps
     double seconds_density = 0;            ///< spent before the first step
 };
 

@@ -53,15 +53,16 @@ struct SolveOptions {
     ProgressiveOptions progressive = {};
     Guide guide = Guide::density; ///< `hemisphere`; not with `literal`
     std::uint64_t seed = 1;
-    /// `gathering`: each step takes as many rays as all before, or as `aim` asks for; else each
-    /// takes `rays`, as with the other methods.
+    /// `stored-transport`: each step takes as many rays as all before, or as `aim` asks for; else
+    /// each takes `rays`, as with the other methods.
     bool growing_steps = true;
-    /// The estimated error at which the run is to end; 0: none. `gathering` plans its steps by it.
+    /// The estimated error at which the run is to end; 0: none. `stored-transport` plans its steps
+    /// by it.
     double aim = 0;
     /// Steps that the caller will take, as far as it knows: methods whose steps are independent
     /// work out several at the same time. The result does not depend on it.
     std::uint32_t expected_steps = 0;
-    /// Bytes that `gathering` may use for its rays; 0: as many as it needs.
+    /// Bytes that `stored-transport` may use for its rays; 0: as many as it needs.
     std::uint64_t memory = 0;
     /// 0: one per core. The result does not depend on it.
     unsigned threads = 0;
@@ -175,13 +176,14 @@ struct Method {
     std::span<const MethodFlag> flags = {};
     /// Options that make it the one to solve with where --method is not given.
     std::span<const std::string_view> implied_by = {};
+    std::string_view former_name = {}; ///< what --method takes too; empty where there is none
 
     [[nodiscard]] bool can_resume() const { return saves || strategy; }
 };
 
 /// All methods, one per file of strategies/ and solvers/, in alphabetical order.
 [[nodiscard]] std::span<const Method* const> methods();
-/// nullptr if there is no such method.
+/// By its name or its former name; nullptr if there is no such method.
 [[nodiscard]] const Method* find_method(std::string_view name);
 /// The one that has this role.
 [[nodiscard]] const Method& method_of(Role role);

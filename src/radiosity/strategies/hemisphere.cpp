@@ -54,7 +54,7 @@ class HemisphereStrategy final : public Strategy {
         if (!density_)
             return allocated_of_one_surface_.view();
         if (!kept_.empty())
-            return kept(patch);
+            return kept_[patch].view();
         allocate_densities(patch, memory);
         return memory.view();
     }
@@ -70,37 +70,21 @@ class HemisphereStrategy final : public Strategy {
     }
 
   private:
-    /// In a small scene what is allocated is kept, 384 bytes a patch: patches shoot few rays at a
-    /// time, and walking their trees each time takes a tenth of the run. Large scenes need but the
+    /// In a small scene what is allocated is kept, 440 bytes a patch: patches shoot few rays at a
+    /// time, and walking their trees each time takes a fifth of the run. Large scenes need but the
     /// bytes.
     static constexpr std::size_t most_kept_cells = 2'000'000;
 
     void keep_allocated(const SolverInput& input, const Workers& workers) {
-        most_leaves_ = std::size_t{4} << (2 * hemisphere_.depth());
         kept_.resize(input.mesh.patches().size());
-        kept_cells_.resize(kept_.size() * most_leaves_);
-        kept_rays_.resize(kept_.size() * most_leaves_);
         workers.for_chunks(kept_.size(), 64, [&](std::size_t begin, std::size_t end) {
             AllocatedCells allocated;
-            for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
-                if (!input.needs.power(i))
-                    continue;
-                allocate_densities(i, allocated);
-                kept_[i] = static_cast<std::uint16_t>(allocated.cells.size());
-                const auto place = static_cast<std::ptrdiff_t>(i * most_leaves_);
-                std::ranges::copy(allocated.cells, kept_cells_.begin() + place);
-                std::ranges::copy(allocated.rays_up_to, kept_rays_.begin() + place);
-            }
+            for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i)
+                if (input.needs.power(i)) {
+                    allocate_densities(i, allocated);
+                    kept_[i] = allocated;
+                }
         });
-        whole_tree_ =
-            static_cast<std::size_t>(std::ranges::find(kept_, most_leaves_) - kept_.begin());
-    }
-
-    [[nodiscard]] Allocation kept(std::uint32_t patch) const {
-        // Whole trees have the same cells: one row of them, which stays in the caches.
-        const std::size_t leaves = kept_[patch], row = leaves == most_leaves_ ? whole_tree_ : patch;
-        return {std::span(kept_cells_).subspan(row * most_leaves_, leaves),
-                std::span(kept_rays_).subspan(patch * most_leaves_, leaves)};
     }
 
     void allocate_densities(std::uint32_t patch, AllocatedCells& allocated) const {
@@ -146,10 +130,7 @@ class HemisphereStrategy final : public Strategy {
     std::vector<double> area_shares_; ///< by cell
     std::optional<DensityMap> density_;
     AllocatedCells allocated_of_one_surface_; ///< of all patches, where there is no density_
-    // In small scenes: by patch, how many leaves it has, and a row of them.
-    std::size_t most_leaves_ = 0, whole_tree_ = 0; ///< a patch that has all leaves
-    std::vector<std::uint16_t> kept_, kept_cells_;
-    std::vector<float> kept_rays_;
+    std::vector<AllocatedCells> kept_;        ///< by patch, in small scenes
 };
 
 std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisphere& hemisphere,

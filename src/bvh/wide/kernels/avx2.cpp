@@ -1,4 +1,3 @@
 // The kernels for AVX2 with FMA.
 #define HEMILUX_KERNELS avx2
-#define HEMILUX_KERNELS_NAME "avx2"
 #include "bvh/wide/kernels/table.h"

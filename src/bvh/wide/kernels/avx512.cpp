@@ -1,4 +1,3 @@
 // The kernels for AVX-512 (F, DQ, BW, VL).
 #define HEMILUX_KERNELS avx512
-#define HEMILUX_KERNELS_NAME "avx512"
 #include "bvh/wide/kernels/table.h"

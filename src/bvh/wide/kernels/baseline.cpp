@@ -1,4 +1,3 @@
 // The kernels for what the compiler takes without being told more.
 #define HEMILUX_KERNELS baseline
-#define HEMILUX_KERNELS_NAME "baseline"
 #include "bvh/wide/kernels/table.h"

@@ -14,7 +14,6 @@
 namespace hemilux::wide::HEMILUX_KERNELS {
 
 extern const Kernels kernels;
-const Kernels kernels{HEMILUX_KERNELS_NAME, closest,        occluded, count,
-                      closest_stream,       occluded_stream};
+const Kernels kernels{closest, occluded, count, closest_stream, occluded_stream};
 
 } // namespace hemilux::wide::HEMILUX_KERNELS

@@ -1,15 +1,15 @@
-#include "radiosity/gathering/gathering_errors.h"
+#include "radiosity/stored_transport/transport_errors.h"
 
 #include "geometry/vector_ratio.h"
 #include "radiosity/form_factors/exchange_matrix.h"
-#include "radiosity/gathering/direct_light.h"
-#include "radiosity/gathering/gathered_light.h"
-#include "radiosity/gathering/gathering_system.h"
-#include "radiosity/gathering/linked_parts.h"
-#include "radiosity/gathering/row_spread.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/unseen_sights.h"
+#include "radiosity/stored_transport/batch_light.h"
+#include "radiosity/stored_transport/direct_light.h"
+#include "radiosity/stored_transport/linked_parts.h"
+#include "radiosity/stored_transport/row_spread.h"
+#include "radiosity/stored_transport/transport_system.h"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ struct PartLedger {
 
 class Account {
   public:
-    explicit Account(const GatheringResult& result)
+    explicit Account(const TransportResult& result)
         : result_(result), area_(result.system.area()), rho_(result.system.reflectance()),
           rays_(result.factors.rays()), parts_(find_linked_parts(result.factors)),
           ledgers_(parts_.count) {
@@ -58,7 +58,7 @@ class Account {
         unseen_sights_ = unseen_sights(light);
     }
 
-    void add_unseen(GatheringErrors& errors) const {
+    void add_unseen(TransportErrors& errors) const {
         std::vector<double> dark(parts_.count); // one of them at a time has got those few rays
         double shadow_rays = 0;                 // that arrive if nothing is in their way
         for (std::uint32_t i = 0; i < area_.size(); ++i)
@@ -165,7 +165,7 @@ class Account {
         return samples > 0 ? rho_[i] * (result_.direct.unblocked(i) / samples) : Vec3(0.0);
     }
 
-    const GatheringResult& result_;
+    const TransportResult& result_;
     std::span<const double> area_;
     std::span<const Vec3> rho_;
     std::span<const double> rays_;
@@ -214,10 +214,10 @@ class Window {
 } // namespace
 
 template <std::size_t Sets>
-GatheringErrors errors_of(const GatheringResult& result, const Workers& workers) {
+TransportErrors errors_of(const TransportResult& result, const Workers& workers) {
     constexpr std::size_t patches_per_chunk = 512;
     const std::size_t n = result.system.area().size();
-    GatheringErrors errors;
+    TransportErrors errors;
     std::vector<Vec3> variance(n);
     std::vector<double> raise(n);
     workers.for_chunks(n, patches_per_chunk, [&](std::size_t begin, std::size_t end) {
@@ -245,6 +245,6 @@ GatheringErrors errors_of(const GatheringResult& result, const Workers& workers)
     return errors;
 }
 
-template GatheringErrors errors_of<4>(const GatheringResult& result, const Workers& workers);
+template TransportErrors errors_of<4>(const TransportResult& result, const Workers& workers);
 
 } // namespace hemilux

@@ -1,12 +1,12 @@
-// Gathering on stored transport: its parts against what they must obey, the whole against the
+// Stored transport: its parts against what they must obey, the whole against the
 // reference.
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/form_factors/ray_counts.h"
-#include "radiosity/gathering/direct_light.h"
-#include "radiosity/gathering/ray_allocation.h"
-#include "radiosity/gathering/small_emitters.h"
 #include "radiosity/linear/conjugate_gradients.h"
 #include "radiosity/saving/state.h"
+#include "radiosity/stored_transport/direct_light.h"
+#include "radiosity/stored_transport/ray_allocation.h"
+#include "radiosity/stored_transport/small_emitters.h"
 #include "support/after_streams.h"
 #include "support/catch.h"
 #include "support/scenes.h"
@@ -24,7 +24,7 @@ using test::Model;
 
 namespace {
 
-const Method& gathering() { return *find_method("gathering"); }
+const Method& stored_transport() { return *find_method("stored-transport"); }
 
 /// Sets of rays of all patches, more from some than from others.
 std::vector<RayCounts> traced(const Model& model, std::size_t sets, std::uint32_t rays) {
@@ -47,7 +47,7 @@ struct RunErrors {
     RunErrors(const Model& model, const Solution& exact, std::uint64_t seed, std::uint32_t steps) {
         SolveOptions options;
         options.seed = seed;
-        const Solution s = test::solve(model, gathering(), options, test::steps(steps));
+        const Solution s = test::solve(model, stored_transport(), options, test::steps(steps));
         off = true_error(model.mesh, s.radiosity, exact.radiosity).all;
         told = estimated_error(model.mesh, s);
     }
@@ -228,7 +228,7 @@ TEST_CASE("Emitters are small until they are three tenths of all surface") {
     CHECK_FALSE(small_emitters(Mesh(test::room_with_block())).empty());
 }
 
-TEST_CASE("Gathering agrees with the matrix and knows its error", "[slow]") {
+TEST_CASE("Stored transport agrees with the matrix and knows its error", "[slow]") {
     for (const Scene& scene : {test::room_with_block(), test::open_scene(),
                                test::cube_with_lit_floor(4, .9), test::furnace_l_shape(.8)}) {
         const Model model(scene);
@@ -246,7 +246,7 @@ TEST_CASE("Gathering agrees with the matrix and knows its error", "[slow]") {
     }
 }
 
-TEST_CASE("Gathering finds the light of many emitters that touch a wall") {
+TEST_CASE("Stored transport finds the light of many emitters that touch a wall") {
     const Model model(test::curtain_at_wall(12));
     const Solution exact = test::reference(model, .003);
     double squares = 0, told = 0;
@@ -262,25 +262,25 @@ TEST_CASE("Gathering finds the light of many emitters that touch a wall") {
     CHECK(told / std::sqrt(squares) < 2.2); // its error has few parts
 }
 
-TEST_CASE("Gathering closes the balance of energy of closed rooms") {
+TEST_CASE("Stored transport closes the balance of energy of closed rooms") {
     for (const Scene& scene : {test::room_with_block(), test::cube_with_lit_floor(3, .99)}) {
         const Model model(scene);
-        const Solution s = test::solve(model, gathering(), {}, test::steps(3));
+        const Solution s = test::solve(model, stored_transport(), {}, test::steps(3));
         for (int c = 0; c < 3; ++c)
             CHECK(s.energy.absorbed[c] + s.energy.escaped[c] ==
                   Approx(s.energy.emitted[c]).epsilon(.01));
     }
 }
 
-TEST_CASE("With little memory gathering goes on, and its rays take no more") {
+TEST_CASE("With little memory stored transport goes on, and its rays take no more") {
     const Model model(test::room_with_block());
     const Solution exact = test::reference(model, .004);
     SolveOptions options;
     options.memory = 300'000;
-    const Solution few = test::solve(model, gathering(), options, test::steps(6));
-    const Solution many = test::solve(model, gathering(), options, test::steps(40));
+    const Solution few = test::solve(model, stored_transport(), options, test::steps(6));
+    const Solution many = test::solve(model, stored_transport(), options, test::steps(40));
     options.memory = 0;
-    const Solution free = test::solve(model, gathering(), options, test::steps(10));
+    const Solution free = test::solve(model, stored_transport(), options, test::steps(10));
     CHECK(many.bytes_transport <= 300'000);
     CHECK(many.bytes_transport > few.bytes_transport / 2);
     CHECK(free.bytes_transport > 2 * many.bytes_transport);
@@ -292,27 +292,27 @@ TEST_CASE("With little memory gathering goes on, and its rays take no more") {
     CHECK(estimated_error(model.mesh, many) > off(many) / 2);
 }
 
-TEST_CASE("A step of gathering that was interrupted is taken up where it was left") {
+TEST_CASE("A step of stored transport that was interrupted is taken up where it was left") {
     const Model model(test::room_with_block());
     SolveOptions options;
     options.rays = 200;
     options.threads = 2;
     Monitor monitor;
-    const auto whole = gathering().make({model.mesh, model.bvh, options, monitor});
+    const auto whole = stored_transport().make({model.mesh, model.bvh, options, monitor});
     for (int step = 0; step < 3; ++step)
         REQUIRE(whole->step());
     for (const int streams : {1, 5, 30}) {
         CAPTURE(streams);
         const test::AfterStreams tracer(model.bvh, streams, [&] { monitor.interrupted = true; });
         const SolverInput input{model.mesh, tracer, options, monitor};
-        const auto stopped = gathering().make(input);
+        const auto stopped = stored_transport().make(input);
         while (stopped->step())
             ;
         REQUIRE(monitor.interrupted.exchange(false));
         REQUIRE(stopped->solution().steps < 3);
         StateWriter saved;
         stopped->save(saved);
-        const auto resumed = gathering().make(input);
+        const auto resumed = stored_transport().make(input);
         StateReader state(saved.bytes());
         resumed->load(state);
         CHECK_NOTHROW(state.expect_end());
@@ -335,18 +335,18 @@ TEST_CASE("Equal steps take as many rays as were asked for, and an error is reac
     options.growing_steps = false;
     for (const int steps : {1, 2, 5, 9}) {
         const Solution s =
-            test::solve(model, gathering(), options, test::steps(std::uint32_t(steps)));
+            test::solve(model, stored_transport(), options, test::steps(std::uint32_t(steps)));
         CAPTURE(steps);
         CHECK(double(s.rays_energy) / patches < 100 * steps + 1);
         CHECK(double(s.rays_energy) / patches > 60 * steps);
     }
     options.growing_steps = true;
-    const Solution doubled = test::solve(model, gathering(), options, test::steps(5));
+    const Solution doubled = test::solve(model, stored_transport(), options, test::steps(5));
     CHECK(double(doubled.rays_energy) / patches > 900);
     options.aim = .005;
     StopRule stop;
     stop.error = .005;
-    const Solution aimed = test::solve(model, gathering(), options, stop);
+    const Solution aimed = test::solve(model, stored_transport(), options, stop);
     CHECK(estimated_error(model.mesh, aimed) <= .005);
     CHECK(aimed.steps <= 6);
 }

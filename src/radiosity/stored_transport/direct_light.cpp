@@ -1,8 +1,7 @@
-#include "radiosity/gathering/direct_light.h"
+#include "radiosity/stored_transport/direct_light.h"
 
 #include "radiosity/form_factors/pair_factor.h"
 #include "radiosity/form_factors/point_to_patch.h"
-#include "radiosity/gathering/small_emitters.h"
 #include "radiosity/rays/receivers.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
@@ -11,6 +10,7 @@
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/solver.h"
+#include "radiosity/stored_transport/small_emitters.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "radiosity/gathering/linked_parts.h"
+#include "radiosity/stored_transport/linked_parts.h"
 
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/form_factors/ray_counts.h"

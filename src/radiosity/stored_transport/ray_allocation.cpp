@@ -1,4 +1,4 @@
-#include "radiosity/gathering/ray_allocation.h"
+#include "radiosity/stored_transport/ray_allocation.h"
 
 #include "radiosity/sampling/rng.h"
 

@@ -1,4 +1,4 @@
-#include "radiosity/gathering/gathered_light.h"
+#include "radiosity/stored_transport/batch_light.h"
 
 #include "radiosity/saving/solution_state.h"
 #include "radiosity/saving/state.h"
@@ -8,7 +8,7 @@
 
 namespace hemilux {
 
-EnergyBalance GatheredLight::energy() const {
+EnergyBalance BatchLight::energy() const {
     const EnergyBalance& now = solved_[batches_].energy;
     EnergyBalance sum = now;
     if (!before_.empty()) {
@@ -18,7 +18,7 @@ EnergyBalance GatheredLight::energy() const {
     return {now.emitted, sum.absorbed / generations(), sum.escaped / generations(), Vec3(0.0)};
 }
 
-void GatheredLight::begin_generation() {
+void BatchLight::begin_generation() {
     if (before_.empty())
         before_.resize(batches_ + 1, Light(solved_[0].incident.size()));
     for (std::size_t s = 0; s <= batches_; ++s) {
@@ -30,7 +30,7 @@ void GatheredLight::begin_generation() {
     ++generation_;
 }
 
-void GatheredLight::save(StateWriter& state) const {
+void BatchLight::save(StateWriter& state) const {
     state.add(generation_);
     for (const std::vector<Light>* lights : {&solved_, &before_})
         for (const Light& light : *lights) {
@@ -39,7 +39,7 @@ void GatheredLight::save(StateWriter& state) const {
         }
 }
 
-void GatheredLight::load(StateReader& state) {
+void BatchLight::load(StateReader& state) {
     generation_ = state.whole_up_to(std::numeric_limits<std::uint32_t>::max());
     before_.resize(generation_ > 0 ? batches_ + 1 : 0, Light(solved_[0].incident.size()));
     for (std::vector<Light>* lights : {&solved_, &before_})

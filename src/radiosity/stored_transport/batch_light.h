@@ -1,5 +1,5 @@
 #pragma once
-// The light that gathering has solved for: of each of its independent batches of rays, and of all
+// The light that is solved for: of each of its independent batches of rays, and of all
 // together. Where rays had to be forgotten for want of memory, what they told is kept as a
 // generation, and the light is the mean of the generations.
 
@@ -14,9 +14,9 @@ namespace hemilux {
 class StateReader;
 class StateWriter;
 
-class GatheredLight {
+class BatchLight {
   public:
-    GatheredLight(std::size_t batches, std::size_t patches)
+    BatchLight(std::size_t batches, std::size_t patches)
         : batches_(batches), solved_(batches + 1, Light(patches)) {}
 
     [[nodiscard]] std::size_t batches() const { return batches_; }

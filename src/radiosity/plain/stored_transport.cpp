@@ -1,4 +1,4 @@
-// Gathering on stored transport, the principle (not of the paper; the method `gathering`).
+// Stored transport, the principle (not of the paper).
 //
 // Each patch looks around along cosine-distributed rays and counts which patches they strike. With
 // S_ij = A_i F_ij = A_j F_ji the counts c of both sides tell one number,
@@ -41,12 +41,12 @@ struct Counts {
     std::vector<double> c, escaped, absorbed;
 };
 
-class Gathering final : public Solver {
+class StoredTransport final : public Solver {
   public:
-    explicit Gathering(const SolverInput& input)
+    explicit StoredTransport(const SolverInput& input)
         : input_(input), n_(static_cast<std::uint32_t>(input.mesh.patches().size())) {
         check_input(input);
-        if (n_ > most_patches_of_gathering)
+        if (n_ > most_patches_of_stored_transport)
             throw std::invalid_argument("too many patches to keep all pairs of them");
         counts_.assign(batches + 1, Counts(n_));
         for (std::uint32_t i = 0; i < n_; ++i)
@@ -193,8 +193,8 @@ class Gathering final : public Solver {
 
 } // namespace
 
-std::unique_ptr<Solver> gathering(const SolverInput& input) {
-    return std::make_unique<Gathering>(input);
+std::unique_ptr<Solver> stored_transport(const SolverInput& input) {
+    return std::make_unique<StoredTransport>(input);
 }
 
 } // namespace hemilux::plain

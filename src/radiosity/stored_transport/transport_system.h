@@ -1,14 +1,14 @@
 #pragma once
-// The linear system of gathering: what arrives at each patch in the end, from the rays that are
-// kept. Solved once for each of some independent batches of rays, whose spread is the error, and
-// once for all together.
+// The linear system of stored transport: what arrives at each patch in the end, from the rays that
+// are kept. Solved once for each of some independent batches of rays, whose spread is the error,
+// and once for all together.
 
 #include "radiosity/form_factors/exchange_matrix.h"
-#include "radiosity/gathering/direct_light.h"
-#include "radiosity/gathering/gathered_light.h"
 #include "radiosity/linear/energy_ledger.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/solving/stop_flag.h"
+#include "radiosity/stored_transport/batch_light.h"
+#include "radiosity/stored_transport/direct_light.h"
 
 #include <cstdint>
 #include <optional>
@@ -19,12 +19,12 @@ namespace hemilux {
 
 class Mesh;
 
-class GatheringSystem {
+class TransportSystem {
   public:
     /// `lamps`: patches whose light comes by shadow rays, not by rays at random. `closed`: no ray
     /// can leave the scene or meet the back of a face, as its geometry proves. The mesh outlives
     /// this.
-    GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps, bool closed);
+    TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps, bool closed);
 
     /// By patch.
     [[nodiscard]] std::span<const double> area() const { return area_; }
@@ -43,7 +43,7 @@ class GatheringSystem {
     /// `light`, of each batch and at last of all: from what it holds, on to what the rays tell, as
     /// exactly as that is worth. Returns the factors of all. `error`: the relative one of what is
     /// known so far; nan: unknown. Where it is interrupted nothing is changed.
-    ExchangeMatrix solve(const Rays& rays, double error, std::vector<GatheredLight::Light>& light,
+    ExchangeMatrix solve(const Rays& rays, double error, std::vector<BatchLight::Light>& light,
                          const Workers& workers, const StopFlag& interrupted) const;
 
   private:
@@ -52,10 +52,10 @@ class GatheringSystem {
         std::vector<Vec3> light;
         Vec3 variance{0.0};
     };
-    void solve(const ExchangeMatrix& factors, Direct direct, GatheredLight::Light& light,
+    void solve(const ExchangeMatrix& factors, Direct direct, BatchLight::Light& light,
                const Workers& workers, double residual, const StopFlag& interrupted) const;
     [[nodiscard]] Transport transport(const ExchangeMatrix& factors) const;
-    double average(std::vector<GatheredLight::Light>& light) const;
+    double average(std::vector<BatchLight::Light>& light) const;
     std::vector<Vec3> straight_light(const ExchangeMatrix& factors, const DirectLight& shadow_rays,
                                      std::optional<std::size_t> batch,
                                      const Workers& workers) const;

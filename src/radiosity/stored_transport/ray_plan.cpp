@@ -1,9 +1,9 @@
-#include "radiosity/gathering/gathering_plan.h"
+#include "radiosity/stored_transport/ray_plan.h"
 
-#include "radiosity/gathering/ray_allocation.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/stored_transport/ray_allocation.h"
 
 #include <algorithm>
 #include <bit>
@@ -57,8 +57,8 @@ void check_allocated(std::span<const std::uint32_t> rays, double mean) {
 
 } // namespace
 
-GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random,
-                             double to_emitters, const RayGoal& goal)
+RayPlan::RayPlan(const Mesh& mesh, const Needs& needs, double random, double to_emitters,
+                 const RayGoal& goal)
     : mesh_(mesh), goal_(goal) {
     const auto patches = mesh.patches();
     first_.random = std::clamp(random, 1.0, most_rays);
@@ -77,14 +77,14 @@ GatheringPlan::GatheringPlan(const Mesh& mesh, const Needs& needs, double random
     emitter_weights_ = prior_emitter_weights_;
 }
 
-void GatheringPlan::begin() {
+void RayPlan::begin() {
     for (std::size_t i = 0; i < weights_.size(); ++i) {
         now_.rays.random[i] = weights_[i] > 0 ? 1 : 0;
         now_.rays.to_emitters[i] = first_.to_emitters > 0 && emitter_weights_[i] > 0 ? 1 : 0;
     }
 }
 
-void GatheringPlan::leave_out(const std::vector<bool>& lit) {
+void RayPlan::leave_out(const std::vector<bool>& lit) {
     if (std::ranges::none_of(lit, std::identity{})) // nothing is known yet
         return;
     for (std::size_t i = 0; i < lit.size(); ++i)
@@ -92,7 +92,7 @@ void GatheringPlan::leave_out(const std::vector<bool>& lit) {
             weights_[i] = emitter_weights_[i] = 0;
 }
 
-void GatheringPlan::grow(const ErrorSoFar& known, double room, const Workers& workers) {
+void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers) {
     before_ = now_;
     if (has_begun()) {
         choose(known);
@@ -115,7 +115,7 @@ void GatheringPlan::grow(const ErrorSoFar& known, double room, const Workers& wo
             now_.rays.to_emitters[i] = std::max(of_unlit, before_.rays.to_emitters[i]);
 }
 
-void GatheringPlan::choose(const ErrorSoFar& known) {
+void RayPlan::choose(const ErrorSoFar& known) {
     const double rays = before_.random + before_.to_emitters;
     if (!known.drained)
         return split(2 * rays, known);
@@ -131,7 +131,7 @@ void GatheringPlan::choose(const ErrorSoFar& known) {
 
 /// So many rays in all go to the two kinds so that the error is least, as far as variances fall
 /// with the power `fall` of the rays; none is taken back.
-void GatheringPlan::split(double rays, const ErrorSoFar& known) {
+void RayPlan::split(double rays, const ErrorSoFar& known) {
     now_.random = rays;
     if (!(before_.to_emitters > 0))
         return;
@@ -147,7 +147,7 @@ void GatheringPlan::split(double rays, const ErrorSoFar& known) {
 }
 
 /// The error that the planned rays will probably leave.
-double GatheringPlan::predicted(const ErrorSoFar& known) const {
+double RayPlan::predicted(const ErrorSoFar& known) const {
     const double of_lamps =
         known.variance > 0 ? std::min(known.variance_from_emitters / known.variance, 1.0) : 0;
     double left = (1 - of_lamps) * std::pow(before_.random / now_.random, fall);
@@ -156,10 +156,10 @@ double GatheringPlan::predicted(const ErrorSoFar& known) const {
     return known.relative * std::sqrt(left);
 }
 
-bool GatheringPlan::at_most() const { return std::max(now_.random, now_.to_emitters) >= most_rays; }
+bool RayPlan::at_most() const { return std::max(now_.random, now_.to_emitters) >= most_rays; }
 
 /// The mean over its neighbours; of the patch itself where it has none.
-double GatheringPlan::of_neighbours(std::uint32_t patch, std::span<const double> known) const {
+double RayPlan::of_neighbours(std::uint32_t patch, std::span<const double> known) const {
     double sum = 0, count = 0;
     for_alike_neighbours(mesh_, patch, [&](std::uint32_t j) {
         sum += known[j];
@@ -169,8 +169,8 @@ double GatheringPlan::of_neighbours(std::uint32_t patch, std::span<const double>
 }
 
 /// What is known counts as much as what was thought before; both have the same sum.
-void GatheringPlan::mix(std::span<const double> known, std::span<const double> prior,
-                        std::vector<double>& weights) {
+void RayPlan::mix(std::span<const double> known, std::span<const double> prior,
+                  std::vector<double>& weights) {
     const double sum = std::accumulate(known.begin(), known.end(), 0.0);
     const double prior_sum = std::accumulate(prior.begin(), prior.end(), 0.0);
     if (!(sum > 0)) {
@@ -184,7 +184,7 @@ void GatheringPlan::mix(std::span<const double> known, std::span<const double> p
 /// A ray is most important where it takes most from the error. A patch counts by its area and its
 /// reflectance, and the variance of random rays is the spread of the light that comes from all
 /// sides, as far as it is known; half of the weight does not trust that.
-void GatheringPlan::learn(std::span<const Vec3> variance) {
+void RayPlan::learn(std::span<const Vec3> variance) {
     std::vector<double> known(variance.size()), smooth(variance.size());
     for (std::size_t i = 0; i < known.size(); ++i)
         known[i] =
@@ -194,7 +194,7 @@ void GatheringPlan::learn(std::span<const Vec3> variance) {
     mix(smooth, prior_weights_, learned_weights_);
 }
 
-void GatheringPlan::weigh(std::span<const Vec3> variance, const std::vector<bool>& lit) {
+void RayPlan::weigh(std::span<const Vec3> variance, const std::vector<bool>& lit) {
     if (std::ranges::none_of(lit, std::identity{})) // nothing is known yet
         return;
     if (!has_learned_)
@@ -206,7 +206,7 @@ void GatheringPlan::weigh(std::span<const Vec3> variance, const std::vector<bool
 
 /// With a variance that falls as v n^-fall, the sum over patches is least for n as
 /// v^(1 / (1 + fall)), v being what one ray alone would leave.
-void GatheringPlan::weigh_emitters(std::span<const double> variance, const std::vector<bool>& lit) {
+void RayPlan::weigh_emitters(std::span<const double> variance, const std::vector<bool>& lit) {
     if (std::ranges::none_of(lit, std::identity{}))
         return;
     std::vector<double> known(variance.size()), prior = prior_emitter_weights_;
@@ -229,7 +229,7 @@ void GatheringPlan::weigh_emitters(std::span<const double> variance, const std::
 }
 
 /// What was planned, and what is known of the patches; the rest follows from the scene.
-void GatheringPlan::save(StateWriter& state) const {
+void RayPlan::save(StateWriter& state) const {
     for (const RayBudget* stage : {&before_, &now_}) {
         state.add(stage->random);
         state.add(stage->to_emitters);
@@ -241,7 +241,7 @@ void GatheringPlan::save(StateWriter& state) const {
     state.add(std::uint64_t{has_learned_});
 }
 
-void GatheringPlan::load(StateReader& state) {
+void RayPlan::load(StateReader& state) {
     for (RayBudget* stage : {&before_, &now_}) {
         for (double* mean : {&stage->random, &stage->to_emitters})
             state.get(*mean, {0, most_growth * most_rays});

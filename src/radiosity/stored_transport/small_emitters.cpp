@@ -1,4 +1,4 @@
-#include "radiosity/gathering/small_emitters.h"
+#include "radiosity/stored_transport/small_emitters.h"
 
 #include "geometry/polygon_sampler.h"
 #include "radiosity/form_factors/pair_factor.h"

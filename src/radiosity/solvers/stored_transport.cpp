@@ -1,13 +1,13 @@
-// Gathering on stored transport.
+// Stored transport: rays tell form factors in both directions, and a linear system all bounces.
 //
 // Each patch looks around along well-distributed rays and keeps which patches they struck, not what
 // light they brought (ray_counts.h). What two patches saw of each other is put together, all rows
 // are closed (exchange_matrix.h), and all bounces are solved on the result by conjugate gradients
-// (gathering_system.h): no ray is traced twice for another bounce. Small lamps are reached by
+// (transport_system.h): no ray is traced twice for another bounce. Small lamps are reached by
 // shadow rays with their exact factor (direct_light.h).
 //
 // Parameter: --rays, of the first step, half of them random, half to the lamps. Each step adds as
-// many, or as many as there are, or as many as an error asked for will take (gathering_plan.h), of
+// many, or as many as there are, or as many as an error asked for will take (ray_plan.h), of
 // the kind that the error comes from. Four independent batches of both give four solutions, whose
 // spread is the standard error; the result is the solution of all rays together.
 //
@@ -18,14 +18,6 @@
 
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/form_factors/ray_counts.h"
-#include "radiosity/gathering/direct_light.h"
-#include "radiosity/gathering/gathered_light.h"
-#include "radiosity/gathering/gathering_errors.h"
-#include "radiosity/gathering/gathering_plan.h"
-#include "radiosity/gathering/gathering_system.h"
-#include "radiosity/gathering/linked_parts.h"
-#include "radiosity/gathering/row_spread.h"
-#include "radiosity/gathering/small_emitters.h"
 #include "radiosity/linear/energy_ledger.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/rays/shot.h"
@@ -37,6 +29,14 @@
 #include "radiosity/solving/error_spread.h"
 #include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/solver.h"
+#include "radiosity/stored_transport/batch_light.h"
+#include "radiosity/stored_transport/direct_light.h"
+#include "radiosity/stored_transport/linked_parts.h"
+#include "radiosity/stored_transport/ray_plan.h"
+#include "radiosity/stored_transport/row_spread.h"
+#include "radiosity/stored_transport/small_emitters.h"
+#include "radiosity/stored_transport/transport_errors.h"
+#include "radiosity/stored_transport/transport_system.h"
 
 #include <algorithm>
 #include <array>
@@ -52,9 +52,9 @@ constexpr std::size_t patches_per_chunk = 512;
 /// Bytes that are needed to put counts together, for each byte of them.
 constexpr double merging = 3.5;
 
-class GatheringSolver final : public Solver {
+class StoredTransportSolver final : public Solver {
   public:
-    explicit GatheringSolver(const SolverInput& input)
+    explicit StoredTransportSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)),
           system_(input.mesh, emitters_, input.needs.closed),
           plan_(first_plan(input, !emitters_.empty())),
@@ -75,7 +75,7 @@ class GatheringSolver final : public Solver {
         SearchForWayOut search(input_);
         std::optional<bool> done;
         while (!(done = try_step(search)))
-            search.go_on(traced_, !finished() && room_to_grow() >= GatheringPlan::least_growth);
+            search.go_on(traced_, !finished() && room_to_grow() >= RayPlan::least_growth);
         return *done;
     }
 
@@ -94,15 +94,14 @@ class GatheringSolver final : public Solver {
         input_.monitor.phase = "solving";
         const double error = solution_.steps > 0 ? estimated_error(input_.mesh, solution_)
                                                  : std::numeric_limits<double>::quiet_NaN();
-        std::vector<GatheredLight::Light> found = light_.solved();
+        std::vector<BatchLight::Light> found = light_.solved();
         const ExchangeMatrix all =
             system_.solve({counts_, *direct_}, error, found, workers_, input_.monitor.interrupted);
         if (input_.monitor.interrupted)
             return false;
         planned_ = false;
-        drained_ = std::ranges::all_of(found, [&](const GatheredLight::Light& light) {
-            return search.is_drained(light.energy);
-        });
+        drained_ = std::ranges::all_of(
+            found, [&](const BatchLight::Light& light) { return search.is_drained(light.energy); });
         if (!drained_)
             return std::nullopt;
         light_.solved() = std::move(found);
@@ -146,7 +145,7 @@ class GatheringSolver final : public Solver {
     }
 
   private:
-    static GatheringPlan first_plan(const SolverInput& input, bool lamps) {
+    static RayPlan first_plan(const SolverInput& input, bool lamps) {
         const double each = input.options.rays / (lamps ? 2 * batches : batches);
         return {input.mesh, input.needs, each, lamps ? each : 0,
                 RayGoal{input.options.growing_steps, input.options.aim}};
@@ -180,7 +179,7 @@ class GatheringSolver final : public Solver {
         if (solution_.steps > 0)
             known.relative = estimated_error(input_.mesh, solution_);
         const double room = room_to_grow();
-        if (room >= GatheringPlan::least_growth) {
+        if (room >= RayPlan::least_growth) {
             plan_.grow(known, room, workers_);
         } else { // as many rays as before, all anew
             light_.begin_generation();
@@ -235,7 +234,7 @@ class GatheringSolver final : public Solver {
             spread.direct_variance += part.direct_variance;
         }
         const RowSpread rows = spread_of_rows(all, light, workers_);
-        GatheringErrors errors =
+        TransportErrors errors =
             errors_of<batches>({input_.mesh, system_, light_, all, rows, *direct_}, workers_);
         direct_variance_ = spread.direct_variance + errors.unseen_by_shadow_rays;
         variance_ = std::max(errors.variance + errors.unseen, direct_variance_);
@@ -294,9 +293,9 @@ class GatheringSolver final : public Solver {
     SolverInput input_;
     Workers workers_;
     std::vector<std::uint32_t> emitters_; ///< those reached by shadow rays
-    GatheringSystem system_;
-    GatheringPlan plan_;
-    GatheredLight light_;
+    TransportSystem system_;
+    RayPlan plan_;
+    BatchLight light_;
     std::vector<RayCounts> counts_;
     std::optional<DirectLight> direct_; ///< an estimate for each batch
     bool planned_ = false; ///< rays of the present step, which may have been traced in part
@@ -306,26 +305,27 @@ class GatheringSolver final : public Solver {
     Solution solution_;
 };
 
-std::unique_ptr<Solver> make_gathering(const SolverInput& input) {
-    return std::make_unique<GatheringSolver>(input);
+std::unique_ptr<Solver> make_stored_transport(const SolverInput& input) {
+    return std::make_unique<StoredTransportSolver>(input);
 }
 
 } // namespace
 
-extern const Method gathering_method;
-const Method gathering_method{
-    .name = "gathering",
+extern const Method stored_transport_method;
+const Method stored_transport_method{
+    .name = "stored-transport",
     .summary = "rays are kept and all bounces solved on them; lamps by shadow rays",
     .has_literal = false,
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
-    .make = make_gathering,
+    .make = make_stored_transport,
     .strategy = nullptr,
     .work = {.pairs = true},
     .saves = true,
-    .plain = plain::gathering,
-    .most_plain_patches = plain::most_patches_of_gathering,
+    .plain = plain::stored_transport,
+    .most_plain_patches = plain::most_patches_of_stored_transport,
     .role = Role::standard,
+    .former_name = "gathering",
 };
 
 } // namespace hemilux

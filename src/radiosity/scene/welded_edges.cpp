@@ -1,4 +1,4 @@
-#include "radiosity/sides/welded_edges.h"
+#include "radiosity/scene/welded_edges.h"
 
 #include "radiosity/sampling/rng.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// How far off the light of gathering may be: what its independent batches of rays show, and what
+// How far off the light may be: what its independent batches of rays show, and what
 // none of their rays has shown.
 //
 // The batches differ by the noise of what they found. Nothing differs where none of them found
@@ -18,13 +18,13 @@ namespace hemilux {
 
 class DirectLight;
 class ExchangeMatrix;
-class GatheredLight;
-class GatheringSystem;
+class BatchLight;
+class TransportSystem;
 class Mesh;
 class Workers;
 struct RowSpread;
 
-struct GatheringErrors {
+struct TransportErrors {
     std::vector<Vec3> standard_error; ///< of the radiosity by patch [W/m2]
     double variance = 0;  ///< by the batches: sum over patches and channels of area times variance
     double of_losses = 0; ///< the part of it that comes from how many rays were lost, by counting
@@ -35,10 +35,10 @@ struct GatheringErrors {
 };
 
 /// What is known of a solution; all of it outlives the call.
-struct GatheringResult {
+struct TransportResult {
     const Mesh& mesh;
-    const GatheringSystem& system;
-    const GatheredLight& light;
+    const TransportSystem& system;
+    const BatchLight& light;
     const ExchangeMatrix& factors; ///< of all batches
     const RowSpread& rows;
     const DirectLight& direct;
@@ -46,8 +46,8 @@ struct GatheringResult {
 
 /// `Sets`: of light.
 template <std::size_t Sets>
-[[nodiscard]] GatheringErrors errors_of(const GatheringResult& result, const Workers& workers);
+[[nodiscard]] TransportErrors errors_of(const TransportResult& result, const Workers& workers);
 
-extern template GatheringErrors errors_of<4>(const GatheringResult& result, const Workers& workers);
+extern template TransportErrors errors_of<4>(const TransportResult& result, const Workers& workers);
 
 } // namespace hemilux

@@ -1,5 +1,5 @@
 #pragma once
-// How many rays gathering is to trace next, of which kind, and from which patches.
+// How many rays are to be traced next, of which kind, and from which patches.
 
 #include "geometry/vector.h"
 #include "radiosity/sampling/workers.h"
@@ -16,7 +16,7 @@ class StateReader;
 class StateWriter;
 
 /// Rays of each patch.
-struct GatheringRays {
+struct PlannedRays {
     std::vector<std::uint32_t> random;      ///< cosine-distributed
     std::vector<std::uint32_t> to_emitters; ///< shadow rays
 };
@@ -37,12 +37,12 @@ struct ErrorSoFar {
     bool drained = true;               ///< the rays have seen a way out for the light
 };
 
-class GatheringPlan {
+class RayPlan {
   public:
     /// The first step's means, of one batch; no `to_emitters`: there are no lamps to be reached.
     /// The mesh outlives this.
-    GatheringPlan(const Mesh& mesh, const Needs& needs, double random, double to_emitters,
-                  const RayGoal& goal);
+    RayPlan(const Mesh& mesh, const Needs& needs, double random, double to_emitters,
+            const RayGoal& goal);
 
     /// Plans a few rays of each patch, which tell what light can reach: leave_out.
     void begin();
@@ -56,7 +56,7 @@ class GatheringPlan {
     static constexpr double least_growth = 1.19;
 
     /// In all until the next step ends.
-    [[nodiscard]] const GatheringRays& rays() const { return now_.rays; }
+    [[nodiscard]] const PlannedRays& rays() const { return now_.rays; }
     [[nodiscard]] bool at_most() const;
     /// Whether the first step was planned.
     [[nodiscard]] bool has_begun() const { return now_.random > 0; }
@@ -83,7 +83,7 @@ class GatheringPlan {
   private:
     struct RayBudget {
         double random = 0, to_emitters = 0; ///< means over the patches that are to get more
-        GatheringRays rays;
+        PlannedRays rays;
     };
     [[nodiscard]] double of_neighbours(std::uint32_t patch, std::span<const double> known) const;
     void learn(std::span<const Vec3> variance);

@@ -1,4 +1,4 @@
-#include "radiosity/gathering/row_spread.h"
+#include "radiosity/stored_transport/row_spread.h"
 
 #include "geometry/vector_ratio.h"
 #include "radiosity/form_factors/exchange_matrix.h"

@@ -1,4 +1,4 @@
-#include "radiosity/gathering/emitter_choice.h"
+#include "radiosity/stored_transport/emitter_choice.h"
 
 #include "radiosity/rays/shot.h"
 #include "radiosity/scene/mesh.h"

@@ -1,4 +1,4 @@
-#include "radiosity/gathering/gathering_system.h"
+#include "radiosity/stored_transport/transport_system.h"
 
 #include "radiosity/linear/conjugate_gradients.h"
 #include "radiosity/scene/mesh.h"
@@ -31,7 +31,7 @@ Vec3 sample_variance(std::span<const Vec3> values) {
 
 } // namespace
 
-GatheringSystem::GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps,
+TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps,
                                  bool closed)
     : mesh_(mesh), closed_(closed) {
     const auto patches = mesh.patches();
@@ -49,9 +49,9 @@ GatheringSystem::GatheringSystem(const Mesh& mesh, std::span<const std::uint32_t
 }
 
 /// Each batch by a thread of its own; then the whole by all threads, from where their mean is.
-ExchangeMatrix GatheringSystem::solve(const Rays& rays, double error,
-                                      std::vector<GatheredLight::Light>& light,
-                                      const Workers& workers, const StopFlag& interrupted) const {
+ExchangeMatrix TransportSystem::solve(const Rays& rays, double error,
+                                      std::vector<BatchLight::Light>& light, const Workers& workers,
+                                      const StopFlag& interrupted) const {
     const std::size_t batches = rays.counts.size();
     std::vector<ExchangeMatrix> parts(batches);
     std::vector<Direct> direct(batches);
@@ -63,7 +63,7 @@ ExchangeMatrix GatheringSystem::solve(const Rays& rays, double error,
         power[batch] = power_arriving(transport(parts[batch]), direct[batch].light);
     });
     const Vec3 variance = sample_variance(power);
-    std::vector<GatheredLight::Light> found = light;
+    std::vector<BatchLight::Light> found = light;
     // What a residual makes of the light is no larger than its sum over all reflections.
     const double known = std::fmin(left_of_sets * error, first_residual); // unknown: the latter
     const double residual = std::max(known * lost_at_least_, least_residual);
@@ -81,13 +81,13 @@ ExchangeMatrix GatheringSystem::solve(const Rays& rays, double error,
     return all;
 }
 
-Transport GatheringSystem::transport(const ExchangeMatrix& factors) const {
+Transport TransportSystem::transport(const ExchangeMatrix& factors) const {
     return {area_, emission_, reflectance_, factors.lost(), factors.rays(), closed_};
 }
 
 /// What arrives at each patch in the end, from what `light` holds on.
-void GatheringSystem::solve(const ExchangeMatrix& factors, Direct direct,
-                            GatheredLight::Light& light, const Workers& workers, double residual,
+void TransportSystem::solve(const ExchangeMatrix& factors, Direct direct, BatchLight::Light& light,
+                            const Workers& workers, double residual,
                             const StopFlag& interrupted) const {
     scale_direct_light(transport(factors), direct.variance, direct.light);
     solve_by_gradients(factors, area_, reflectance_, direct.light, light.incident, workers,
@@ -97,7 +97,7 @@ void GatheringSystem::solve(const ExchangeMatrix& factors, Direct direct,
 
 /// Makes the last the mean of the batches; returns its relative standard error, of what is
 /// reflected.
-double GatheringSystem::average(std::vector<GatheredLight::Light>& light) const {
+double TransportSystem::average(std::vector<BatchLight::Light>& light) const {
     const std::size_t batches = light.size() - 1;
     double squares = 0, size = 0;
     for (std::size_t i = 0; i < area_.size(); ++i) {
@@ -118,7 +118,7 @@ double GatheringSystem::average(std::vector<GatheredLight::Light>& light) const 
 /// The light straight from the emitters: by shadow rays, of one batch or of all, and from those
 /// that shadow rays do not reach by rays at random. A patch without shadow rays has all from the
 /// latter: it is black, or they are better there.
-std::vector<Vec3> GatheringSystem::straight_light(const ExchangeMatrix& factors,
+std::vector<Vec3> TransportSystem::straight_light(const ExchangeMatrix& factors,
                                                   const DirectLight& shadow_rays,
                                                   std::optional<std::size_t> batch,
                                                   const Workers& workers) const {

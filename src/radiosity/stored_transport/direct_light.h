@@ -10,9 +10,9 @@
 #include "bvh/tracer.h"
 #include "geometry/polygon_sampler.h"
 #include "geometry/vector.h"
-#include "radiosity/gathering/emitter_choice.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/scene/needs.h"
+#include "radiosity/stored_transport/emitter_choice.h"
 
 #include <cstdint>
 #include <span>
