@@ -1,5 +1,6 @@
 // How far the whole error that `solve --divide auto` reports can be trusted, and what it costs: the
-// light as given out against long gathers at points drawn uniformly over the area.
+// light as given out against paths of rays (path_reference.h) at points drawn uniformly over the
+// area.
 //
 //     hemilux_division_truth --scene examples/scenes/room_1002.obj --error 0.1,0.05,0.02 --seeds 10
 
@@ -8,8 +9,8 @@
 #include "app/loading/sides.h"
 #include "app/running/division.h"
 #include "division_families.h"
+#include "path_reference.h"
 #include "radiosity/division/adaptive_division.h"
-#include "radiosity/final_gather/final_gather.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/rays/make_tracer.h"
 #include "radiosity/sampling/rng.h"
@@ -20,6 +21,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -30,9 +32,8 @@ namespace {
 
 struct Settings {
     std::vector<std::string> scenes, families, asked{"0.05"};
-    std::size_t seeds = 10, points = 20000, estimates = 16;
+    std::size_t seeds = 10, points = 10000, paths = 256;
     double max_edge = 0; ///< 0: --divide auto
-    double reference_error = .01, reference_sampling = .005;
     unsigned threads = 0;
     bool every_run = false;
 };
@@ -41,7 +42,7 @@ struct Settings {
 struct TruthPoint {
     Hit hit;
     SurfacePoint at;
-    Vec3 first, second; ///< reflected light [W/m2] by two independent gathers
+    Vec3 first, second; ///< reflected light [W/m2] by paths, twice independently
 };
 
 /// A facet's half, as a hit on it is given.
@@ -102,56 +103,42 @@ std::vector<TruthPoint> draw_points(const Mesh& mesh, std::size_t count) {
     return points;
 }
 
+/// An error with one sigma of it.
+struct TrueError {
+    double value, uncertainty;
+};
+
 /// A scene, and the light at its points.
 class Truth {
   public:
     Truth(const Scene& scene, const MeshOptions& options, const Settings& settings)
         : scene_(scene), options_(options) {
-        Mesh mesh(scene, options);
+        const Mesh mesh(scene, options);
         points_ = draw_points(mesh, settings.points);
-        const MadeTracer made = make_tracer(mesh, find_needs(mesh).tree, settings.threads);
-        Monitor monitor;
-        AdaptiveDivision division;
-        division.error = settings.reference_error;
-        division.seed = 987654321;
-        division.most_patches = 200'000;
-        division.threads = settings.threads;
-        Solution rough = rough_solution(mesh, *made.tracer, division, monitor);
-        divide_where_light_changes(mesh, *made.tracer, rough, division, monitor);
-        SolveOptions solve;
-        solve.seed = 123456789;
-        solve.aim = settings.reference_sampling;
-        const Needs needs = find_needs(mesh);
-        const auto solver =
-            find_method("gathering")->make({mesh, *made.tracer, solve, monitor, needs});
-        run(*solver, {mesh, *made.tracer, solve, monitor, needs},
-            {.steps = {},
-             .seconds = {},
-             .error = settings.reference_sampling,
-             .rays = 400'000'000});
-        Solution solution = solver->solution();
-        SolveSettings auto_division;
-        auto_division.divide_auto = true;
-        Statistics unused;
-        add_slopes(auto_division, mesh, *made.tracer, solution, monitor.interrupted, unused);
-        patches_ = mesh.patches().size();
-        sampling_ = estimated_error(mesh, solution);
-        gather(mesh, *made.tracer, solution, settings);
+        const MadeTracer made = make_tracer(mesh, true, settings.threads);
+        const PathReference reference(mesh, *made.tracer);
+        constexpr std::size_t points_per_chunk = 16;
+        Workers(settings.threads)
+            .for_chunks(points_.size(), points_per_chunk, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t k = begin; k < end; ++k)
+                    follow(mesh, reference, k, settings.paths);
+            });
     }
-    [[nodiscard]] std::size_t patches() const { return patches_; }
-    [[nodiscard]] double sampling() const { return sampling_; }
 
     /// Relative to the light as it is, RMS over area and channels.
-    [[nodiscard]] double error_of(const Mesh& mesh, const Solution& solution) const {
-        double square = 0, size = 0;
+    [[nodiscard]] TrueError error_of(const Mesh& mesh, const Solution& solution) const {
+        double sum = 0, squares = 0, size = 0;
         for (const TruthPoint& point : points_) {
             const std::uint32_t patch = mesh.patch_at(point.hit);
             const Vec3 light = radiosity_at(mesh, solution, patch, point.at.position) -
                                mesh.material(patch).emission;
-            square += glm::dot(light - point.first, light - point.second);
+            const double product = glm::dot(light - point.first, light - point.second);
+            sum += product;
+            squares += product * product;
             size += glm::dot(point.first, point.second);
         }
-        return std::sqrt(std::max(square / size, 0.0));
+        const double value = std::sqrt(std::max(sum / size, 0.0));
+        return {value, .5 * std::sqrt(squares) / size / value};
     }
     [[nodiscard]] Mesh mesh(double max_edge) const {
         MeshOptions options = options_;
@@ -160,36 +147,23 @@ class Truth {
     }
 
   private:
-    void gather(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                const Settings& settings) {
-        FinalGather gather(mesh, tracer, solution);
-        std::vector<SurfacePoint> at;
-        std::vector<std::uint64_t> streams;
-        for (const TruthPoint& point : points_) {
-            at.push_back(point.at);
-            streams.push_back(hash_words({77, at.size()}));
-        }
-        const StopFlag never;
-        const std::size_t n = settings.estimates;
-        const std::vector<Vec3> found =
-            gather.irradiance(at, streams, 2 * n, Workers(settings.threads), never);
-        for (std::size_t k = 0; k < points_.size(); ++k) {
-            const Vec3 rho = mesh.material(mesh.patch_at(points_[k].hit)).reflectance;
-            for (std::size_t e = 0; e < 2 * n; ++e)
-                (e < n ? points_[k].first : points_[k].second) +=
-                    rho * found[2 * n * k + e] / double(n);
-        }
+    void follow(const Mesh& mesh, const PathReference& reference, std::size_t k,
+                std::size_t paths) {
+        std::mt19937_64 numbers(k + 1);
+        TruthPoint& point = points_[k];
+        const Vec3& rho = mesh.material(mesh.patch_at(point.hit)).reflectance;
+        for (Vec3* half : {&point.first, &point.second})
+            for (std::size_t path = 0; path < paths; ++path)
+                *half += rho / double(paths) * reference.irradiance(point.at, numbers);
     }
 
     Scene scene_;
     MeshOptions options_;
     std::vector<TruthPoint> points_;
-    std::size_t patches_ = 0;
-    double sampling_ = 0;
 };
 
 struct Run {
-    double reported = 0, truth = 0, sampling = 0, division = 0, seconds = 0;
+    double reported = 0, truth = 0, doubt = 0, sampling = 0, division = 0, seconds = 0;
     std::size_t patches = 0;
 };
 
@@ -214,29 +188,34 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     Divided divided = divide_as_asked(solve, mesh, input, begin, statistics);
     needs = find_needs(mesh);
     const auto solver = divided.begun ? std::move(divided.begun) : begin();
-    run(*solver, input, {.steps = {}, .seconds = {}, .error = options.aim, .rays = 2'000'000'000},
+    run(*solver, input,
+        {.steps = {},
+         .seconds = {},
+         .error = divided.sampling.value_or(options.aim),
+         .rays = 2'000'000'000},
         {}, divided.before);
-    Solution solution = solver->solution();
-    if (divided.linear)
-        add_slopes(solve, mesh, *made.tracer, solution, monitor.interrupted, statistics);
+    const Solution solution = with_slopes(solver->solution(), divided);
     statistics.estimated_error = estimated_error(mesh, solution);
     solve.divide_auto = true;
-    add_division_error(statistics, solve, mesh, *made.tracer, solution, monitor.interrupted);
+    add_division_error(statistics, solve, mesh, *made.tracer, solution, divided,
+                       monitor.interrupted);
     Run done;
     done.seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
     done.reported = statistics.estimated_error;
     done.sampling = statistics.error_sampling;
     done.division = statistics.error_division;
     done.patches = mesh.patches().size();
-    done.truth = truth.error_of(mesh, solution);
+    const TrueError off = truth.error_of(mesh, solution);
+    done.truth = off.value;
+    done.doubt = off.uncertainty;
     return done;
 }
 
 void print_run(const Run& run) {
     std::printf("    %7zu patches, reported %6.3f %% (sampling %6.3f, division %6.3f), true %6.3f "
-                "%%, ratio %.3f, %.3g s\n",
+                "+- %.3f %%, ratio %.3f, %.3g s\n",
                 run.patches, 100 * run.reported, 100 * run.sampling, 100 * run.division,
-                100 * run.truth, run.reported / run.truth, run.seconds);
+                100 * run.truth, 100 * run.doubt, run.reported / run.truth, run.seconds);
 }
 
 double median(std::vector<double> values) {
@@ -248,8 +227,7 @@ double median(std::vector<double> values) {
 void measure(const std::string& name, const Scene& scene, const MeshOptions& options,
              const Settings& settings) {
     const Truth truth(scene, options, settings);
-    std::printf("%s: reference on %zu patches, sampling %.2g %%\n", name.c_str(), truth.patches(),
-                100 * truth.sampling());
+    std::printf("%s: %zu points\n", name.c_str(), settings.points);
     for (const std::string& asked : settings.asked) {
         const double error = parse_number(asked).value();
         std::vector<double> ratio, patches, seconds, whole, reported;
@@ -291,13 +269,11 @@ void add_options(Command command, Settings& settings) {
         .separated_by(',');
     add_whole<std::size_t>(command, "--seeds", settings.seeds, 1, 1000, "runs of each [10]");
     add_whole<std::size_t>(command, "--points", settings.points, 100, 10'000'000,
-                           "of the truth [20000]");
-    add_whole<std::size_t>(command, "--estimates", settings.estimates, 1, 10'000,
-                           "gathers of 16 rays at a point, twice [16]");
+                           "of the truth [10000]");
+    add_whole<std::size_t>(command, "--paths", settings.paths, 1, 100'000,
+                           "at each point, twice [256]");
     add_number(command, "--divide", "LENGTH", settings.max_edge, positive,
                "patches of one size instead of --divide auto");
-    add_number(command, "--reference-error", "X", settings.reference_error, positive,
-               "of the reference's division [0.01]");
     add_whole<unsigned>(command, "--threads", settings.threads, 0, 1024, "0: all cores");
     command.add_flag("--every-run", settings.every_run, "a line for each run too");
 }

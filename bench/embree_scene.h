@@ -1,19 +1,28 @@
 #pragma once
-// Embree over the same triangles, behind a few functions. Quads are given as two triangles.
+// Embree over the same facets, behind a few functions.
 
 #include "rays.h"
 
 #include <embree3/rtcore.h>
 
 #include <span>
+#include <string>
+#include <vector>
 
 namespace hemilux::bench {
 
+/// How Embree builds its tree.
+struct EmbreeBuild {
+    bool robust = false;       ///< watertight, slower
+    bool high_quality = false; ///< with spatial splits; else medium
+    bool quads = false;        ///< quads as quads; else each as two triangles
+    RTCFilterFunctionN filter = nullptr;
+};
+
 class EmbreeScene {
   public:
-    /// Builds at once, in one thread, at medium quality. `filter` lets rays be counted, or leave
-    /// out the facet they start on.
-    EmbreeScene(const FacetSoup& soup, bool robust, RTCFilterFunctionN filter = nullptr);
+    /// Builds at once, in one thread.
+    EmbreeScene(const FacetSoup& soup, const EmbreeBuild& how);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -21,8 +30,8 @@ class EmbreeScene {
     [[nodiscard]] RTCScene scene() const { return scene_; }
     [[nodiscard]] double build_seconds() const { return build_seconds_; }
     [[nodiscard]] std::size_t bytes() const { return bytes_; } ///< buffers of vertices left out
-    /// The facet of one of Embree's triangles.
-    [[nodiscard]] std::uint32_t facet(std::uint32_t triangle) const { return facet_[triangle]; }
+    /// The facet of one of Embree's primitives.
+    [[nodiscard]] std::uint32_t facet(std::uint32_t primitive) const { return facet_[primitive]; }
 
   private:
     RTCDevice device_;
@@ -33,15 +42,28 @@ class EmbreeScene {
     std::vector<std::uint32_t> indices_, facet_;
 };
 
-[[nodiscard]] RTCRayHit embree_ray(const Ray& ray, float t_min);
+/// How Embree is asked: ray by ray, in packets of 8 or 16, or as a stream of 64.
+struct EmbreeQuery {
+    enum class By { one, packets_of_8, packets_of_16, streams } by = By::one;
+    bool coherent = false; ///< the flag that promises rays to be alike
+    bool occluded = false; ///< rtcOccluded in place of rtcIntersect
+};
+[[nodiscard]] std::string name_of(const EmbreeQuery& query);
 
-/// The facets struck, one ray at a time.
-void embree_closest(const EmbreeScene& scene, std::span<const Ray> rays,
-                    std::span<std::uint32_t> out);
-/// All facets on each ray, by a filter that refuses them: with intersect1, occluded1 or
-/// intersect16.
-enum class CountBy { intersect1, occluded1, intersect16 };
-void embree_count(const EmbreeScene& counting, CountBy by, std::span<const Ray> rays,
+/// Rays in all of Embree's forms, made ahead of the race: a query only copies them, as it writes
+/// into them.
+class EmbreeRays {
+  public:
+    EmbreeRays(std::span<const Ray> rays, float t_min);
+
+    std::span<const Ray> rays;
+    std::vector<RTCRayHit> ones;
+    std::vector<RTCRayHit8> eights;
+    std::vector<RTCRayHit16> sixteens;
+};
+
+/// The primitives that were struck, in `out`; with a scene of counting_filter how many there are.
+void embree_trace(const EmbreeScene& scene, const EmbreeQuery& query, const EmbreeRays& rays,
                   std::span<std::uint32_t> out);
 /// Refuses everything and counts what does not belong to the facet that the ray starts on.
 void counting_filter(const RTCFilterFunctionNArguments* arguments);

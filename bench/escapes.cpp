@@ -38,7 +38,7 @@ struct Settings {
 class Inside {
   public:
     Inside(Scene scene, unsigned threads)
-        : mesh_(std::move(scene)), bvh_(mesh_.soup(), {.threads = threads, .kernels = ""}) {
+        : mesh_(std::move(scene)), bvh_(mesh_.soup(), {.threads = threads}) {
         double area = 0;
         for (const Patch& patch : mesh_.patches())
             area_before_.push_back(area += patch.area);

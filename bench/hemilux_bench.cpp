@@ -3,9 +3,12 @@
 //     hemilux_bench [SCENE.obj ...] [--json FILE] [--rays N] [--rounds N] [--only TEXT]
 //
 // Without scenes six are made: a Cornell box and a cluttered room at three finenesses. One thread,
-// CPU time, Embree and hemilux in turn, the fastest of the rounds. `ratio` is to Embree's
-// rtcIntersect1 on the same rays in random order; of `count` to the best of Embree's ways to count
-// exactly; of `build` to its medium quality.
+// CPU time, Embree and hemilux in turn, the fastest of the rounds. Both get the same rays in the
+// same order: `shuffled`, or `sorted` by patch and direction. Of Embree's ways to trace them the
+// fastest is taken (single rays, packets of 8 and 16, streams; either coherence flag; medium and
+// high quality; quads as quads or as two triangles), which a few rounds find out before the race;
+// `robust` is the fastest of its watertight mode. `count`: all facets on each ray, of Embree by
+// filters that refuse them, where their counts agree. `build` is beside its medium quality.
 #include "bvh/wide/wide_bvh.h"
 #include "io/scene_files/obj.h"
 #include "rays.h"
@@ -15,6 +18,7 @@
 #include "embree_scene.h"
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -39,21 +43,23 @@ struct Settings {
 struct Row {
     std::string scene, work;
     std::size_t rays_per_patch;
-    double hemilux, embree; ///< millions per second; 0: not measured
+    double hemilux, embree = 0, robust = 0; ///< millions per second; 0: not measured
+    std::string way = {};                   ///< the fastest of Embree's
     [[nodiscard]] double ratio() const { return embree > 0 ? hemilux / embree : 0; }
 };
 
 class Report {
   public:
     void add(const Row& row) {
-        std::printf("%-22s %-12s %6zu %10.3f %10.3f %7.2f\n", row.scene.c_str(), row.work.c_str(),
-                    row.rays_per_patch, row.hemilux, row.embree, row.ratio());
+        std::printf("%-22s %-9s %6zu %10.3f %10.3f %10.3f %7.2f  %s\n", row.scene.c_str(),
+                    row.work.c_str(), row.rays_per_patch, row.hemilux, row.embree, row.robust,
+                    row.ratio(), row.way.c_str());
         std::fflush(stdout);
         rows_.push_back(row);
     }
     void print_means() const {
         std::printf("\n%-12s %8s %8s\n", "work", "mean", "worst");
-        for (const char* work : {"independent", "count", "build"}) {
+        for (const char* work : {"shuffled", "sorted", "count", "build"}) {
             double sum = 0, worst = INFINITY;
             int n = 0;
             for (const Row& row : rows_)
@@ -74,7 +80,8 @@ class Report {
             out << (i ? ",\n " : "\n ") << "{\"scene\": \"" << r.scene << "\", \"work\": \""
                 << r.work << "\", \"rays_per_patch\": " << r.rays_per_patch
                 << ", \"hemilux_mrays_s\": " << r.hemilux << ", \"embree_mrays_s\": " << r.embree
-                << ", \"ratio\": " << r.ratio() << "}";
+                << ", \"embree_robust_mrays_s\": " << r.robust << ", \"embree_way\": \"" << r.way
+                << "\", \"ratio\": " << r.ratio() << "}";
         }
         out << "\n]\n";
         if (!out.flush())
@@ -87,6 +94,87 @@ class Report {
 
 double millions(std::size_t n, double seconds) { return 1e-6 * double(n) / seconds; }
 
+#if defined(HEMILUX_EMBREE)
+/// Embree's scenes over the same facets, and its ways to trace rays in them.
+class Rival {
+  public:
+    Rival(const FacetSoup& soup, bool robust, RTCFilterFunctionN filter = nullptr) {
+        const bool has_quads =
+            std::ranges::any_of(soup.facets, [](const FacetCorners& c) { return c[2] != c[3]; });
+        for (const bool high : {false, true})
+            for (const bool quads : {false, true})
+                if (has_quads || !quads)
+                    scenes_.push_back(
+                        {(high ? "high" : "medium") + std::string(quads ? ", quads" : ""),
+                         std::make_unique<EmbreeScene>(soup,
+                                                       EmbreeBuild{robust, high, quads, filter})});
+    }
+
+    struct Way {
+        const EmbreeScene* scene;
+        EmbreeQuery query;
+        std::string name;
+    };
+    /// The fastest of `queries` in any of the scenes. Ways to count are taken only where they agree
+    /// with the first.
+    [[nodiscard]] Way fastest(std::span<const EmbreeQuery> queries, const EmbreeRays& rays,
+                              bool counts) const {
+        std::vector<Way> ways;
+        std::vector<std::uint32_t> out(rays.rays.size()), first;
+        for (const auto& [name, scene] : scenes_)
+            for (const EmbreeQuery& query : queries) {
+                if (counts) {
+                    embree_trace(*scene, query, rays, out);
+                    if (first.empty())
+                        first = out;
+                    if (agreement(first, out) < .9999)
+                        continue;
+                }
+                ways.push_back({scene.get(), query, name_of(query) + ", " + name});
+            }
+        std::vector<std::function<void()>> races;
+        for (const Way& way : ways)
+            races.push_back([&] { embree_trace(*way.scene, way.query, rays, out); });
+        constexpr int rounds = 3;
+        const auto seconds = fastest_of_rounds(races, rounds);
+        return ways[std::size_t(std::ranges::min_element(seconds) - seconds.begin())];
+    }
+
+    static double agreement(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+        std::size_t same = 0;
+        for (std::size_t k = 0; k < a.size(); ++k)
+            same += a[k] == b[k];
+        return double(same) / double(a.size());
+    }
+
+  private:
+    struct Built {
+        std::string name;
+        std::unique_ptr<EmbreeScene> scene;
+    };
+    std::vector<Built> scenes_;
+};
+
+std::vector<EmbreeQuery> closest_queries() {
+    using By = EmbreeQuery::By;
+    std::vector<EmbreeQuery> queries{{By::one}};
+    for (const By by : {By::packets_of_8, By::packets_of_16, By::streams})
+        for (const bool coherent : {false, true})
+            queries.push_back({by, coherent});
+    return queries;
+}
+
+/// Without the coherent flag, with which packets that are refused count some facets twice.
+std::vector<EmbreeQuery> counting_queries() {
+    using By = EmbreeQuery::By;
+    std::vector<EmbreeQuery> queries;
+    for (const bool occluded : {false, true})
+        for (const By by : {By::one, By::packets_of_8, By::packets_of_16})
+            queries.push_back({by, false, occluded});
+    return queries;
+}
+#endif
+
 /// One scene: all works.
 class Course {
   public:
@@ -94,9 +182,6 @@ class Course {
         : name_(std::move(name)), mesh_(std::move(scene)), soup_(mesh_.soup()), settings_(settings),
           report_(report) {
         bvh_ = std::make_unique<WideBvh>(soup_, WideBvhOptions{.threads = 1});
-#if defined(HEMILUX_EMBREE)
-        embree_ = std::make_unique<EmbreeScene>(soup_, false);
-#endif
     }
 
     void run() {
@@ -104,10 +189,12 @@ class Course {
         if (wanted("build"))
             build();
         const RaySet many = make_rays(mesh_, 1024, settings_.rays);
-        if (wanted("independent"))
-            independent(many);
+        if (wanted("shuffled"))
+            closest("shuffled", many.shuffled);
+        if (wanted("sorted"))
+            closest("sorted", many.sorted);
         if (wanted("count"))
-            count(make_rays(mesh_, 64, settings_.rays));
+            count(make_rays(mesh_, 64, settings_.rays).sorted);
         if (wanted("agreement"))
             agreement(many);
     }
@@ -118,13 +205,13 @@ class Course {
     }
 
     void print_head() const {
-        const auto triangles = static_cast<double>(soup_.facets.size());
+        const auto facets = static_cast<double>(soup_.facets.size());
         const BvhQuality& q = bvh_->quality();
         std::printf("%s: %zu facets, %.1f bytes each (%s), depth %d", name_.c_str(),
-                    soup_.facets.size(), double(q.bytes) / triangles,
-                    std::string(bvh_->kernels()).c_str(), q.depth);
+                    soup_.facets.size(), double(q.bytes) / facets,
+                    std::string(name_of(chosen_instruction_set())).c_str(), q.depth);
 #if defined(HEMILUX_EMBREE)
-        std::printf("; Embree %.1f bytes", double(embree_->bytes()) / triangles);
+        std::printf("; Embree %.1f bytes", double(EmbreeScene(soup_, {}).bytes()) / facets);
 #endif
         std::printf("\n");
     }
@@ -136,7 +223,8 @@ class Course {
             const WideBvh bvh(soup_, {.threads = 1});
             ours = std::min(ours, cpu_seconds() - start);
 #if defined(HEMILUX_EMBREE)
-            theirs = std::min(theirs, EmbreeScene(soup_, false).build_seconds());
+            for (const bool quads : {false, true})
+                theirs = std::min(theirs, EmbreeScene(soup_, {.quads = quads}).build_seconds());
 #endif
         }
         const std::size_t n = soup_.facets.size();
@@ -144,52 +232,58 @@ class Course {
             {name_, "build", 0, millions(n, ours), theirs < 1e300 ? millions(n, theirs) : 0});
     }
 
-    /// Against Embree's single rays.
-    void independent(const RaySet& set) const {
-        std::vector<FacetHit> hits(set.shuffled.size());
-        std::vector<std::function<void()>> variants{
-            [&] { bvh_->closest_stream(set.shuffled, hits); }};
+    void closest(const char* work, std::span<const Ray> rays) const {
+        std::vector<FacetHit> hits(rays.size());
+        std::vector<std::function<void()>> variants{[&] { bvh_->closest_stream(rays, hits); }};
+        std::string way;
 #if defined(HEMILUX_EMBREE)
-        std::vector<std::uint32_t> theirs(set.shuffled.size());
-        variants.push_back([&] { embree_closest(*embree_, set.shuffled, theirs); });
+        constexpr float t_min = 1e-6f; // in place of leaving out the facet that a ray starts on
+        const EmbreeRays theirs(rays, t_min);
+        const auto queries = closest_queries();
+        const Rival fast(soup_, false), robust(soup_, true);
+        std::vector<std::uint32_t> out(rays.size());
+        const Rival::Way best = fast.fastest(queries, theirs, false),
+                         sure = robust.fastest(queries, theirs, false);
+        for (const Rival::Way* const one : {&best, &sure})
+            variants.push_back([&, one] { embree_trace(*one->scene, one->query, theirs, out); });
+        way = best.name;
 #endif
-        const auto seconds = fastest_of_rounds(variants, settings_.rounds);
-        const std::size_t n = set.shuffled.size();
-        report_.add({name_, "independent", 1024, millions(n, seconds[0]),
-                     seconds.size() > 1 ? millions(n, seconds[1]) : 0});
+        add(work, 1024, rays.size(), fastest_of_rounds(variants, settings_.rounds), way);
     }
 
-    void count(const RaySet& set) const {
-        const std::vector<Ray>& sorted = set.sorted;
-        std::vector<std::uint32_t> pierced(sorted.size());
+    void count(std::span<const Ray> rays) const {
+        std::vector<std::uint32_t> pierced(rays.size());
         std::vector<std::function<void()>> variants{[&] {
-            for (std::size_t k = 0; k < sorted.size(); ++k)
-                pierced[k] = bvh_->count(sorted[k]);
+            for (std::size_t k = 0; k < rays.size(); ++k)
+                pierced[k] = bvh_->count(rays[k]);
         }};
+        std::string way;
 #if defined(HEMILUX_EMBREE)
-        const EmbreeScene counting(soup_, false, counting_filter);
-        std::vector<std::uint32_t> theirs(sorted.size());
-        for (const CountBy by : {CountBy::intersect1, CountBy::occluded1, CountBy::intersect16})
-            variants.push_back([&, by] { embree_count(counting, by, sorted, theirs); });
+        const EmbreeRays theirs(rays, 0);
+        const Rival rival(soup_, false, counting_filter);
+        std::vector<std::uint32_t> out(rays.size());
+        const Rival::Way best = rival.fastest(counting_queries(), theirs, true);
+        variants.push_back([&] { embree_trace(*best.scene, best.query, theirs, out); });
+        way = best.name;
 #endif
-        const auto seconds = fastest_of_rounds(variants, settings_.rounds);
-        const double best =
-            seconds.size() > 1 ? *std::min_element(seconds.begin() + 1, seconds.end()) : 0;
-        report_.add({name_, "count", 64, millions(pierced.size(), seconds[0]),
-                     best > 0 ? millions(pierced.size(), best) : 0});
+        add("count", 64, rays.size(), fastest_of_rounds(variants, settings_.rounds), way);
 #if defined(HEMILUX_EMBREE)
-        std::size_t same = 0;
-        embree_count(counting, CountBy::intersect1, sorted, theirs);
-        for (std::size_t k = 0; k < theirs.size(); ++k)
-            same += theirs[k] == pierced[k];
         std::printf("%-22s same counts as Embree's filter: %.4f %%\n", name_.c_str(),
-                    100 * double(same) / double(theirs.size()));
+                    100 * Rival::agreement(pierced, out));
 #endif
+    }
+
+    void add(const char* work, std::size_t per_patch, std::size_t n,
+             const std::vector<double>& seconds, const std::string& way) const {
+        const auto rate = [&](std::size_t k) {
+            return k < seconds.size() ? millions(n, seconds[k]) : 0;
+        };
+        report_.add({name_, work, per_patch, rate(0), rate(1), rate(2), way});
     }
 
     void agreement([[maybe_unused]] const RaySet& set) const {
 #if defined(HEMILUX_EMBREE)
-        const EmbreeScene robust(soup_, true, starting_facet_filter);
+        const EmbreeScene robust(soup_, {.robust = true, .filter = starting_facet_filter});
         std::vector<FacetHit> hits(set.shuffled.size());
         bvh_->closest_stream(set.shuffled, hits);
         std::size_t same = 0, ties = 0, neither = 0;
@@ -217,9 +311,6 @@ class Course {
     const Settings& settings_;
     Report& report_;
     std::unique_ptr<WideBvh> bvh_;
-#if defined(HEMILUX_EMBREE)
-    std::unique_ptr<EmbreeScene> embree_;
-#endif
 };
 
 Settings read_settings(int argc, char** argv) {
@@ -250,8 +341,8 @@ Settings read_settings(int argc, char** argv) {
 int main(int argc, char** argv) try {
     const Settings settings = read_settings(argc, argv);
     Report report;
-    std::printf("%-22s %-12s %6s %10s %10s %7s\n", "scene", "work", "rays", "hemilux", "embree",
-                "ratio");
+    std::printf("%-22s %-9s %6s %10s %10s %10s %7s  %s\n", "scene", "work", "rays", "hemilux",
+                "embree", "robust", "ratio", "Embree's way");
     for (const std::string& file : settings.files)
         Course(file, read_obj(file).scene, settings, report).run();
     if (settings.files.empty())

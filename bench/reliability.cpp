@@ -1,7 +1,7 @@
 // How far the errors that methods report can be trusted: a row for each hard scene
 // (tests/support/families) and method, over many seeds.
 //
-//     hemilux_reliability --family lamp --method gathering --seeds 40
+//     hemilux_reliability --family lamp --method stored-transport --seeds 40
 
 #include "support/families/reliability.h"
 #include "app/command_line/option_kinds.h"
@@ -19,7 +19,7 @@ namespace {
 
 struct Settings {
     std::vector<std::string> families, scenes;
-    std::vector<std::string> methods{"gathering"};
+    std::vector<std::string> methods{"stored-transport"};
     std::size_t seeds = 40;
     std::uint64_t first_seed = 1;
     std::optional<double> error;
