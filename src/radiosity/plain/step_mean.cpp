@@ -147,7 +147,7 @@ void StepMean::note_level(const Step& step) {
 /// A standard error is never below what one ray brings (D19).
 void StepMean::estimate_errors() {
     const double n = solution_.steps;
-    const double level_freedom = std::max(n - 1, 2.0);   // one alone would bound nothing
+    const double level_freedom = std::max(n - 1, 2.0); // one alone would bound nothing
     const double times = ErrorSpread{1, level_freedom}.reported(), more = times * times - 1;
     std::vector<Vec3> variance;
     std::vector<double> of_patch;
@@ -160,12 +160,12 @@ void StepMean::estimate_errors() {
         of_patch.push_back(area * (of_mean.x + of_mean.y + of_mean.z));
         sum += of_patch.back();
         value += area * glm::dot(reflected, reflected);
-        const double of_level = area * glm::dot(reflected, glm::sqrt(of_mean));
-        alone += of_level * of_level;
+        alone = std::hypot(alone, area * glm::dot(reflected, glm::sqrt(of_mean)));
     }
     // The relative variance of the level, less what patches that err each for itself make of it.
     const double shown = level_squares_ / (n * (n - 1));
-    const double level = value > 0 ? std::max(shown - alone / (value * value), 0.0) : 0;
+    const double of_patches = value > 0 ? (alone / value) * (alone / value) : 0;
+    const double level = std::max(shown - of_patches, 0.0);
     variance = pooled_over_neighbours(input_.mesh, variance);
     Vec3 purest(0.0); // the largest share of a ray's power that a channel may have
     for (const Facet& facet : input_.mesh.scene().facets) {

@@ -276,7 +276,7 @@ void StepwiseSolver::note_level(const std::vector<Vec3>& radiosity) {
 /// is reported larger than it shows (error_spread.h).
 void StepwiseSolver::estimate_errors() {
     const double n = solution_.steps;
-    const double level_freedom = std::max(n - 1, 2.0);   // one alone would bound nothing
+    const double level_freedom = std::max(n - 1, 2.0); // one alone would bound nothing
     const double times = ErrorSpread{1, level_freedom}.reported(), more = times * times - 1;
     std::vector<Vec3> variance(squares_.size());
     std::vector<double> of_patch;
@@ -288,12 +288,12 @@ void StepwiseSolver::estimate_errors() {
         of_patch.push_back(area * (variance[i].x + variance[i].y + variance[i].z));
         sum += of_patch.back();
         value += area * glm::dot(reflected, reflected);
-        const double of_level = area * glm::dot(reflected, glm::sqrt(variance[i]));
-        alone += of_level * of_level;
+        alone = std::hypot(alone, area * glm::dot(reflected, glm::sqrt(variance[i])));
     }
     // The relative variance of the level, less what patches that err each for itself make of it.
     const double shown = level_squares_ / (n * (n - 1));
-    const double level = value > 0 ? std::max(shown - alone / (value * value), 0.0) : 0;
+    const double of_patches = value > 0 ? (alone / value) * (alone / value) : 0;
+    const double level = std::max(shown - of_patches, 0.0);
     variance = pooled_over_neighbours(input_.mesh, variance);
     const Vec3 purest = purest_ray();
     for (std::uint32_t i = 0; i < variance.size(); ++i) {

@@ -23,7 +23,6 @@
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/check_input.h"
-#include "radiosity/solving/common_error.h"
 #include "radiosity/solving/error_spread.h"
 #include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/solver.h"
@@ -211,18 +210,20 @@ class MatrixSolver final : public Solver {
     void combine(const Vec3& absorbed_power, const Vec3& escaped_power) {
         std::vector<Vec3> variance(solution_.radiosity.size());
         std::vector<double> products(batches * batches);
+        std::array<Vec3, batches> off{};
         for (std::uint32_t i = 0; i < variance.size(); ++i) {
             Vec3 mean(0.0), squares(0.0);
             for (const auto& batch : guesses_)
                 mean += batch[i] / double(batches);
-            solution_.radiosity[i] = mean;
-            const auto off = deviations(i);
-            for (const Vec3& each : off)
-                squares += each * each;
+            for (std::size_t r = 0; r < batches; ++r) {
+                off[r] = guesses_[r][i] - mean;
+                squares += off[r] * off[r];
+            }
             const double area = input_.mesh.patches()[i].area;
             for (std::size_t r = 0; r < batches; ++r)
                 for (std::size_t t = 0; t < batches; ++t)
                     products[r * batches + t] += area * glm::dot(off[r], off[t]);
+            solution_.radiosity[i] = mean;
             variance[i] = squares / double(batches * (batches - 1));
             solution_.hits[i] = std::uint64_t{rays_} * batches;
         }
@@ -233,14 +234,6 @@ class MatrixSolver final : public Solver {
         solution_.energy.unshot = Vec3(0.0);
         solution_.rays_energy = traced_;
         ++solution_.steps;
-    }
-
-    /// What each batch is off from their mean at a patch.
-    [[nodiscard]] std::array<Vec3, batches> deviations(std::uint32_t i) const {
-        std::array<Vec3, batches> off{};
-        for (std::size_t r = 0; r < batches; ++r)
-            off[r] = guesses_[r][i] - solution_.radiosity[i];
-        return off;
     }
 
     void note_errors(std::span<const Vec3> variance, std::span<const double> products) {
@@ -256,10 +249,8 @@ class MatrixSolver final : public Solver {
         for (std::uint32_t i = 0; i < unseen.size(); ++i) {
             const Vec3 level = share * (solution_.radiosity[i] - input_.mesh.material(i).emission);
             solution_.unseen += input_.mesh.patches()[i].area * glm::dot(level, level);
-            const double raise = raise_of_common_error(
-                input_.mesh, i, [&](std::uint32_t j) { return deviations(j); });
-            solution_.standard_error[i] = glm::sqrt(raise * solution_.standard_error[i] +
-                                                    level * level + unseen[i] * unseen[i]);
+            solution_.standard_error[i] =
+                glm::sqrt(solution_.standard_error[i] + level * level + unseen[i] * unseen[i]);
         }
     }
 

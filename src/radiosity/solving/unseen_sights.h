@@ -26,7 +26,7 @@ struct PatchLight {
 [[nodiscard]] Vec3 bright_radiosity(const PatchLight& light);
 
 /// By patch [W/m2 leaving]: what it would reflect if three rays had met something bright, of those
-/// of all patches that are not brighter than it, and of those by which bright patches look at it.
+/// of all patches that are about as dark as it, and of those by which bright patches look at it.
 [[nodiscard]] std::vector<Vec3> unseen_sights(const PatchLight& light);
 
 } // namespace hemilux

@@ -4,7 +4,6 @@
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/common_error.h"
 #include "radiosity/solving/unseen_sights.h"
 #include "radiosity/stored_transport/batch_light.h"
 #include "radiosity/stored_transport/direct_light.h"
@@ -13,6 +12,7 @@
 #include "radiosity/stored_transport/transport_system.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hemilux {
@@ -177,6 +177,40 @@ class Account {
     std::vector<Vec3> unseen_sights_;
 };
 
+/// The standard error of a mean of a few samples is known badly. Where patches err each for itself
+/// it is pooled over neighbours; where they err together (0 to 1) that does not help, and it is
+/// raised as Student's t asks for, so that hardly any error is beyond three of them.
+double raised(double together) {
+    constexpr double of_few = 3; // of t with three degrees of freedom 96 of 100 are below 2 sqrt(3)
+    return 1 + (of_few - 1) * together;
+}
+
+/// What a patch's neighbours and itself are off in each batch.
+template <std::size_t Sets>
+class Window {
+  public:
+    void add(const std::array<Vec3, Sets>& off) {
+        for (std::size_t s = 0; s < Sets; ++s) {
+            sum_[s] += off[s];
+            squares_ += glm::dot(off[s], off[s]);
+        }
+        ++count_;
+    }
+    /// 1: all err alike; 0: each for itself.
+    [[nodiscard]] double together() const {
+        if (count_ < 2 || !(squares_ > 0))
+            return 1;
+        double of_sum = 0;
+        for (const Vec3& sum : sum_)
+            of_sum += glm::dot(sum, sum);
+        return std::clamp((of_sum / squares_ - 1) / (count_ - 1), 0.0, 1.0);
+    }
+
+  private:
+    std::array<Vec3, Sets> sum_{};
+    double squares_ = 0, count_ = 0;
+};
+
 } // namespace
 
 template <std::size_t Sets>
@@ -190,13 +224,16 @@ TransportErrors errors_of(const TransportResult& result, const Workers& workers)
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
             const Vec3 rho = result.system.reflectance()[i];
             Vec3 squares(0.0);
-            const auto deviations = [&](std::uint32_t j) {
-                return result.light.deviations<Sets>(j);
-            };
-            for (const Vec3& off : deviations(i))
+            const auto own = result.light.deviations<Sets>(i);
+            Window<Sets> window;
+            window.add(own);
+            for (const Vec3& off : own)
                 squares += off * off;
+            for_alike_neighbours(result.mesh, i, [&](std::uint32_t j) {
+                window.add(result.light.deviations<Sets>(j));
+            });
             variance[i] = rho * rho * squares / double(Sets * (Sets - 1));
-            raise[i] = raise_of_common_error(result.mesh, i, deviations);
+            raise[i] = raised(window.together());
         }
     });
     for (std::size_t i = 0; i < n; ++i)
