@@ -133,14 +133,13 @@ void Division::measure(const Solution& light, double goal) {
     double left_out = 0;
     const auto first = std::ranges::find_if(
         due, [&](std::uint32_t i) { return (left_out += most(i)) > negligible_share * goal; });
+    due.erase(due.begin(), first);
+    std::ranges::sort(due);
+    const auto known =
+        std::ranges::stable_partition(due, [&](std::uint32_t i) { return times_[i] == 0; });
     fresh_ = fresh_squares_ = 0;
-    for (const bool is_new : {true, false}) {
-        std::vector<std::uint32_t> some;
-        std::copy_if(first, due.end(), std::back_inserter(some),
-                     [&](std::uint32_t i) { return (times_[i] == 0) == is_new; });
-        std::ranges::sort(some);
-        measure(light, some, 1, is_new ? rows_at_first : rows_again);
-    }
+    measure(light, {due.begin(), known.begin()}, 1, rows_at_first);
+    measure(light, known, 1, rows_again);
     // Those that were chosen for what was measured there are not a fair sample of all; these are.
     std::vector<std::uint32_t> some;
     for (std::uint32_t i = 0; i < is_due_.size(); ++i)
