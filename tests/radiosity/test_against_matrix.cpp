@@ -140,9 +140,9 @@ TEST_CASE("Deviations from matrix are those of the reported errors", "[slow]") {
             CHECK(all.rms_score() > (gathers ? .7 : .88));
             CHECK(all.rms_score() < (gathers ? .92 : 1));
             // Where few patches make most of the error, and all err together, as in the open scene,
-            // the reported one is raised (error_spread.h), after four steps by some 12 to 17 %.
+            // the reported one is raised (error_spread.h), after four steps by some 12 %.
             CHECK(all.median_ratio() > .9);
-            CHECK(all.median_ratio() < (scene == "open_scene" ? 1.2 : 1.1));
+            CHECK(all.median_ratio() < (scene == "open_scene" ? 1.15 : 1.1));
         }
     }
 }

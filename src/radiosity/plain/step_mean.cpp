@@ -185,7 +185,7 @@ void StepMean::estimate_errors() {
     solution_.level_freedom = level_freedom;
     solution_.unseen = unseen();
     if (sum > 0)
-        solution_.effective_freedom = effective_freedom_of(of_patch, level * value);
+        solution_.effective_freedom = effective_freedom_of(of_patch, 0);
 }
 
 Vec3 StepMean::power_leaving() const {

@@ -307,7 +307,7 @@ void StepwiseSolver::estimate_errors() {
     solution_.level_freedom = level_freedom;
     solution_.unseen = unseen();
     if (sum > 0)
-        solution_.effective_freedom = effective_freedom_of(of_patch, level * value);
+        solution_.effective_freedom = effective_freedom_of(of_patch, 0);
 }
 
 /// What patches send by the solution and what rays have carried differ by chance: numbers of rays

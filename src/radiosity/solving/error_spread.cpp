@@ -51,7 +51,7 @@ double ErrorSpread::reported() const {
     return std::max(1.0, careful.bound() / tolerance);
 }
 
-ErrorSpread error_spread(const Mesh& mesh, const Solution& solution) {
+ErrorSpread error_spread_besides_level(const Mesh& mesh, const Solution& solution) {
     const double batches = solution.error_batches > 0 ? solution.error_batches : solution.steps;
     if (!(batches > 1)) {
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -60,6 +60,15 @@ ErrorSpread error_spread(const Mesh& mesh, const Solution& solution) {
     return {solution.effective_freedom ? *solution.effective_freedom
                                        : freedom_by_patch(mesh, solution),
             batches - 1};
+}
+
+ErrorSpread error_spread(const Mesh& mesh, const Solution& solution) {
+    ErrorSpread spread = error_spread_besides_level(mesh, solution);
+    if (std::isfinite(solution.level_freedom) && solution.variance_of_level > 0) {
+        const double all = solution.variance.value_or(0) / solution.variance_of_level;
+        spread.freedom = std::min(spread.freedom, std::max(all * all, 1.0));
+    }
+    return spread;
 }
 
 double effective_freedom_of(std::span<const double> of_patch, double shared) {

@@ -33,6 +33,9 @@ struct ErrorSpread {
 /// (Solution::effective_freedom) patches are taken to err each for itself. NaN before two
 /// steps.
 [[nodiscard]] ErrorSpread error_spread(const Mesh& mesh, const Solution& solution);
+/// Of the part of that error besides the level of all light, where this is known from few samples
+/// (Solution::level_freedom); else of the whole.
+[[nodiscard]] ErrorSpread error_spread_besides_level(const Mesh& mesh, const Solution& solution);
 
 /// Degrees of freedom of an error whose variance is the sum of `of_patch`, where each patch errs
 /// for itself but for the part `shared` that all err together: by whichever gives fewer. Infinite

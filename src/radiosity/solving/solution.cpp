@@ -68,7 +68,7 @@ double estimated_error(const Mesh& mesh, const Solution& solution) {
         all.error = *solution.variance;
     all.value -= all.error; // the square of an estimate is too large by its variance
     if (all.error > 0) {
-        const double more = error_spread(mesh, solution).reported();
+        const double more = error_spread_besides_level(mesh, solution).reported();
         const double of_level = ErrorSpread{1, solution.level_freedom}.reported();
         const double rest = std::max(all.error - solution.variance_of_level, 0.0);
         all.error = std::max(all.error,

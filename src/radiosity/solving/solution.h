@@ -56,7 +56,8 @@ struct Solution {
     /// Independent solutions whose spread the standard errors are; 0: the steps.
     double error_batches = 0;
     /// Effective degrees of freedom of the error (error_spread.h), where they are known better than
-    /// from standard_error, which does not tell what patches err together.
+    /// from standard_error, which does not tell what patches err together; where level_freedom is
+    /// finite, of the error besides that of the level.
     std::optional<double> effective_freedom;
     EnergyBalance energy;
     /// Patches from which `stored-transport` traces no more rays at random, as none of those that
