@@ -33,6 +33,10 @@ struct Polygon {
     [[nodiscard]] Polygon flipped() const;
 };
 
+/// Divides at the midpoints of the edges: a quad into 2 x 2 quads, a triangle into four triangles
+/// that are similar to it, the middle one last.
+[[nodiscard]] std::array<Polygon, 4> quarters_of(const Polygon& polygon);
+
 /// That of a facet, by the indices of its corners.
 [[nodiscard]] inline Polygon polygon_of(std::span<const Vec3> vertices,
                                         const std::array<std::uint32_t, 4>& corners) {

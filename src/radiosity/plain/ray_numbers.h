@@ -27,6 +27,7 @@ class RayNumbers {
         ++taken_;
         return of_attempt(attempt)[which];
     }
+    double operator()() { return next(); }
 
   private:
     /// pcg4d of Jarzynski and Olano (2020, "Hash functions for GPU rendering").

@@ -42,25 +42,9 @@ namespace {
 constexpr int stored_steps = 2, estimated_steps = 1;
 constexpr int guided_steps = stored_steps + estimated_steps;
 
-constexpr std::size_t sub_patches = 4;
+constexpr std::size_t sub_patches = 4; ///< quarters of a patch
 constexpr std::size_t triangles(int level) { return std::size_t{4} << (2 * level); }
 static_assert(sub_patches * triangles(guided_steps) < whole_hemisphere);
-
-/// 2 x 2 pieces of a quad, or the four of a triangle that are similar to it.
-std::array<Polygon, sub_patches> divide(const Polygon& shape) {
-    const auto& [a, b, c, d] = shape.corner;
-    const auto middle = [](const Vec3& p, const Vec3& q) { return (p + q) / 2.0; };
-    if (shape.is_triangle()) {
-        const Vec3 ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-        return {{{{a, ab, ca, ca}}, {{ab, b, bc, bc}}, {{ca, bc, c, c}}, {{ab, bc, ca, ca}}}};
-    }
-    const Vec3 ab = middle(a, b), bc = middle(b, c), cd = middle(c, d), da = middle(d, a);
-    const Vec3 centre = middle(ab, cd);
-    return {{{{a, ab, centre, da}},
-             {{ab, b, bc, centre}},
-             {{centre, bc, c, cd}},
-             {{da, centre, cd, d}}}};
-}
 
 class Hemisphere1997 final : public Strategy {
   public:
@@ -111,7 +95,7 @@ class Hemisphere1997 final : public Strategy {
         const CountedTriangle corner = triangle(patch, piece, cell % triangles(level_));
         PrivateCell result{0,
                            {corner[0].direction, corner[1].direction, corner[2].direction},
-                           divide(whole.shape)[piece]};
+                           quarters_of(whole.shape)[piece]};
         const double part = result.origins.area() / whole.area;
         const double share = options_.literal
                                  ? result.shape.solid_angle() / (2 * std::numbers::pi)
@@ -143,7 +127,7 @@ class Hemisphere1997 final : public Strategy {
     /// share a vertex is the same as in the regular subdivision; only the places differ.
     void look(std::uint32_t patch, const Tracer& tracer) {
         const Frame frame = mesh_.hemisphere_frame(patch);
-        const auto pieces = divide(mesh_.patches()[patch].shape);
+        const auto pieces = quarters_of(mesh_.patches()[patch].shape);
         for (std::size_t piece = 0; piece < sub_patches; ++piece) {
             const std::size_t begin = place(patch, piece);
             const Vec3 centre = pieces[piece].centre();
