@@ -94,7 +94,7 @@ class Bounces {
     void add_sender(std::uint32_t patch, const Vec3& power);
 
     const ShootingTools& tools_;
-    const SolverInput& input_;
+    SolverInput input_;
     const StepTask* task_ = nullptr;
 
     // Of the present bounce.

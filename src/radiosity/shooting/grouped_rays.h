@@ -37,7 +37,8 @@ struct RaySource {
 /// patch, its number there and its cell, not on what else is listed.
 class GroupedRays {
   public:
-    /// `memory` holds the rays between two calls and may be used again afterwards.
+    /// What the source refers to outlives this. `memory` holds the rays between two calls and may
+    /// be used again afterwards.
     GroupedRays(const RaySource& source, std::span<RayGroup> groups, std::uint64_t stream,
                 std::vector<Ray>& memory);
 
@@ -58,7 +59,7 @@ class GroupedRays {
     void fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
                       std::span<Ray> rays);
 
-    const RaySource& source_;
+    RaySource source_;
     std::span<RayGroup> groups_;
     std::uint64_t stream_;
     std::vector<Ray>& rays_;

@@ -49,7 +49,8 @@ static_assert(sub_patches * triangles(guided_steps) < whole_hemisphere);
 class Hemisphere1997 final : public Strategy {
   public:
     Hemisphere1997(const SolverInput& input, const Workers& workers)
-        : mesh_(input.mesh), options_(input.options), needs_(input.needs), topology_(stored_steps) {
+        : mesh_(input.mesh), needs_(input.needs), literal_(input.options.literal),
+          rays_asked_(input.options.rays), topology_(stored_steps) {
         const std::size_t looking = needs_.densities ? mesh_.patches().size() : 1;
         const std::size_t places = looking * sub_patches * vertices();
         direction_.resize(places);
@@ -76,8 +77,8 @@ class Hemisphere1997 final : public Strategy {
         level_ = static_cast<int>(step) + 1;
         const std::size_t cells = sub_patches * triangles(level_);
         double share = 1 / static_cast<double>(cells);
-        if (options_.literal)
-            share = std::max(std::round(options_.rays * share), 1.0) / options_.rays;
+        if (literal_)
+            share = std::max(std::round(rays_asked_ * share), 1.0) / rays_asked_;
         allocated_.clear();
         for (std::size_t cell = 0; cell < cells; ++cell)
             allocated_.add(static_cast<std::uint16_t>(cell), share);
@@ -97,9 +98,8 @@ class Hemisphere1997 final : public Strategy {
                            {corner[0].direction, corner[1].direction, corner[2].direction},
                            quarters_of(whole.shape)[piece]};
         const double part = result.origins.area() / whole.area;
-        const double share = options_.literal
-                                 ? result.shape.solid_angle() / (2 * std::numbers::pi)
-                                 : result.shape.projected_solid_angle() / std::numbers::pi;
+        const double share = literal_ ? result.shape.solid_angle() / (2 * std::numbers::pi)
+                                      : result.shape.projected_solid_angle() / std::numbers::pi;
         result.power = part * std::max(share, 0.0);
         return result;
     }
@@ -173,8 +173,9 @@ class Hemisphere1997 final : public Strategy {
     static constexpr std::size_t first_vertices = 5; ///< of the four octants
 
     const Mesh& mesh_;
-    const SolveOptions& options_;
     const Needs& needs_;
+    bool literal_;
+    double rays_asked_; ///< of each patch: N_hemi
     Hemisphere topology_;
     std::atomic<std::uint64_t> rays_{0};
     // By patch, sub-patch and vertex of the topology, in the patch's own frame.
