@@ -1,9 +1,9 @@
 #pragma once
 // How much of the light of an emitter leaves the scene or falls on backs.
 //
-// It is known twice where the factors to an emitter are computed in closed form: as the share of
-// its own rays that were lost, and as what the receivers miss of all that it sent. Few rays of a
-// lamp go through a small window; that none did would be taken for a wall.
+// There are two estimates where the factors to an emitter are computed in closed form: the share of
+// its own rays that were lost, and the power that the receivers miss of all that it sent. Few rays
+// of an emitter go through a small window; if none did, the window would be taken for a wall.
 
 #include "radiosity/form_factors/sampled_form_factors.h"
 

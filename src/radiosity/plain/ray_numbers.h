@@ -11,7 +11,8 @@ namespace hemilux::plain {
 
 class RayNumbers {
   public:
-    /// `key`: of a patch in a bounce of a step; `number`: of the ray among those of the patch.
+    /// `key` is that of a patch in a bounce of a step; `number` that of the ray among those of the
+    /// patch.
     RayNumbers(std::uint64_t key, std::uint32_t number)
         : low_(static_cast<std::uint32_t>(key)), high_(static_cast<std::uint32_t>(key >> 32)),
           number_(number) {}

@@ -38,7 +38,7 @@ struct Rays {
 
 /// What one step found so far. Powers are in local units.
 struct Step : StepResult {
-    /// Nothing but emission, which is to be shot.
+    /// A step begins with the emission, all of which is to be shot.
     explicit Step(const SolverInput& of);
 
     /// What each patch with unshot power is due in a bounce, where a ray is to carry `Phi_mean` and
@@ -51,7 +51,7 @@ struct Step : StepResult {
     void shoot(const Patch& from, const Vec3& start, const Vec3& direction, const Vec3& Phi_ray);
     /// B = E + rho Phi / A: what was received since the last call is absorbed, or to be shot.
     void reflect();
-    /// Of all patches, mean of channels.
+    /// The unshot power of all patches, mean of channels.
     [[nodiscard]] double power_unshot() const;
 
     SolverInput input;
@@ -76,7 +76,8 @@ class StepSolver : public Solver {
     StepSolver(const SolverInput& input, bool equal_rays)
         : input_(input), mean_(input, equal_rays) {}
 
-    /// One solution of all bounces. `Phi_mean`: what a ray is to carry. False when interrupted.
+    /// Finds one solution of all bounces, with rays that carry `Phi_mean` on average. False when
+    /// interrupted.
     virtual bool compute_radiosity(std::uint64_t step, double Phi_mean, Step& result) = 0;
 
     /// The surfaces along a direction of the patch's hemisphere, from a point of the patch, as one

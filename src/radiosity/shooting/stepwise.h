@@ -13,7 +13,7 @@
 
 namespace hemilux {
 
-/// One step to be worked out.
+/// One step to be solved.
 struct StepTask {
     std::uint64_t stream; ///< of its random numbers
     std::uint64_t number; ///< from 1; the pilot belongs to the first
@@ -41,19 +41,20 @@ class StepwiseSolver : public Solver {
     /// Without equal rays there is no power per ray: each patch shoots as many rays as any other.
     StepwiseSolver(const SolverInput& input, bool equal_rays);
 
-    /// One solution of all bounces. `result` comes with emission as radiosity and nothing else.
-    /// False when interrupted. If steps are alike, called for several at the same time.
+    /// Finds one solution of all bounces. `result` comes with the emission as radiosity and nothing
+    /// else. False when interrupted. If steps are alike, it is called for several at the same time.
     virtual bool solve_once(const StepTask& task, StepResult& result) = 0;
-    /// Before solve_once is called for so many places.
+    /// Called before solve_once is called for `count` places at the same time.
     virtual void make_places(unsigned /*count*/) {}
-    /// No step depends on those before.
+    /// Whether no step depends on those before.
     [[nodiscard]] virtual bool steps_are_alike() const { return false; }
 
-    /// What the next steps depend on besides, see Solver.
+    /// Save and load what the next steps depend on besides, as Solver does.
     virtual void save_more(StateWriter&) const {}
     virtual void load_more(StateReader&) {}
 
-    /// Of the radiosity, before a step: by the steps so far, or by the pilot.
+    /// An estimate of the radiosity by patch, before a step: from the steps so far, or from the
+    /// pilot.
     [[nodiscard]] std::span<const Vec3> estimate() const {
         return mean_.solution.steps > 0 || pilot_.empty() ? mean_.solution.radiosity : pilot_;
     }
@@ -65,7 +66,7 @@ class StepwiseSolver : public Solver {
     MeanOfSteps mean_;
 
   private:
-    /// A step that is worked out, or that was begun.
+    /// A step that is solved, or that was begun.
     struct Ahead {
         StepResult result;
         bool done = false;

@@ -38,7 +38,7 @@ struct Shells {
     }
 };
 
-/// O(n log n) in the facets.
+/// Finds the shells of a scene of n facets in O(n log n) time.
 [[nodiscard]] Shells find_shells(const Scene& scene);
 
 } // namespace hemilux
