@@ -1,5 +1,5 @@
 #pragma once
-// What the runs of several methods say about them.
+// Compares several methods by their runs.
 
 #include "app/commands/compare_run.h"
 #include "io/drawings/error_curves.h"

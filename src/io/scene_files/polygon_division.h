@@ -46,7 +46,7 @@ class PolygonDivision {
     PolygonFlags divide(std::span<const Vec3> corners);
     /// Of the last polygon.
     [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
-    /// That all polygons together may still cause; each brings some of its own.
+    /// The work that all polygons together may still cause; each adds some of its own.
     DivisionWork work;
 
   private:
