@@ -142,3 +142,8 @@ TEST_CASE("Every other method reports an error in which one can trust", "[slow]"
 TEST_CASE("Stored transport reports an error in which one can trust: all scenes", "[slow]") {
     check_scenes("stored-transport", scenes_named(), 6, {.seconds = 20, .rays = 4'000'000});
 }
+
+TEST_CASE("Rooms that no ray of theirs has seen the light from are in doubt for matrix too",
+          "[slow]") {
+    check_scenes("matrix", scenes_named({"30 rooms"}), 8, {.seconds = 60, .rays = 10'000'000});
+}

@@ -103,12 +103,11 @@ void MeanOfSteps::note_level(const std::vector<Vec3>& radiosity) {
 /// larger than it shows (error_spread.h).
 void MeanOfSteps::estimate_errors() {
     const double n = solution.steps;
-    const double level = sums.level_squares / (n * (n - 1)); // its variance, relative
-    const double level_freedom = std::max(n - 1, 2.0);       // one alone would bound nothing
+    const double level_freedom = std::max(n - 1, 2.0); // one alone would bound nothing
     const double times = ErrorSpread{1, level_freedom}.reported(), more = times * times - 1;
     std::vector<Vec3> variance(sums.squares.size());
     std::vector<double> of_patch;
-    double sum = 0, value = 0;
+    double sum = 0, value = 0, alone = 0;
     for (std::uint32_t i = 0; i < variance.size(); ++i) {
         const double area = input_.mesh.patches()[i].area;
         const Vec3 reflected = solution.radiosity[i] - input_.mesh.material(i).emission;
@@ -116,7 +115,12 @@ void MeanOfSteps::estimate_errors() {
         of_patch.push_back(area * (variance[i].x + variance[i].y + variance[i].z));
         sum += of_patch.back();
         value += area * glm::dot(reflected, reflected);
+        alone = std::hypot(alone, area * glm::dot(reflected, glm::sqrt(variance[i])));
     }
+    // The relative variance of the level, less what patches that err each for itself make of it.
+    const double shown = sums.level_squares / (n * (n - 1));
+    const double of_patches = value > 0 ? (alone / value) * (alone / value) : 0;
+    const double level = std::max(shown - of_patches, 0.0);
     variance = pooled_over_neighbours(input_.mesh, variance);
     const Vec3 purest = purest_ray();
     for (std::uint32_t i = 0; i < variance.size(); ++i) {

@@ -33,17 +33,22 @@ double rays_of_bright(const PatchLight& light) {
 } // namespace
 
 std::vector<Vec3> unseen_sights(const PatchLight& light) {
+    constexpr double darker = 4; // patches so many times darker, as in a room beyond, tell nothing
     const Vec3 bright = bright_radiosity(light);
+    const auto arrives = [&](std::uint32_t i) {
+        return light.incident[i].x + light.incident[i].y + light.incident[i].z;
+    };
     std::vector<std::uint32_t> order(light.area.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) {
-        return light.incident[i].x + light.incident[i].y + light.incident[i].z;
-    });
+    std::ranges::stable_sort(order, {}, arrives);
     std::vector<Vec3> result(order.size(), Vec3(0.0));
     const double by_bright = rays_of_bright(light);
-    double rays = 0; // of all that are not brighter
+    double rays = 0; // of those from `darkest` to i
+    auto darkest = order.begin();
     for (const std::uint32_t i : order) {
         rays += light.rays[i];
+        for (; darker * arrives(*darkest) < arrives(i); ++darkest)
+            rays -= light.rays[*darkest];
         const double both = rays + by_bright * light.area[i];
         if (both > 0)
             result[i] = light.reflectance[i] * bright * (rule_of_three / both);

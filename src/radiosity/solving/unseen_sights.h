@@ -27,7 +27,7 @@ struct PatchLight {
 [[nodiscard]] Vec3 bright_radiosity(const PatchLight& light);
 
 /// By patch: the light that it would reflect [W/m2] if three rays had met something bright, among
-/// those of all patches that are not brighter than it and those by which bright patches look at it.
+/// those of all patches that are about as dark as it and those by which bright patches look at it.
 [[nodiscard]] std::vector<Vec3> unseen_sights(const PatchLight& light);
 
 } // namespace hemilux
