@@ -31,7 +31,8 @@ struct MethodSummary {
     std::optional<Gain> gain_seconds, gain_rays;
 };
 
-/// In the order of the results. Runs that were interrupted count only where a method has no other.
+/// Summarises each method, in the order of the results. Runs that were interrupted count only if a
+/// method has no other.
 [[nodiscard]] std::vector<MethodSummary> summarise(std::span<const MethodRuns> results,
                                                    bool literal);
 

@@ -25,12 +25,12 @@ struct DifferenceScale {
     double typical = 1; ///< up to about here even
     double most = 1;    ///< the darkest colours; at least `typical`
 
-    /// From -1 to 1.
+    /// The place of a difference on the scale, from -1 to 1.
     [[nodiscard]] double place(double difference) const;
 };
 
-/// 99 of 100 values are within `typical` in half of the differences, and within `most` in all. Both
-/// are 1, 2 or 5 times a power of ten.
+/// Chooses a scale: 99 of 100 values are within `typical` in half of the differences, and within
+/// `most` in all. Both are 1, 2 or 5 times a power of ten.
 [[nodiscard]] DifferenceScale common_scale(std::span<const std::vector<float>> differences);
 
 /// Draws the difference with a colour bar below it, for write_png with exposure 1.

@@ -44,7 +44,7 @@ class PolygonDivision {
 
     /// Divides a polygon of any number of corners. Corners equal to the one before are left out.
     PolygonFlags divide(std::span<const Vec3> corners);
-    /// Of the last polygon.
+    /// The pieces of the last polygon.
     [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
     /// The work that all polygons together may still cause; each adds some of its own.
     DivisionWork work;

@@ -17,11 +17,12 @@ struct EmitterLoss {
     double rays = 0; ///< as many would tell it as exactly
 };
 
-/// By batch and, in their order, the emitters that these have in closed form. Each is the mean
-/// of both, weighted by the inverse of their variances: of the rays of all batches together, and
-/// by what the batches differ. So no weight depends on what a batch itself has met. The rays
-/// alone count where none of any emitter was lost, and where patches are black, which need not
-/// look. `rays`: those of a patch in each batch.
+/// The losses, by batch, of the emitters whose factors are known in closed form, in the order of
+/// the batch. Each loss is the mean of both estimates, weighted by the inverse of their variances.
+/// The variances are those of the rays of all batches together, and of the spread of the batches,
+/// so no weight depends on what a batch itself has met. The rays alone count if no emitter lost
+/// any, and for black patches, which trace none. `rays` is the number of rays of a patch in each
+/// batch.
 [[nodiscard]] std::vector<std::vector<EmitterLoss>>
 emitter_losses(std::span<const SampledFormFactors> batches, double rays);
 

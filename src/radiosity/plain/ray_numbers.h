@@ -17,12 +17,12 @@ class RayNumbers {
         : low_(static_cast<std::uint32_t>(key)), high_(static_cast<std::uint32_t>(key >> 32)),
           number_(number) {}
 
-    /// For the point where the ray starts: two numbers uniform in (0,1).
+    /// Two numbers for the point where the ray starts, uniform in (0,1).
     [[nodiscard]] Vec2 start() const {
         const std::array<double, 4> four = of_attempt(0);
         return {four[2], four[3]};
     }
-    /// For the direction: two numbers of each attempt, one after the other.
+    /// The next number for the direction, uniform in (0,1). Each attempt has two.
     [[nodiscard]] double next() {
         const std::uint32_t attempt = taken_ / 2, which = taken_ % 2;
         ++taken_;

@@ -36,7 +36,7 @@ struct Rays {
 /// N rays as printed: rounded, so that power is lost where N is below one half.
 [[nodiscard]] Rays rays_rounded(double N);
 
-/// What one step found so far. Powers are in local units.
+/// The light that one step has found so far. Powers are in local units.
 struct Step : StepResult {
     /// A step begins with the emission, all of which is to be shot.
     explicit Step(const SolverInput& of);
@@ -44,10 +44,10 @@ struct Step : StepResult {
     /// What each patch with unshot power is due in a bounce, where a ray is to carry `Phi_mean` and
     /// chance has the number `stream`. All of it counts as shot.
     [[nodiscard]] std::vector<Due> due(std::uint64_t stream, double Phi_mean);
-    /// A ray brings its power to the patch that it hits, which is returned; none where it leaves
-    /// the scene or falls on the back of a face.
+    /// Shoots a ray, which brings its power to the patch that it hits. Returns this patch; none if
+    /// the ray leaves the scene or hits the back of a face.
     std::uint32_t shoot(const Ray& ray, const Vec3& Phi_ray);
-    /// The same of a ray from a point of a patch.
+    /// Shoots a ray from a point of a patch.
     void shoot(const Patch& from, const Vec3& start, const Vec3& direction, const Vec3& Phi_ray);
     /// B = E + rho Phi / A: what was received since the last call is absorbed, or to be shot.
     void reflect();

@@ -81,7 +81,7 @@ class Bounces {
     void divide_work(double rays);
     void shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result);
     void shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const;
-    // What is to be drawn is added to `groups`.
+    // These add the rays to be drawn to `groups`.
     void schedule(const WorkItem& item, std::vector<RayGroup>& groups) const;
     void schedule(std::size_t sender, const WorkItem& item, const Allocation& allocation,
                   std::vector<RayGroup>& groups) const;
@@ -100,7 +100,7 @@ class Bounces {
     SolverInput input_;
     const StepTask* task_ = nullptr;
 
-    // Of the present bounce.
+    // These belong to the present bounce.
     std::vector<std::uint32_t> senders_; ///< patches that hold power, ascending
     double left_ = 0;                    ///< their power, mean of channels
     std::vector<Vec3> unshot_;           ///< by patch, of senders

@@ -55,7 +55,7 @@ class ProgressivePass {
     [[nodiscard]] ShotRays look_for_losses(std::uint32_t shooter, const Vec3& shot);
     void receive(const Vec3& shot, const Vec3& shot_variance, const ShotShares& shares);
     void note_power_variance(const Vec3& shot, const ShotShares& shares);
-    /// With a mean reflectance of at most `most`.
+    /// The light reflected so far, with a mean reflectance of at most `most`.
     [[nodiscard]] Reflected reflected(double most) const;
     [[nodiscard]] Vec3 ambient() const;
     [[nodiscard]] Vec3 power_unshot() const;

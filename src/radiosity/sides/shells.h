@@ -18,8 +18,8 @@ struct Shell {
     bool consistent = true; ///< all neighbours agree
     bool orientable = true; ///< they would, if some were turned; not so for a Moebius strip
     double against = 0;     ///< the part of its area that would be turned, at most a half
-    /// Of a closed one, once it is consistent: 1 faces outwards, -1 inwards, 0 encloses nothing, as
-    /// a folded sheet.
+    /// Which way a closed shell faces once it is consistent: 1 outwards, -1 inwards, 0 if it
+    /// encloses nothing, as a folded sheet.
     int outwards = 0;
 };
 

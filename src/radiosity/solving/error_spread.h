@@ -24,8 +24,9 @@ struct ErrorSpread {
     /// In 39 of 40 runs the true error is below so many times the estimated one: the ratio of their
     /// squares has Fisher's F distribution.
     [[nodiscard]] double bound() const;
-    /// What an error is multiplied with before it is reported, so that the true one is below 1.5
-    /// times the reported one in as many runs; 1 from some ten degrees of freedom on.
+    /// The factor by which an error is multiplied before it is reported, so that the true one is
+    /// below 1.5 times the reported one in as many runs. It is 1 from some ten degrees of freedom
+    /// on.
     [[nodiscard]] double reported() const;
 };
 
@@ -33,8 +34,8 @@ struct ErrorSpread {
 /// degrees of freedom (Solution::effective_freedom), the errors of patches are taken as
 /// independent. NaN before two steps.
 [[nodiscard]] ErrorSpread error_spread(const Mesh& mesh, const Solution& solution);
-/// Of the part of that error besides the level of all light, where this is known from few samples
-/// (Solution::level_freedom); else of the whole.
+/// The spread of the part of that error besides the level of all light, if the level is known from
+/// few samples (Solution::level_freedom); else that of the whole error.
 [[nodiscard]] ErrorSpread error_spread_besides_level(const Mesh& mesh, const Solution& solution);
 
 /// Degrees of freedom of an error whose variance is the sum of `of_patch`. Patches err

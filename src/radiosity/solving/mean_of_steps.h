@@ -21,7 +21,7 @@ namespace hemilux {
 /// What one step found. Powers are in local units.
 struct StepResult {
     StepResult() = default;
-    /// Nothing has been shot: the radiosity is the emission.
+    /// Begins a step: nothing has been shot, and the radiosity is the emission.
     explicit StepResult(const Mesh& mesh);
 
     std::vector<Vec3> radiosity;                  ///< by patch [W/m2]
@@ -57,16 +57,16 @@ class MeanOfSteps {
 
     /// Combines a step with those before. Throws SolveError if its radiosity is not finite.
     void add(const StepResult& step);
-    /// From two steps on: the errors of the solution by `sums`.
+    /// Finds the errors of the solution from `sums`. Requires two steps.
     void estimate_errors();
-    /// By all patches, mean of channels [W, local units].
+    /// The power that all patches emit, mean of channels [W/m2 times area in local units].
     [[nodiscard]] double emitted() const;
     [[nodiscard]] bool equal_rays() const { return equal_rays_; }
 
     Solution solution;
     StepSums sums;
-    /// The power that each ray is to carry on average, mean of channels [W, local units]: 0 before
-    /// find_ray_power(), infinite where rays are not equal.
+    /// The power that each ray is to carry on average, mean of channels [W/m2 times area in local
+    /// units]: 0 before find_ray_power(), infinite where rays are not equal.
     double ray_power = 0;
 
   private:
