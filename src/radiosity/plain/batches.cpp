@@ -1,5 +1,6 @@
 #include "radiosity/plain/batches.h"
 
+#include "geometry/compensated_sum.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/error_spread.h"
@@ -8,10 +9,11 @@
 
 namespace hemilux::plain {
 
-void note_spread_of_batches(const Mesh& mesh, std::span<const std::vector<Vec3>, batches> B,
-                            Solution& solution) {
+void combine_batches(const Mesh& mesh, std::span<const std::vector<Vec3>, batches + 1> B,
+                     std::span<const double> escaped, double rays, Solution& solution) {
     std::vector<Vec3> variance(mesh.patches().size());
     std::array<double, batches * batches> products{};
+    CompensatedSum<Vec3> escaped_power;
     double sum = 0;
     for (std::size_t i = 0; i < variance.size(); ++i) {
         const double area = mesh.patches()[i].area;
@@ -23,14 +25,20 @@ void note_spread_of_batches(const Mesh& mesh, std::span<const std::vector<Vec3>,
                 products[s * batches + t] += area * glm::dot(off, B[t][i] - mean);
         }
         sum += area * (variance[i].x + variance[i].y + variance[i].z);
+        escaped_power += area * escaped[i] / rays * B[batches][i];
     }
     variance = pooled_over_neighbours(mesh, variance); // of four samples each
     for (std::size_t i = 0; i < variance.size(); ++i)
         solution.standard_error[i] = glm::sqrt(variance[i]);
+    solution.radiosity = B[batches];
     solution.variance = sum;
     solution.error_batches = batches;
     solution.effective_freedom =
         believed_freedom(solution.effective_freedom, effective_freedom(products, batches));
+    EnergyBalance& energy = solution.energy;
+    energy.escaped = mesh.frame().area_to_world(1.0) * escaped_power.value();
+    energy.absorbed = energy.emitted - energy.escaped;
+    energy.unshot = Vec3(0.0);
 }
 
 } // namespace hemilux::plain

@@ -1,6 +1,5 @@
 #pragma once
-// Errors from independent batches: solutions of the same size, none of which knows of another's
-// rays.
+// What independent batches of rays make of a solution: its errors, and where its power goes.
 
 #include "radiosity/solving/solution.h"
 
@@ -11,10 +10,11 @@ namespace hemilux::plain {
 
 inline constexpr std::size_t batches = 4;
 
-/// Sets the standard error, the variance and its degrees of freedom of `solution`, which is the
-/// mean of all rays, by how the radiosities of the batches spread: B[s][i] is that of patch i by
-/// batch s.
-void note_spread_of_batches(const Mesh& mesh, std::span<const std::vector<Vec3>, batches> B,
-                            Solution& solution);
+/// B[s] is the radiosity by batch s, by patch; the last of B, that by all rays together, becomes
+/// the radiosity of `solution`. Its standard error, its variance and the degrees of freedom follow
+/// from how the batches spread. Of `rays` rays of each patch, `escaped[i]` of patch i left the
+/// scene; the light that does not escape is absorbed.
+void combine_batches(const Mesh& mesh, std::span<const std::vector<Vec3>, batches + 1> B,
+                     std::span<const double> escaped, double rays, Solution& solution);
 
 } // namespace hemilux::plain

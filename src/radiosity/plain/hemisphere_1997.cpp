@@ -12,6 +12,7 @@
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/plain/step.h"
+#include "radiosity/plain/stored_directions.h"
 #include "radiosity/scene/edge_division.h"
 
 #include <algorithm>
@@ -23,11 +24,6 @@ namespace {
 
 constexpr int n = 2, m = 1; // the paper names no values
 
-/// A direction in the patch's frame, and ns or ens: surfaces counted along it, or estimated.
-struct Direction {
-    Vec3 to;
-    double ns;
-};
 using Triangle = std::array<Direction, 3>;
 
 /// The new point F of an edge AB: AF / FB = ns(B) / ns(A), equation (1); halved where a count is 0.
@@ -37,19 +33,13 @@ Direction divide(const Direction& a, const Direction& b) {
     return {point_on_arc(a.to, b.to, AF), a.ns * BF + b.ns * AF};
 }
 
-/// Of the four triangles that ABC is divided into.
+/// One of the four triangles that ABC is divided into.
 Triangle child_of(const Triangle& abc, std::size_t child) {
     const auto& [a, b, c] = abc;
     const Direction ab = divide(a, b), bc = divide(b, c), ca = divide(c, a);
     const std::array<Triangle, 4> four{{{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}};
     return four[child];
 }
-
-/// As it is stored. (In one expression g++ 12.2 -O2 would leave out the rounding to floats.)
-struct StoredDirection {
-    std::array<float, 3> to;
-    std::uint8_t ns;
-};
 
 class Hemisphere1997 final : public StepSolver {
   public:
@@ -59,7 +49,7 @@ class Hemisphere1997 final : public StepSolver {
         for (std::uint32_t i = 0; i < patches && !input.monitor.interrupted; ++i)
             for (const Polygon& part : quarters_of(input.mesh.patches()[i].shape))
                 count(i, part.centre());
-        mean_.solution.bytes_density = stored_.size() * sizeof(stored_[0]);
+        mean_.solution.bytes_density = stored_.bytes();
     }
 
   private:
@@ -70,27 +60,19 @@ class Hemisphere1997 final : public StepSolver {
                         : std::max(tr.projected_solid_angle() / pi, 0.0);
     }
 
-    /// Directions are stored in floats. Which triangles share one is as in the regular subdivision,
-    /// whose vertices are numbered in the order in which its triangles need them.
+    /// Which triangles share a direction is as in the regular subdivision, whose vertices are
+    /// numbered in the order in which its triangles need them.
     void count(std::uint32_t patch, const Vec3& centre) {
         const std::size_t first = stored_.size();
-        const auto store = [&](const Vec3& v) {
-            stored_.push_back(
-                {{float(v.x), float(v.y), float(v.z)}, count_surfaces(patch, centre, v)});
-        };
+        const auto store = [&](const Vec3& v) { stored_.add(v, count_surfaces(patch, centre, v)); };
         for (std::size_t v = 0; v < Hemisphere(0).vertices().size(); ++v)
             store(tree_.vertices()[v]);
         for (const Hemisphere::Cell& tr : tree_.cells()) {
-            const auto corner = [&](std::size_t k) { return stored(first + tr.vertex[k % 3]); };
+            const auto corner = [&](std::size_t k) { return stored_.at(first + tr.vertex[k % 3]); };
             for (std::size_t edge = 0; tr.level < n && edge < 3; ++edge)
                 if (first + tr.midpoint[edge] == stored_.size())
                     store(divide(corner(edge), corner(edge + 1)).to);
         }
-    }
-
-    [[nodiscard]] Direction stored(std::size_t at) const {
-        const auto& [x, y, z] = stored_[at].to;
-        return {glm::normalize(Vec3(x, y, z)), double(stored_[at].ns)};
     }
 
     [[nodiscard]] Triangle triangle(std::size_t hemisphere, int level, std::size_t index) const {
@@ -98,7 +80,7 @@ class Hemisphere1997 final : public StepSolver {
             return child_of(triangle(hemisphere, level - 1, index / 4), index % 4);
         const auto& v = tree_.cells()[Hemisphere::cells_up_to(level - 1) + index].vertex;
         const std::size_t first = hemisphere * tree_.vertices().size();
-        return {stored(first + v[0]), stored(first + v[1]), stored(first + v[2])};
+        return {stored_.at(first + v[0]), stored_.at(first + v[1]), stored_.at(first + v[2])};
     }
 
     /// For each patch, each triangle and each direction: shoots a ray; bounce after bounce.
@@ -157,7 +139,7 @@ class Hemisphere1997 final : public StepSolver {
 
     bool printed_;
     Hemisphere tree_;
-    std::vector<StoredDirection> stored_; ///< by patch, part and vertex of the tree
+    StoredDirections stored_; ///< by patch, part and vertex of the tree
 };
 
 } // namespace

@@ -19,8 +19,8 @@
 #include "radiosity/rays/shot.h"
 #include "radiosity/solving/mean_of_steps.h"
 
+#include <array>
 #include <cmath>
-#include <span>
 #include <stdexcept>
 
 namespace hemilux::plain {
@@ -52,12 +52,13 @@ class StoredTransport final : public Solver {
         for (std::size_t s = 0; s < batches; ++s)
             look_around(s, more);
         N_ += more;
-        std::vector<std::vector<Vec3>> B;
+        const double all = N_ * double(batches);
+        std::array<std::vector<Vec3>, batches + 1> B; // of each batch, then of all rays
         for (std::size_t s = 0; s <= batches && !input_.monitor.interrupted; ++s)
-            B.push_back(solve(counts_[s], s < batches ? N_ : N_ * double(batches)));
+            B[s] = solve(counts_[s], s < batches ? N_ : all);
         if (input_.monitor.interrupted)
             return false;
-        combine(B);
+        combine_batches(input_.mesh, B, counts_[batches].escaped, all, solution_);
         ++solution_.steps;
         return true;
     }
@@ -135,21 +136,6 @@ class StoredTransport final : public Solver {
             }
         }
         return B;
-    }
-
-    /// `B`: of each batch, then of all rays. As all rows are closed, what does not escape is
-    /// absorbed.
-    void combine(const std::vector<std::vector<Vec3>>& B) {
-        CompensatedSum<Vec3> escaped;
-        for (std::uint32_t i = 0; i < n_; ++i)
-            escaped += input_.mesh.patches()[i].area * counts_[batches].escaped[i] /
-                       (N_ * double(batches)) * B[batches][i];
-        EnergyBalance& energy = solution_.energy;
-        energy.escaped = input_.mesh.frame().area_to_world(1.0) * escaped.value();
-        energy.absorbed = energy.emitted - energy.escaped;
-        energy.unshot = Vec3(0.0);
-        solution_.radiosity = B[batches];
-        note_spread_of_batches(input_.mesh, std::span(B).first<batches>(), solution_);
     }
 
     SolverInput input_;
