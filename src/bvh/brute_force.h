@@ -1,5 +1,5 @@
 #pragma once
-// Every ray against every facet: slow and obviously right, the referee of the BVH.
+// Tests every ray against every facet: slow and obviously right, the referee of the BVH.
 
 #include "bvh/intersect.h"
 

@@ -22,7 +22,7 @@ class Bvh final : public Tracer {
     [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target = none) const override;
     [[nodiscard]] std::uint32_t count(const Ray& ray) const override;
 
-    /// A node, or a leaf of so many facets from an entry of order_ on.
+    /// Refers to a node, or to a leaf of `count` facets from an entry of order_ on.
     struct Child {
         std::uint32_t first;
         std::uint32_t count; ///< `none`: a node

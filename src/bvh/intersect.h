@@ -1,6 +1,6 @@
 #pragma once
-// A ray against one facet: shared by the BVH and by the brute-force referee, so that a test of one
-// against the other is a test of the traversal alone.
+// Intersects a ray with one facet. The BVH and the brute-force referee share it, so that a test of
+// one against the other tests the traversal alone.
 
 #include "bvh/tracer.h"
 #include "geometry/watertight.h"
@@ -13,16 +13,16 @@ namespace hemilux {
 /// Corner indices into the vertices; [3] == [2] for a triangle.
 using FacetCorners = std::array<std::uint32_t, 4>;
 
-/// The facets to be traced.
+/// The facets that a tracer finds.
 struct FacetSoup {
     std::span<const Vec3> vertices;
     std::span<const FacetCorners> facets;
 };
 
-/// True, and the hit filled in, when facet `corners` is struck at a t in (ray.t_min, t_max].
-/// A quad that is not quite planar may be struck twice: the nearer hit counts. A ray through the
-/// diagonal strikes the first half alone: by rounding t may differ between the two. So what is
-/// taken does not depend on what was struck before.
+/// Returns true and fills in the hit if the ray hits facet `corners` at a t in (ray.t_min, t_max].
+/// A ray may hit a quad that is not quite planar twice: the nearer hit counts. A ray through the
+/// diagonal hits the first half alone, since by rounding t may differ between the two. So the
+/// answer does not depend on what was hit before.
 template <EdgeRule rule>
 [[nodiscard]] inline bool hit_facet(std::span<const Vec3> vertices, const FacetCorners& corners,
                                     const ShearedRay& sheared, double t_min, double t_max,

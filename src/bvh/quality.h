@@ -1,5 +1,5 @@
 #pragma once
-// What a tree says of itself.
+// Figures that judge a tree.
 
 #include <cstddef>
 

@@ -20,28 +20,28 @@ struct Ray {
     Vec3 origin;
     Vec3 direction;
     double t_max = std::numeric_limits<double>::infinity();
-    /// Large enough that a coplanar duplicate of the facet the ray starts on is not struck by
-    /// rounding noise, small enough that no wall that the origin is near to is missed. (Scenes lie
-    /// in [-1,1]^3.)
+    /// It is large enough that rounding makes no ray hit a coplanar duplicate of the facet it
+    /// starts on, and small enough that no ray misses a wall near its origin. (Scenes lie in
+    /// [-1,1]^3.)
     double t_min = 1e-13;
     /// The planar facet that the ray starts on; it cannot be hit again, so it is left out. This
     /// stands in place of an epsilon.
     std::uint32_t from = none;
 };
 
-/// Where a ray strikes a facet.
+/// Where a ray hits a facet.
 struct Hit {
     std::uint32_t facet;
     double t;
-    /// Barycentric coordinates in the triangle struck: point = (1-u-v) p0 + u p1 + v p2, the
+    /// Barycentric coordinates in the triangle that was hit: point = (1-u-v) p0 + u p1 + v p2, the
     /// triangle being corners (0,1,2), or (0,2,3) in the second half of a quad.
     double u, v;
     bool second_half;
     bool front; ///< the counter-clockwise side was struck
 };
 
-/// Which facet is the nearest, and whether from its counter-clockwise side: as much of a hit as
-/// most patches need. Tracer::locate tells the rest.
+/// The nearest facet, and whether its counter-clockwise side was hit: as much of a hit as most
+/// patches need. Tracer::locate finds the rest.
 struct FacetHit {
     std::uint32_t facet = none;
     bool front = false;
@@ -61,12 +61,12 @@ class Tracer {
     // The same questions about many rays at once, with the same answers: out[k] is that of ray k.
     // By default they are asked one by one.
 
-    /// Rays that have nothing in common.
+    /// The nearest facets of rays that have nothing in common.
     virtual void closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const;
     /// out[k] != 0: something but targets[k] lies on ray k.
     virtual void occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
                                  std::span<std::uint8_t> out) const;
-    /// The hit of a ray that was told to strike `facet` first.
+    /// The full hit record of a ray that is known to hit `facet` first.
     [[nodiscard]] virtual Hit locate(const Ray& ray, std::uint32_t facet) const;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Axis-aligned bounding box; empty until something is included.
+// An axis-aligned bounding box, which is empty until something is included.
 
 #include "geometry/vector.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Right-handed orthonormal frame of a surface: z is its normal.
+// A right-handed orthonormal frame of a surface: z is its normal.
 
 #include "geometry/vector.h"
 

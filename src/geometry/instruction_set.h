@@ -1,6 +1,6 @@
 #pragma once
-// Which of the instruction sets that kernels were compiled for this machine has. Kernels are
-// written once and compiled for each of these; the widest is taken at run time.
+// The instruction sets that kernels were compiled for. Kernels are written once and compiled for
+// each set; the widest that the machine has is chosen at run time.
 
 #include <span>
 #include <string_view>
@@ -12,10 +12,10 @@ enum class InstructionSet { baseline, avx2, avx512 };
 /// "baseline", "avx2", "avx512"
 [[nodiscard]] std::string_view name_of(InstructionSet set);
 
-/// Those that were compiled in and that this machine can run; the widest first, `baseline` last.
+/// The sets that were compiled in and that this machine can run; the widest first, `baseline` last.
 [[nodiscard]] std::span<const InstructionSet> available_instruction_sets();
 
-/// The environment variable HEMILUX_KERNELS if it names one that is available, else the widest.
+/// The set that the environment variable HEMILUX_KERNELS names if it is available, else the widest.
 [[nodiscard]] InstructionSet chosen_instruction_set();
 
 } // namespace hemilux

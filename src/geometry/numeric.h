@@ -5,10 +5,10 @@
 
 namespace hemilux {
 
-/// sqrt that takes a rounding error below zero as zero. A NaN stays a NaN.
+/// The square root, where a rounding error below zero counts as zero. A NaN stays a NaN.
 [[nodiscard]] inline double safe_sqrt(double x) { return x < 0 ? 0.0 : std::sqrt(x); }
 
-/// a b - c d with an error below 1.5 ulp and, short of underflow, the right sign
+/// Computes a b - c d with an error below 1.5 ulp and, short of underflow, the right sign
 /// (Jeannerod, Louvet and Muller 2013, Kahan's algorithm).
 [[nodiscard]] inline double difference_of_products(double a, double b, double c, double d) {
     const double cd = c * d;

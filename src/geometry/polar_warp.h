@@ -25,9 +25,9 @@ class PolarWarp {
     /// Unit vectors with z >= 0, counter-clockwise seen from outside.
     PolarWarp(const Vec3& a, const Vec3& b, const Vec3& c);
 
-    /// Projected solid angle [sr]; 0 for a triangle without area.
+    /// The projected solid angle [sr]; 0 for a triangle without area.
     [[nodiscard]] double area() const { return area_; }
-    /// u in [0,1]^2. Needs area() > 0.
+    /// The direction for u in [0,1]^2. Requires area() > 0.
     [[nodiscard]] Vec3 sample(Vec2 u) const;
     /// The u of a direction inside the triangle.
     [[nodiscard]] Vec2 inverse(const Vec3& direction) const;
@@ -40,7 +40,7 @@ class PolarWarp {
         [[nodiscard]] double gamma(Vec2 azimuth) const;
         [[nodiscard]] double area(Vec2 azimuth) const;
     };
-    /// Where two arcs cross a meridian.
+    /// Where a meridian crosses two arcs.
     struct Crossing {
         Vec2 r_squared, z_squared; ///< of the first and the second arc
         double difference;         ///< r_squared.x - r_squared.y, without cancellation

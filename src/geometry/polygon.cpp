@@ -32,4 +32,13 @@ Polygon Polygon::flipped() const {
     return {{corner[0], corner[3], corner[2], corner[1]}};
 }
 
+std::array<Polygon, 4> quarters_of(const Polygon& polygon) {
+    const auto& [a, b, c, d] = polygon.corner;
+    const Vec3 ab = (a + b) / 2.0, bc = (b + c) / 2.0, cd = (c + d) / 2.0, da = (d + a) / 2.0;
+    const Vec3 ca = (c + a) / 2.0, o = (ab + cd) / 2.0;
+    if (polygon.is_triangle())
+        return {{{{a, ab, ca, ca}}, {{ab, b, bc, bc}}, {{ca, bc, c, c}}, {{ab, bc, ca, ca}}}};
+    return {{{{a, ab, o, da}}, {{ab, b, bc, o}}, {{o, bc, c, cd}}, {{da, o, cd, d}}}};
+}
+
 } // namespace hemilux

@@ -23,9 +23,9 @@ struct Polygon {
         return 0.5 * glm::cross(corner[2] - corner[0], corner[3] - corner[1]);
     }
     [[nodiscard]] double area() const { return glm::length(area_vector()); }
-    /// Unit normal of the front side; NaN for a polygon without area.
+    /// The unit normal of the front side; NaN for a polygon without area.
     [[nodiscard]] Vec3 normal() const { return glm::normalize(area_vector()); }
-    /// Centre of mass.
+    /// The centre of mass.
     [[nodiscard]] Vec3 centre() const;
     /// A point uniform over the area for u uniform in [0,1)^2; keeps stratification of u.
     [[nodiscard]] Vec3 sample(Vec2 u) const;
@@ -33,7 +33,11 @@ struct Polygon {
     [[nodiscard]] Polygon flipped() const;
 };
 
-/// That of a facet, by the indices of its corners.
+/// Divides at the midpoints of the edges: a quad into 2 x 2 quads, a triangle into four triangles
+/// that are similar to it, the middle one last.
+[[nodiscard]] std::array<Polygon, 4> quarters_of(const Polygon& polygon);
+
+/// The polygon of a facet, by the indices of its corners.
 [[nodiscard]] inline Polygon polygon_of(std::span<const Vec3> vertices,
                                         const std::array<std::uint32_t, 4>& corners) {
     return {

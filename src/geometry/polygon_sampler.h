@@ -1,5 +1,5 @@
 #pragma once
-// Points uniform over one polygon, many of them: what does not depend on the point is worked out
+// Samples many points uniformly over one polygon; what does not depend on the point is computed
 // once.
 //
 // A quad's bilinear map p = a + s e + t f + s t g stretches areas by J0 + s J1 + t J2, if the quad
@@ -17,7 +17,7 @@ class PolygonSampler {
   public:
     explicit PolygonSampler(const Polygon& polygon);
 
-    /// For u uniform in [0,1)^2; keeps stratification of u.
+    /// A point uniform over the polygon for u uniform in [0,1)^2. It keeps stratification of u.
     [[nodiscard]] Vec3 sample(Vec2 u) const {
         if (triangle_) // the square root turns equal shares of u.x into strips of equal area
             return corner_ + std::sqrt(u.x) * (first_ + u.y * second_);

@@ -19,9 +19,9 @@ class SphericalTriangle {
     SphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
     [[nodiscard]] const std::array<Vec3, 3>& vertices() const { return vertex_; }
-    /// [sr] (Van Oosterom and Strackee 1983).
+    /// The solid angle [sr] (Van Oosterom and Strackee 1983).
     [[nodiscard]] double solid_angle() const;
-    /// Integral of cos(theta) over the triangle [sr], Lambert's closed form.
+    /// The integral of cos(theta) over the triangle [sr], by Lambert's closed form.
     [[nodiscard]] double projected_solid_angle() const;
     /// Whether a direction of the upper hemisphere lies inside; the edges belong to it.
     [[nodiscard]] bool contains(const Vec3& direction) const;
@@ -29,14 +29,14 @@ class SphericalTriangle {
     /// A direction with density cos(theta) / projected_solid_angle, for u uniform in [0,1)^2: exact
     /// and continuous in u.
     [[nodiscard]] Vec3 sample(Vec2 u) const;
-    /// Density of `sample` per steradian; 0 outside.
+    /// The density of `sample` per steradian; 0 outside.
     [[nodiscard]] double density(const Vec3& direction) const;
     /// The u that `sample` maps to this direction; empty outside.
     [[nodiscard]] std::optional<Vec2> inverse(const Vec3& direction) const;
 
-    /// Unit normals of the planes of the sides, inwards.
+    /// The unit normals of the planes of the sides, inwards.
     [[nodiscard]] const std::array<Vec3, 3>& planes() const { return normal_; }
-    /// Around the projection to the unit disc: a parallelogram, or its first half.
+    /// A parallelogram, or its first half, around the projection to the unit disc.
     struct Hull {
         Vec2 corner{0.0};
         std::array<Vec2, 2> edge{Vec2(0.0), Vec2(0.0)};

@@ -1,6 +1,6 @@
 #pragma once
-// Ray against triangle and quad without leaks: Woop, Benthin and Wald 2013, "Watertight
-// Ray/Triangle Intersection".
+// Intersects a ray with a triangle without leaks along edges (Woop, Benthin and Wald 2013,
+// "Watertight Ray/Triangle Intersection").
 //
 // The scene is moved and sheared so that the ray is the z axis; whether it passes left or right of
 // an edge then depends on the two transformed end points alone, which neighbours share. Here the

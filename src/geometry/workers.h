@@ -63,7 +63,7 @@ class Workers {
             std::rethrow_exception(failure);
     }
 
-    /// As for_chunks, with body(own, begin, end): each thread that takes part keeps what make()
+    /// Does the same with body(own, begin, end): each thread that takes part keeps what make()
     /// gives it, for all of its chunks.
     template <class Make, class Body>
     void for_chunks_with(std::size_t count, std::size_t chunk, const Make& make,

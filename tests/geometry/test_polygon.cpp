@@ -132,3 +132,19 @@ TEST_CASE("a polygon without area gives points, not NaN") {
     CHECK(std::isfinite(line.centre().x));
     CHECK(line.area() == 0);
 }
+
+TEST_CASE("quarters fill a polygon, and those of a triangle are alike") {
+    for (const Polygon& whole : {triangle, rectangle, trapezoid, kite, lopsided}) {
+        Vec3 sum(0.0), moment(0.0);
+        for (const Polygon& quarter : quarters_of(whole)) {
+            CHECK(quarter.size() == whole.size());
+            CHECK(glm::length(quarter.normal() - whole.normal()) < 1e-12);
+            sum += quarter.area_vector();
+            moment += quarter.area() * quarter.centre();
+            if (whole.is_triangle())
+                CHECK(quarter.area() == Approx(whole.area() / 4));
+        }
+        CHECK(glm::length(sum - whole.area_vector()) < 1e-12);
+        CHECK(glm::length(moment / whole.area() - whole.centre()) < 1e-12);
+    }
+}

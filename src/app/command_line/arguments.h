@@ -55,7 +55,7 @@ class Command {
                        const std::string& help) const;
     /// --help stands where this is called, not first.
     Option add_help(const std::string& name, const std::string& help) const;
-    /// What --help ends with.
+    /// The text that --help ends with.
     void end_help_with(const std::string& text) const;
     void after_parsing(std::function<void()> action) const;
 

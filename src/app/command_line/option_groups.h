@@ -8,19 +8,19 @@ namespace hemilux {
 
 inline constexpr const char* output_group = "Outputs";
 
-/// SCENE and what changes it; returns --max-edge.
+/// Adds SCENE and the options that change it; returns --max-edge.
 Option add_scene_options(Command command, SceneSettings& scene);
-/// --memory, of the subcommands that solve.
+/// Adds --memory, for the subcommands that solve.
 void add_memory_option(Command command, SceneSettings& scene);
-/// --depth and --threshold: how hemispheres are divided.
+/// Adds --depth and --threshold: how hemispheres are divided.
 void add_division_options(Command command, SolveOptions& options);
-/// --seed and --threads.
+/// Adds --seed and --threads.
 void add_random_options(Command command, SolveOptions& options);
-/// --camera and --size.
+/// Adds --camera and --size.
 void add_camera_options(Command command, ViewSettings& view);
-/// The same with --exposure.
+/// Adds the same and --exposure.
 void add_view_options(Command command, ViewSettings& view);
-/// -q, -v, --version, --help.
+/// Adds -q, -v, --version and --help.
 void add_verbosity_options(Command command, Verbosity& verbosity);
 
 } // namespace hemilux

@@ -18,14 +18,14 @@ void make_folder(const std::string& folder);
 /// where a file cannot be made, InputError where one cannot be read.
 [[nodiscard]] RunFiles check_files(const CompareSettings& settings);
 
-/// error.csv, error.svg, reference.png, and METHOD.png with METHOD_difference.png from
-/// the first run of each method. All pictures have one camera and one exposure, all differences one
+/// Writes error.csv, error.svg, reference.png, and METHOD.png with METHOD_difference.png from the
+/// first run of each method. All pictures have one camera and one exposure, all differences one
 /// scale.
 [[nodiscard]] WriteReport write_comparison(const Comparison& comparison,
                                            std::span<const MethodRuns> results,
                                            std::span<const MethodSummary> summaries);
 
-/// reference.csv, for use with --reference.
+/// Writes reference.csv, for use with --reference.
 [[nodiscard]] WriteReport write_reference(const Comparison& comparison);
 
 } // namespace hemilux

@@ -1,5 +1,5 @@
 #pragma once
-// What the runs of several methods say about them.
+// Compares several methods by their runs.
 
 #include "app/commands/compare_run.h"
 #include "io/drawings/error_curves.h"
@@ -31,7 +31,8 @@ struct MethodSummary {
     std::optional<Gain> gain_seconds, gain_rays;
 };
 
-/// In the order of the results. Runs that were interrupted count only where a method has no other.
+/// Summarises each method, in the order of the results. Runs that were interrupted count only if a
+/// method has no other.
 [[nodiscard]] std::vector<MethodSummary> summarise(std::span<const MethodRuns> results,
                                                    bool literal);
 

@@ -33,8 +33,8 @@ struct LoadedMesh {
     double seconds_read, seconds_sides;
     std::vector<std::uint32_t> face_lines; ///< ReadResult
 };
-/// All of this together, with what there is to say about it. Throws MemoryError where the methods
-/// would need more than they may.
+/// Does all of this, with what there is to report. Throws MemoryError if the methods would need
+/// more memory than they may.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                                    const SolveOptions& options,
                                    std::span<const Method* const> methods, Verbosity verbosity,

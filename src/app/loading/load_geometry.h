@@ -5,8 +5,8 @@
 
 namespace hemilux {
 
-/// Reads and divides, with warnings and figures as the user wants them. Throws InputError,
-/// UsageError.
+/// Reads and divides a scene, with warnings and figures as the user wants them. Throws InputError
+/// and UsageError.
 [[nodiscard]] Mesh load_geometry(const SceneSettings& settings, const RunFiles& files,
                                  Verbosity verbosity);
 

@@ -20,7 +20,8 @@ struct Reference {
     }
 };
 
-/// From a patch table. Throws InputError, naming the file, unless its rows are the mesh's patches.
+/// Reads the solution from a patch table. Throws InputError, naming the file, unless its rows are
+/// the mesh's patches.
 [[nodiscard]] Reference read_reference(const std::string& path, const Mesh& mesh,
                                        std::vector<bool> detail);
 

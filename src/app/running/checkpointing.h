@@ -28,9 +28,9 @@ class Checkpointer {
   public:
     Checkpointer(const SolveSettings& settings, const Mesh& mesh, const Solver& solver);
 
-    /// After a step: writes if it is time. `seconds`: of the solver so far.
+    /// Called after a step: writes if it is time. `seconds` is the solver's time so far.
     void step_done(const std::vector<StepRow>& rows, double seconds);
-    /// At the end, and when interrupted, unless there is nothing new.
+    /// Writes at the end, and when interrupted, unless there is nothing new.
     void finish(const std::vector<StepRow>& rows, double seconds);
     /// What failed; a checkpoint that is written later makes up for it.
     [[nodiscard]] const WriteReport& report() const { return report_; }

@@ -27,11 +27,12 @@ inline constexpr double division_share = .7, sampling_share = .5;
 struct Divided {
     bool patches = false; ///< some were divided
     bool linear = false;  ///< one value on each patch is not enough
-    /// Of the mesh as it is now, where there is one: the light by which it was divided.
+    /// The light by which the mesh was divided, on the patches that it has now; empty if none was
+    /// found.
     Solution rough = {};
     std::vector<Slope> slope = {}; ///< by patch, of the light; empty where it is not linear
-    /// Of the mesh as it is now, a run of `stored-transport` that can go on, after so many steps.
-    /// Empty for other methods, and where it was not begun.
+    /// A run of `stored-transport` on the patches as they are now, which can go on after the steps
+    /// of `before`. Empty for other methods, and if it was not begun.
     std::unique_ptr<Solver> begun = nullptr;
     Before before = {};
     StepRecord last = {}; ///< of these steps

@@ -8,7 +8,7 @@
 
 namespace hemilux {
 
-/// Those of --points; none where it is not given. Throws InputError.
+/// Reads the points of --points; none if it is not given. Throws InputError.
 [[nodiscard]] std::vector<NamedPoint> points_of(const SolveSettings& settings);
 
 /// Throws InputError for a point so far from the scene that its coordinates could not tell rays to

@@ -30,8 +30,8 @@ class InterruptGuard {
 /// than it could be given back piece by piece.
 [[noreturn]] void end_at_once(int code);
 
-/// For main: writing to a pipe that nobody reads or beyond the limit of a file's size is an error
-/// to be reported, not a death; and no file is ever opened in the place of a closed stdout or
+/// Called by main: writing to a pipe that nobody reads or beyond the limit of a file's size is an
+/// error to be reported, not a death; and no file is ever opened in the place of a closed stdout or
 /// stderr.
 void prepare_process();
 

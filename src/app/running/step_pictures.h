@@ -12,7 +12,7 @@
 
 namespace hemilux {
 
-/// room.png of step 12: room-0012.png.
+/// The path of a step's picture: room-0012.png for room.png and step 12.
 [[nodiscard]] std::string step_path(const std::string& path, std::uint32_t step);
 
 /// One camera for all steps, chosen by the first that has light to show; and one exposure, so that
@@ -24,10 +24,11 @@ class StepPictures {
         : settings_(settings), mesh_(mesh), tracer_(tracer), interrupted_(interrupted),
           view_(settings.view) {}
 
-    /// Nothing more after the first failure, or once a picture was interrupted.
+    /// Writes the pictures of a step, but none after the first failure or once a picture was
+    /// interrupted.
     void write(std::span<const Vec3> radiosity, std::uint32_t step);
 
-    /// That of all steps, once it is known.
+    /// The camera of all steps, once it is known.
     [[nodiscard]] const std::optional<Camera>& camera() const { return view_.camera; }
     /// What was written and what failed.
     [[nodiscard]] const WriteReport& report() const { return report_; }

@@ -19,7 +19,7 @@ struct WriteReport {
     void add(const WriteReport& other);
     /// A failure counts more than an interruption.
     [[nodiscard]] int exit_code(bool interrupted) const;
-    /// Tells the user.
+    /// Reports to the user on stderr.
     void log(Verbosity verbosity) const;
 };
 

@@ -8,7 +8,7 @@
 
 namespace hemilux {
 
-/// With its dot, in small letters.
+/// The extension of a path with its dot, in small letters.
 [[nodiscard]] inline std::string extension_of(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
     std::ranges::transform(extension, extension.begin(),

@@ -15,10 +15,10 @@
 
 namespace hemilux {
 
-/// 800, 64k, 1.5G: bytes, in powers of 1024 with one of k, M, G, T behind.
+/// Reads a number of bytes such as 800, 64k or 1.5G: k, M, G and T stand for powers of 1024.
 [[nodiscard]] std::optional<std::uint64_t> parse_bytes(std::string_view text);
 
-/// What a run needs at its peak, by parts [bytes].
+/// The memory that a run needs at its peak, by parts [bytes].
 struct MemoryNeed {
     double scene = 0;    ///< as read
     double mesh = 0;     ///< patches
@@ -40,25 +40,26 @@ struct MemoryNeed {
                                      const SolveOptions& options,
                                      std::span<const Method* const> methods);
 
-/// With the part of --memory that a method may fill by and by.
+/// The options with the part of --memory that a method may fill step by step.
 [[nodiscard]] SolveOptions with_memory(SolveOptions options, const SceneSettings& scene);
 
-/// A scene too large. Ends with exit code 3.
+/// Thrown for a scene that is too large; the program ends with exit code 3.
 struct MemoryError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
-/// Bytes at the peak of writing a picture of so many pixels, or for `compare` all of its pictures.
+/// The bytes at the peak of writing a picture of so many pixels, or for `compare` all of its
+/// pictures.
 [[nodiscard]] double bytes_of_picture(PixelSize size, bool gathered);
 [[nodiscard]] double bytes_of_compared_pictures(PixelSize size);
-/// Of so many points of --points, while their light is gathered and written.
+/// The bytes of so many points of --points, while their light is gathered and written.
 [[nodiscard]] double bytes_of_points(std::size_t points, unsigned gather);
 
-/// While the file is read: throws MemoryError once that takes more.
+/// A check while the file is read, which throws MemoryError once that takes more.
 [[nodiscard]] std::function<void(double bytes)> memory_guard(const std::string& path,
                                                              std::optional<std::uint64_t> limit);
-/// Before the file is read, by its size.
+/// A check before the file is read, by its size.
 void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit);
-/// Before the faces are divided. Throws MemoryError, which says what is needed for what.
+/// A check before the faces are divided. Throws MemoryError, which says what is needed for what.
 void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
                   const std::string& path);
 

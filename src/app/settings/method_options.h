@@ -1,5 +1,5 @@
 #pragma once
-// Options that are of one method alone.
+// Checks options that belong to one method alone.
 
 #include "app/settings/settings.h"
 
@@ -11,16 +11,16 @@ namespace hemilux {
 /// Throws UsageError where an option was given whose method (Method::flags) is not among these.
 void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen);
 
-/// Names of those that --plain may choose, with commas between them.
+/// The names of the methods that --plain may choose, with commas between them.
 [[nodiscard]] std::string methods_with_a_page();
 
 /// Throws UsageError where --plain was given and the method has no page, or its page does not
 /// support another option that was given.
 void check_plain(const SolveSettings& settings);
-/// The same where the page takes fewer patches.
+/// Throws UsageError if the page takes fewer patches than the scene has.
 void check_plain(const SolveSettings& settings, std::size_t patches);
 
-/// Throws UsageError where --exact would take too long.
+/// Throws UsageError if --exact would take too long.
 void check_exact(const SolveOptions& options, std::size_t patches);
 
 } // namespace hemilux

@@ -8,14 +8,15 @@
 
 namespace hemilux {
 
-/// Insertions, deletions and replacements that turn one word into the other (Levenshtein 1966).
+/// The number of insertions, deletions and replacements that turn one word into the other
+/// (Levenshtein 1966).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The known name that begins with the word, else the one with the smallest distance, if that is at
 /// most half of the word; else empty.
 [[nodiscard]] std::string nearest_name(std::string_view word, std::span<const std::string> known);
 
-/// "a, b, c and 5 more".
+/// A list such as "a, b, c and 5 more".
 [[nodiscard]] std::string list_names(std::span<const std::string> names, std::size_t most = 8);
 
 /// "unknown material 'lihgt'; did you mean 'light'?" or, where none is near, the list of all.

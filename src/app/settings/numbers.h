@@ -28,16 +28,16 @@ inline constexpr NumberRange positive{.low = 0, .high = no_limit, .low_included 
 inline constexpr NumberRange non_negative{.low = 0, .high = no_limit};
 
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
-/// Decimal digits only.
+/// Reads a whole number of decimal digits; empty for any other text.
 [[nodiscard]] std::optional<std::uint64_t> parse_whole(std::string_view text);
-/// "r,g,b", or one number for all three; empty where a channel is missing or out of the range.
+/// Reads "r,g,b", or one number for all three; empty if a channel is missing or out of the range.
 [[nodiscard]] std::optional<Vec3> parse_colour(std::string_view text, const NumberRange& range);
 
 /// A picture's width and height in pixels.
 struct PixelSize {
     int width, height;
 };
-/// "800x600", each from 1 to 16384.
+/// Reads a size such as "800x600", each side from 1 to 16384.
 [[nodiscard]] std::optional<PixelSize> parse_size(std::string_view text);
 
 } // namespace hemilux

@@ -23,7 +23,8 @@ struct Output {
     return kind == OutputKind::png || kind == OutputKind::hdr;
 }
 
-/// By the extension of the path, in small or capital letters; empty where it is none of ours.
+/// The kind of output by the extension of the path, in small or capital letters; empty if it is
+/// unknown.
 [[nodiscard]] std::optional<Output> parse_output(std::string_view path);
 
 /// Throws OutputError where no file can be made or replaced at the path, links being followed.

@@ -20,7 +20,7 @@ struct Override {
 inline constexpr NumberRange emission_range = non_negative;
 inline constexpr NumberRange reflectance_range{.low = 0, .high = 1};
 
-/// "MATERIAL=R,G,B" or "MATERIAL=GREY"; empty where that is not what it is.
+/// Reads "MATERIAL=R,G,B" or "MATERIAL=GREY"; empty for any other text.
 [[nodiscard]] std::optional<Override> parse_override(std::string_view text,
                                                      const NumberRange& range);
 

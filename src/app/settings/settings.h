@@ -29,7 +29,7 @@ struct SceneSettings {
     std::optional<std::uint64_t> memory; ///< bytes that a run may need
 };
 
-/// As --guide names them, in the order of Guide.
+/// The values of --guide, in the order of Guide.
 inline constexpr std::array<const char*, 3> guide_names = {"density", "visible", "learned"};
 
 /// How much is said on stderr.
@@ -78,7 +78,7 @@ struct SolveSettings {
     Verbosity verbosity = Verbosity::normal;
 };
 
-/// What each run of each method may use: one of the two.
+/// The budget of each run of each method: one of the two.
 struct Budget {
     std::optional<double> rays;                 ///< density rays included
     std::optional<double> seconds;              ///< of its own, preprocessing included

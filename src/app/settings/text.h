@@ -8,19 +8,19 @@
 
 namespace hemilux {
 
-/// printf for std::string.
+/// Formats like printf into a std::string.
 [[nodiscard, gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
-/// 999, 12.3 k, 4.56 M, 7.89 G.
+/// A count as 999, 12.3 k, 4.56 M or 7.89 G.
 [[nodiscard]] std::string short_count(double count);
-/// 1 234 567
+/// A whole number with its digits in groups of three, as 1 234 567.
 [[nodiscard]] std::string grouped(std::uint64_t count);
-/// 1.2 ms, 0.42 s, 12.3 s, 3:05, 1:02:03
+/// A duration as 1.2 ms, 0.42 s, 12.3 s, 3:05 or 1:02:03.
 [[nodiscard]] std::string duration(double seconds);
-/// 800 bytes, 12.3 kB, 4.56 MB
+/// An amount of memory as 800 bytes, 12.3 kB or 4.56 MB.
 [[nodiscard]] std::string byte_size(std::uint64_t bytes);
-/// 2.31 %; "unknown" for NaN.
+/// A ratio as 2.31 %, or "unknown" for NaN.
 [[nodiscard]] std::string percent(double share);
-/// "1 patch", "2 patches".
+/// A number with its noun: "1 patch", "2 patches".
 [[nodiscard]] std::string counted(std::uint64_t count, const std::string& one,
                                   const std::string& many);
 

@@ -30,9 +30,9 @@ class PictureTime {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Linear radiosity in the size asked for: of the patches, or gathered with so many rays at a
-/// point; the mesh's classes of corners, where they are known; slopes as of smooth(). Interrupted
-/// when the time is over.
+/// Renders linear radiosity in the size asked for: that of the patches, or gathered with `gather`
+/// rays at a point. `classes` are the mesh's classes of corners, where they are known; `slope` is
+/// as in smooth(). Throws Interrupted when the time is over.
 [[nodiscard]] Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                                 std::span<const Vec3> radiosity, const Camera& camera,
                                 unsigned threads, const PictureTime& time,

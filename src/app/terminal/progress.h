@@ -34,7 +34,7 @@ struct ProgressState {
 
 /// How much of the work is done, 0 to 1.
 using ShareDone = std::function<double(const ProgressState&)>;
-/// That of one run.
+/// The share of one run that is done.
 [[nodiscard]] ShareDone share_of(const StopRule& stop, const Method& method);
 
 /// The bar as text of at most `width` columns.

@@ -14,7 +14,7 @@ struct Space {
     double size;
 };
 
-/// Whether the kernels are to be asked.
+/// Whether the kernels can trace the ray.
 enum class Fit {
     good,
     misses, ///< certainly, or it is no ray at all
@@ -23,10 +23,10 @@ enum class Fit {
 
 [[nodiscard]] Fit scale_ray(const Ray& ray, const Space& space, FloatRay& scaled);
 
-/// More than the error of a scaled distance apart from its own rounding.
+/// This bounds the error of a scaled distance, apart from the distance's own rounding.
 inline constexpr double distance_slack = 0x1p-30;
 
-/// Certain bounds of a distance in scaled units; it may be infinite.
+/// Certain lower and upper bounds of a distance in scaled units, which may be infinite.
 [[nodiscard]] inline float below(const FloatRay& scaled, double t) {
     const double at = (t - scaled.skipped) * scaled.per_unit;
     return static_cast<float>(std::isinf(at) ? at : at - std::abs(at) * 0x1p-22 - distance_slack);
@@ -36,7 +36,7 @@ inline constexpr double distance_slack = 0x1p-30;
     return static_cast<float>(at + std::abs(at) * 0x1p-22 + distance_slack);
 }
 
-/// Of a ray that has met nothing yet.
+/// The nearest hit of a ray that has met nothing yet.
 [[nodiscard]] inline Nearest nothing_before(const FloatRay& scaled, double t_max) {
     return {below(scaled, t_max), above(scaled, t_max), no_facet, 0};
 }

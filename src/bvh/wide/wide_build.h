@@ -20,11 +20,12 @@ struct Built {
     BvhQuality quality;
 };
 
-/// The power of two that the soup's coordinates are divided by, at least the largest of them.
+/// The power of two by which the soup's coordinates are divided; no coordinate is larger.
 [[nodiscard]] double size_of(const Vec3& low, const Vec3& high);
 
-/// Facets with coordinates that are not finite are left out. threads == 0: one per core. Without
-/// `hierarchy` up to eight triangles are one leaf with no node above it.
+/// Builds the tree with so many `threads`, 0 being one per core. Facets with coordinates that are
+/// not finite are left out. Without `hierarchy` up to eight triangles are one leaf with no node
+/// above it.
 [[nodiscard]] Built build(const FacetSoup& soup, unsigned threads, bool hierarchy = true);
 
 } // namespace hemilux::wide

@@ -1,5 +1,5 @@
 #pragma once
-// How the wide tree lies in memory, and what its kernels are told. Plain data only: this header is
+// The memory layout of the wide tree and of what its kernels take. Plain data only: this header is
 // compiled with several instruction sets, so it may define no function that the linker could merge.
 //
 // The kernels see the scene in floats, scaled into [-1,1]^3, and only *filter*: with bounds on
@@ -45,7 +45,8 @@ struct Tree {
     bool large; ///< does not fit the cache of a core, so what is needed next is fetched ahead
 };
 
-/// The deepest tree that the builder makes, and what a depth-first walk through it can pile up.
+/// The depth of the deepest tree that the builder makes, and the most entries that a depth-first
+/// walk through it can have pending.
 inline constexpr unsigned max_depth = 40;
 inline constexpr unsigned stack_size = (width - 1) * max_depth + 1;
 
@@ -59,7 +60,7 @@ struct alignas(64) FloatRay {
     double skipped, per_unit; ///< the kernels' t is (t - skipped) * per_unit
 };
 
-/// Certain bounds of the nearest distance so far, and which slot it belongs to.
+/// Certain bounds of the nearest distance so far, and the slot that it belongs to.
 struct Nearest {
     float low, high;
     std::uint32_t slot;

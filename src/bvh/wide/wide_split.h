@@ -1,5 +1,5 @@
 #pragma once
-// Ranges of triangles and how they are divided in two: binned surface area heuristic.
+// Divides ranges of triangles in two by the binned surface area heuristic.
 
 #include "bvh/intersect.h"
 #include "geometry/workers.h"
@@ -56,12 +56,12 @@ struct Range {
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
 };
 
-/// What a leaf of n triangles costs: one block of eight or a part of it is one test.
+/// The cost of a leaf of n triangles: each block of eight, or part of one, is one test.
 [[nodiscard]] constexpr float blocks_of(std::uint32_t n) { return static_cast<float>((n + 7) / 8); }
 
 [[nodiscard]] Range range_of(std::span<const Item> items, std::uint32_t begin, std::uint32_t end);
 
-/// Divides a range of at least two items, reordering them. `balanced`: into equal halves.
+/// Divides a range of at least two items, which it reorders; into equal halves if `balanced`.
 [[nodiscard]] std::array<Range, 2> divide(std::span<Item> items, const Range& range, bool balanced,
                                           const Workers& workers);
 

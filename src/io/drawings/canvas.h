@@ -12,7 +12,7 @@
 
 namespace hemilux {
 
-/// As on a screen: sRGB, 8 bits.
+/// A colour as on a screen: sRGB, 8 bits per channel.
 struct Colour {
     std::uint8_t r = 0, g = 0, b = 0;
 };
@@ -35,10 +35,10 @@ struct TextStyle {
 class Canvas {
   public:
     virtual ~Canvas() = default;
-    /// Even-odd rule.
+    /// Fills a polygon by the even-odd rule.
     virtual void polygon(std::span<const Vec2> corners, Colour fill, double opacity) = 0;
     virtual void line(std::span<const Vec2> points, const Stroke& stroke) = 0;
-    /// One line; `at` is on its base line.
+    /// Draws one line of text; `at` is on its base line.
     virtual void text(const Vec2& at, std::string_view text, const TextStyle& style) = 0;
 };
 
@@ -48,7 +48,7 @@ class SvgCanvas final : public Canvas {
     void polygon(std::span<const Vec2> corners, Colour fill, double opacity) override;
     void line(std::span<const Vec2> points, const Stroke& stroke) override;
     void text(const Vec2& at, std::string_view text, const TextStyle& style) override;
-    /// The whole file.
+    /// The text of the whole file.
     [[nodiscard]] std::string document() const { return body_ + "</svg>\n"; }
 
   private:

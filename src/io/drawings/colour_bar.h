@@ -7,7 +7,8 @@
 
 namespace hemilux {
 
-/// From 0 (pale) to 1 (dark), lightness falling all the way; beyond stays at the ends; NaN is grey.
+/// The colour of a number from 0 (pale) to 1 (dark), with lightness falling all the way. Numbers
+/// beyond take the colours of the ends, NaN is grey.
 [[nodiscard]] Colour heat_colour(double t);
 
 /// A number on a bar; place 0 is its left end, 1 its right one.

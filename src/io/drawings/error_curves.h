@@ -14,7 +14,7 @@ struct CurvePoint {
     double error; ///< relative
 };
 
-/// One run: ascending in x, without points that have no logarithm.
+/// The curve of one run: ascending in x, without points that have no logarithm.
 using ErrorCurve = std::vector<CurvePoint>;
 
 /// Adds a point unless x is not above that of the last one, or a number is not positive and finite.
@@ -51,8 +51,7 @@ struct MeanCurve {
 [[nodiscard]] std::optional<double> speed_up_error(std::span<const ErrorCurve> runs,
                                                    std::span<const ErrorCurve> base_runs);
 
-/// exp of the mean of logarithms; numbers that are not positive and finite do not count. NaN where
-/// none does.
+/// The geometric mean. Numbers that are not positive and finite do not count; NaN if none counts.
 [[nodiscard]] double geometric_mean(std::span<const double> numbers);
 
 } // namespace hemilux

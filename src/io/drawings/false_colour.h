@@ -10,11 +10,11 @@
 
 namespace hemilux {
 
-/// From -1 (dark blue) over 0 (white) to 1 (dark red); beyond stays at the ends; NaN is grey.
-/// Lightness falls evenly to both sides.
+/// The colour of a number from -1 (dark blue) over 0 (white) to 1 (dark red). Numbers beyond take
+/// the colours of the ends, NaN is grey. Lightness falls evenly to both sides.
 [[nodiscard]] Colour diverging_colour(double t);
 
-/// Luminance of a picture minus that of the reference, in units of the exposure's white. Throws
+/// The luminance of a picture minus that of the reference, in units of the exposure's white. Throws
 /// std::invalid_argument unless both have one size.
 [[nodiscard]] std::vector<float> luminance_difference(const Image& picture, const Image& reference,
                                                       double exposure);
@@ -25,15 +25,15 @@ struct DifferenceScale {
     double typical = 1; ///< up to about here even
     double most = 1;    ///< the darkest colours; at least `typical`
 
-    /// From -1 to 1.
+    /// The place of a difference on the scale, from -1 to 1.
     [[nodiscard]] double place(double difference) const;
 };
 
-/// 99 of 100 values are within `typical` in half of the differences, and within `most` in all. Both
-/// are 1, 2 or 5 times a power of ten.
+/// Chooses a scale: 99 of 100 values are within `typical` in half of the differences, and within
+/// `most` in all. Both are 1, 2 or 5 times a power of ten.
 [[nodiscard]] DifferenceScale common_scale(std::span<const std::vector<float>> differences);
 
-/// The difference with a colour bar below it; for write_png with exposure 1.
+/// Draws the difference with a colour bar below it, for write_png with exposure 1.
 [[nodiscard]] Image false_colour(const std::vector<float>& difference, int width, int height,
                                  const DifferenceScale& scale);
 

@@ -19,16 +19,17 @@ class LogAxis {
 
     [[nodiscard]] double low() const { return low_; }
     [[nodiscard]] double high() const { return high_; }
-    /// 0 at the low end, 1 at the high one.
+    /// The place of a number on the axis: 0 at the low end, 1 at the high one.
     [[nodiscard]] double place(double x) const;
-    /// Ascending. On a long axis only the powers of ten have labels, or only some of them.
+    /// The ticks in ascending order. On a long axis only the powers of ten have labels, or only
+    /// some.
     [[nodiscard]] std::vector<LogTick> ticks() const;
 
   private:
     double low_ = 1, high_ = 10;
 };
 
-/// 0.05, 20, 500, 2k, 10M, 1e-07
+/// A label such as 0.05, 20, 500, 2k, 10M or 1e-07.
 [[nodiscard]] std::string tick_text(double value);
 
 } // namespace hemilux

@@ -49,7 +49,7 @@ void end_waits_on(const std::atomic<bool>* flag);
 /// up. A pipe then takes a line without a further wait.
 [[nodiscard]] bool wait_until_writable(int descriptor);
 
-/// All of a file's content at once. Throws OutputError and Interrupted.
+/// Writes a whole file at once. Throws OutputError and Interrupted.
 void write_atomically(const std::string& path, std::string_view content);
 
 } // namespace hemilux

@@ -16,7 +16,8 @@ struct FileIdentity {
     auto operator<=>(const FileIdentity&) const = default;
 };
 
-/// Empty for pipes and devices, in which nothing can be replaced, and where there is no folder.
+/// The identity of a file to be written; empty for pipes and devices, in which nothing can be
+/// replaced, and if there is no folder.
 [[nodiscard]] std::optional<FileIdentity> identity_of(const std::string& path);
 
 /// Whether both paths name one pipe or device, which one of two readers alone would empty.

@@ -20,7 +20,7 @@ void check_input(const std::string& path, InputKind kind);
 /// Is called with all that was read so far, again and again; may throw to read no further.
 using InputCheck = std::function<void(std::string_view content)>;
 
-/// All of the file. Throws InputError, also where `check_input` would.
+/// Reads a whole file. Throws InputError, also where `check_input` would.
 [[nodiscard]] std::string read_input(const std::string& path, InputKind kind,
                                      const InputCheck& check = {});
 

@@ -5,7 +5,7 @@
 
 namespace hemilux {
 
-/// "a gzip archive; unpack it first" and the like; empty where nothing is recognized.
+/// A phrase such as "a gzip archive; unpack it first"; empty if no format is recognized.
 [[nodiscard]] std::string_view other_format(std::string_view content);
 
 } // namespace hemilux

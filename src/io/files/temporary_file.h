@@ -15,13 +15,14 @@ struct TemporaryFile {
     int descriptor = -1; ///< open for writing; -1: errno tells why not
 };
 
-/// A new one; the user's umask takes rights away from the mode.
+/// Makes a new temporary file; the user's umask takes rights away from the mode.
 [[nodiscard]] TemporaryFile make_temporary(const std::filesystem::path& folder,
                                            unsigned mode = 0666);
 
 [[nodiscard]] bool is_temporary_name(std::string_view name);
 
-/// Those in the folder that nobody holds. What cannot be read or removed is left.
+/// Removes the temporary files in the folder that no process holds. Files that cannot be read or
+/// removed are left.
 void remove_stale_temporaries(const std::filesystem::path& folder);
 
 } // namespace hemilux

@@ -20,10 +20,10 @@ std::string_view take_word(std::string_view& text);
 /// blank, and a digit does not follow ("Material #25" is a name).
 [[nodiscard]] std::string_view name_in(std::string_view text);
 
-/// A decimal number with a point; what is too small for a double is 0. Empty for anything else,
+/// Reads a decimal number with a point; one too small for a double is 0. Empty for anything else,
 /// such as nan, inf, hexadecimal or a number beyond `largest_number`.
 [[nodiscard]] std::optional<double> parse_decimal(std::string_view word);
-/// For error messages: `found "x"`, shortened and printable, or `found the end of the line`.
+/// Words for error messages: `found "x"`, shortened and printable, or `found the end of the line`.
 [[nodiscard]] std::string found_instead(std::string_view word);
 /// The same with a hint about usual mistakes in numbers.
 [[nodiscard]] std::string found_instead_of_number(std::string_view word);

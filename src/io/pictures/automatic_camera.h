@@ -6,8 +6,9 @@
 
 namespace hemilux {
 
-/// Many places and directions are tried with a few rays each; most lit surface wins, and of many
-/// kinds. `radiosity` per patch; `aspect`: width over height. Deterministic.
+/// Tries many places and directions with a few rays each, and chooses the one that shows the most
+/// lit surface, of the most kinds. `radiosity` is per patch, `aspect` width over height. The same
+/// arguments give the same camera.
 [[nodiscard]] Camera automatic_camera(const Mesh& mesh, const Tracer& tracer,
                                       std::span<const Vec3> radiosity, double aspect = 4.0 / 3.0);
 

@@ -11,27 +11,28 @@ namespace hemilux {
 
 class Mesh;
 
-/// World units.
+/// A camera in world units [m].
 struct Camera {
     Vec3 eye, target;
     Vec3 up{0, 1, 0};
     double vertical_fov_degrees = 45;
 };
 
-/// "ex,ey,ez,tx,ty,tz" or "ex,ey,ez,tx,ty,tz,fov". Throws std::invalid_argument that says what was
-/// expected.
+/// Reads "ex,ey,ez,tx,ty,tz" or "ex,ey,ez,tx,ty,tz,fov". Throws std::invalid_argument, whose text
+/// says what was expected.
 [[nodiscard]] Camera parse_camera(std::string_view text);
 
 /// The rays of a camera, in the local frame of a mesh.
 class CameraRays {
   public:
-    /// `aspect`: width over height. Throws std::invalid_argument where eye and target are one
-    /// point.
+    /// `aspect` is width over height. Throws std::invalid_argument if eye and target are one point.
     CameraRays(const Camera& camera, const Mesh& mesh, double aspect);
-    /// x from 0 (left) to 1, y from 0 (top) to 1. The direction has unit length.
+    /// The ray through a place of the picture: x from 0 (left) to 1, y from 0 (top) to 1. Its
+    /// direction has unit length.
     [[nodiscard]] Ray ray(double x, double y) const;
     [[nodiscard]] const Vec3& eye() const { return eye_; }
-    /// That of the ray, linear in x and y: its part along the view is 1.
+    /// The direction of that ray, not of unit length: it is linear in x and y, and its part along
+    /// the view is 1.
     [[nodiscard]] Vec3 direction(double x, double y) const {
         return forward_ + (2 * x - 1) * right_ + (1 - 2 * y) * up_;
     }

@@ -15,11 +15,11 @@ namespace hemilux {
 
 class GatheredPicture {
   public:
-    /// `offsets`: of samples in a pixel. All of it outlives this.
+    /// `offsets` are those of samples in a pixel. All arguments must outlive this object.
     GatheredPicture(const Mesh& mesh, const VisibleFacets& visible, const PictureGather& gather,
                     std::span<const Vec2> offsets, int width, int height);
 
-    /// Linear radiosity. Throws Interrupted once give_up() is true.
+    /// Renders linear radiosity. Throws Interrupted once give_up() is true.
     [[nodiscard]] Image render(const std::function<bool()>& give_up, const Workers& workers);
 
   private:

@@ -25,25 +25,25 @@ struct Image {
     [[nodiscard]] const glm::vec3& at(int x, int y) const { return pixels[index(x, y)]; }
 };
 
-/// Luminance of linear light in the primaries of sRGB (IEC 61966-2-1).
+/// The luminance of linear light in the primaries of sRGB (IEC 61966-2-1).
 [[nodiscard]] inline float luminance(const glm::vec3& colour) {
     return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
 /// The transfer curve of sRGB (IEC 61966-2-1), from linear [0,1] to encoded [0,1]; clamps.
 [[nodiscard]] float srgb_from_linear(float linear);
-/// Its inverse.
+/// The inverse of srgb_from_linear().
 [[nodiscard]] float linear_from_srgb(float encoded);
 
-/// The factor that brings the bright part of a picture to .8: of the lit pixels the 90th percentile
-/// of luminance, but at most 6 times the median, so that lamps in view may clip. 1 for a black
-/// picture.
+/// The factor that brings the bright part of a picture to 0.8: of the lit pixels the 90th
+/// percentile of luminance, but at most 6 times the median, so that lamps in view may clip. It is 1
+/// for a black picture.
 [[nodiscard]] double auto_exposure(const Image& image);
 
-/// 8 bits per channel through the sRGB curve, after multiplication by `exposure`. Throws
+/// Writes 8 bits per channel through the sRGB curve, after multiplication by `exposure`. Throws
 /// OutputError.
 void write_png(const std::string& path, const Image& image, double exposure);
-/// Radiance RGBE, linear. Throws OutputError.
+/// Writes Radiance RGBE, which is linear. Throws OutputError.
 void write_hdr(const std::string& path, const Image& image);
 
 } // namespace hemilux

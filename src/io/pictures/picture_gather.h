@@ -26,7 +26,7 @@ namespace hemilux {
 
 class Workers;
 
-/// Whether two points with unit normals are of one surface, which may be bent a little.
+/// Whether two points with unit normals belong to one surface, which may be bent a little.
 [[nodiscard]] bool is_same_surface(const Vec3& a, const Vec3& normal_a, const Vec3& b,
                                    const Vec3& normal_b);
 
@@ -63,10 +63,10 @@ class PictureGather {
         DirectLight direct;
         SlowLight slow;
     };
-    /// At each place. May be called by several threads.
+    /// The light at each place. May be called by several threads.
     [[nodiscard]] std::vector<Light> irradiance(std::span<const Place> places) const;
 
-    /// Pixels from one point at which indirect light is gathered to the next.
+    /// The distance in pixels between points at which indirect light is gathered.
     static constexpr int step = 2;
 
   private:

@@ -27,8 +27,8 @@ struct RenderOptions {
     std::function<bool()> give_up = {};
 };
 
-/// Linear radiosity seen through the camera; black where nothing is. Throws std::invalid_argument
-/// for a size or a number of samples below 1.
+/// Renders the linear radiosity seen through the camera; black where there is no surface. Throws
+/// std::invalid_argument for a size or a number of samples below 1.
 [[nodiscard]] Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
                            const Camera& camera, const RenderOptions& options = {});
 

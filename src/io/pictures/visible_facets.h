@@ -31,11 +31,12 @@ inline constexpr std::uint32_t nothing_visible = 0xffffffff;
 
 class VisibleFacets {
   public:
-    /// `offsets`: of the sets of samples within a pixel, from 0 to 1. All of it outlives this.
+    /// `offsets` are those of the sets of samples within a pixel, from 0 to 1. All arguments must
+    /// outlive this object.
     VisibleFacets(const Mesh& mesh, const CameraRays& camera, const SampleGrid& grid,
                   std::span<const Vec2> offsets, unsigned threads);
 
-    /// Rows are filled in bands of so many.
+    /// The number of rows that are filled together, a band.
     static constexpr int rows_per_band = 8;
     [[nodiscard]] int bands() const { return bands_; }
     /// Halves of facets in a band: sample set s, row y of the band and column x stand at

@@ -1,5 +1,5 @@
 #pragma once
-// A run that can be gone on with: what it had computed, and what it was computed from.
+// A run that can be resumed: its options, its scene and what it had computed.
 //
 // The file: a line that names the format and its version, the length of what follows, the content
 // (radiosity/saving/state.h) and a checksum of all of it. It replaces the one before only when it
@@ -26,16 +26,16 @@ struct Checkpoint {
     std::string state;         ///< Solver::save()
 };
 
-/// Of all that the solvers see of a scene: places, patches, materials.
+/// A hash of all that the solvers see of a scene: positions, patches, materials.
 [[nodiscard]] std::uint64_t scene_hash(const Mesh& mesh);
 
 [[nodiscard]] std::string to_bytes(const Checkpoint& checkpoint);
-/// `file` is for messages. Throws InputError for anything that to_bytes() did not make.
+/// Reads what to_bytes() made; throws InputError for anything else. `file` is for messages.
 [[nodiscard]] Checkpoint checkpoint_from(std::string_view bytes, const std::string& file);
 
-/// Is on the disk when this returns. Throws OutputError.
+/// Writes the file, which is on the disk when this returns. Throws OutputError.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
-/// Throws InputError.
+/// Reads a checkpoint. Throws InputError.
 [[nodiscard]] Checkpoint read_checkpoint(const std::string& path);
 
 } // namespace hemilux

@@ -8,7 +8,8 @@
 
 namespace hemilux {
 
-/// Numbers are the shortest text that gives back the same double. Throws OutputError.
+/// Writes the table. Numbers are the shortest text that gives back the same double. Throws
+/// OutputError.
 void write_factor_table(const std::string& path, const SparseMatrix& matrix,
                         const std::atomic<bool>* interrupted = nullptr);
 

@@ -9,7 +9,7 @@
 
 namespace hemilux {
 
-/// A square matrix; what is not stored is 0. Throws OutputError.
+/// Writes a square matrix; entries that are not stored are 0. Throws OutputError.
 void write_npy(const std::string& path, const SparseMatrix& matrix,
                const std::atomic<bool>* interrupted = nullptr);
 

@@ -13,9 +13,9 @@ class Mesh;
 struct Slope;
 struct CornerClasses;
 
-/// Vertices x, y, z (double, world units) and red, green, blue (float, linear radiosity, smoothed
-/// over corners); faces are the patches, in the mesh's order. Patches share a vertex where they
-/// share its radiosity. Throws OutputError.
+/// Writes vertices x, y, z (double, world units) and red, green, blue (float, linear radiosity,
+/// smoothed over corners); faces are the patches, in the mesh's order. Patches share a vertex where
+/// they share its radiosity. Throws OutputError.
 void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity);
 /// The same where the mesh's classes of corners are known already.
 /// `slope`: as of smooth().

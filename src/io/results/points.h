@@ -26,8 +26,9 @@ struct NamedPoint {
 /// other row, for a normal without a direction and for a file without points.
 [[nodiscard]] std::vector<NamedPoint> read_points(const std::string& path);
 
-/// One row per point: number from 0, position and normal as they were read, irradiance, radiosity
-/// of the face that the point lies on, standard error of the irradiance. Throws OutputError.
+/// Writes one row per point: number from 0, position and normal as they were read, irradiance,
+/// radiosity of the face that the point lies on, standard error of the irradiance. Throws
+/// OutputError.
 void write_points_table(const std::string& path, const Mesh& mesh,
                         std::span<const NamedPoint> points, std::span<const Sensor> sensors,
                         std::span<const PointLight> lights);

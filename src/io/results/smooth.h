@@ -32,8 +32,8 @@ inline constexpr double crease_angle = 31;
 
 [[nodiscard]] CornerClasses find_corner_classes(const Mesh& mesh);
 
-/// Mean over each class, weighted by the angles at the corners. `slope`: empty, or by patch, what
-/// its light is in its corners.
+/// The mean radiosity of each class of corners [W/m2], weighted by the angles at the corners.
+/// `slope`: empty, or by patch, what its light is in its corners.
 [[nodiscard]] std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
                                        std::span<const Vec3> radiosity,
                                        std::span<const Slope> slope = {});

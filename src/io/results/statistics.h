@@ -38,12 +38,13 @@ struct Statistics {
     std::uint64_t bytes_transport = 0;     ///< of the rays that `stored-transport` keeps
     std::uint64_t bytes_density_paper = 0; ///< 4 (4^(n+1) - 1) / 3 per patch (paper section 6)
     std::uint64_t bytes_peak = 0;          ///< of the process
-    /// Where patches are divided as the light asks for, of the light on the surfaces; else of the
-    /// patches' means.
+    /// The relative error of the light on the surfaces where patches are divided as the light asks
+    /// for; else that of the patches' means.
     double estimated_error = unknown;
     double estimated_error_uncertainty = unknown; ///< one sigma; NaN before two steps
     double error_sampling = unknown;              ///< of the patches' means
-    /// Of the light on the surfaces, which changes within patches (division_error.h).
+    /// The relative error of the light on the surfaces because it changes within patches
+    /// (division_error.h).
     double error_division = unknown, error_division_uncertainty = unknown;
     EnergyBalance energy;
     std::vector<LeftOut> left_out;
@@ -51,7 +52,7 @@ struct Statistics {
 
 /// The object's text, one key a line, in the order of the struct.
 [[nodiscard]] std::string to_json(const Statistics& statistics);
-/// Throws OutputError.
+/// Writes the object to a file. Throws OutputError.
 void write_statistics(const std::string& path, const Statistics& statistics);
 
 /// The most memory that this process has held so far [bytes].

@@ -17,10 +17,10 @@ namespace hemilux {
 
 class Mesh;
 
-/// One row per patch in the mesh's order, in world units. An empty `standard_error` is written as
-/// zeros, a NaN as `nan`. The same bytes for any number of threads. Where there are slopes, nine
-/// more columns hold the gradient of each channel [W/m2 per m]: the light at x is that of the patch
-/// and the gradient times (x - centre). Throws OutputError.
+/// Writes one row per patch in the mesh's order, in world units. An empty `standard_error` is
+/// written as zeros, a NaN as `nan`. The same bytes for any number of threads. Where there are
+/// slopes, nine more columns hold the gradient of each channel [W/m2 per m]: the light at x is that
+/// of the patch and the gradient times (x - centre). Throws OutputError.
 void write_patch_table(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
                        std::span<const Vec3> standard_error, const Workers& workers = Workers(1),
                        std::span<const Slope> slope = {});
@@ -46,7 +46,7 @@ struct StepRow {
     std::optional<double> total_error{}; ///< against the light itself (known_light.h), if asked for
 };
 
-/// What is absent or NaN stays an empty field. Throws OutputError.
+/// Writes the log. A number that is absent or NaN stays an empty field. Throws OutputError.
 void write_steps_log(const std::string& path, std::span<const StepRow> rows);
 
 } // namespace hemilux

@@ -13,7 +13,7 @@ namespace hemilux {
 
 class CornerTree {
   public:
-    /// Of the corners with these numbers, all of which are there. O(n log n).
+    /// Builds the tree of the corners with these numbers, all of which are there. O(n log n).
     void build(std::span<const Vec2> corners, std::vector<std::uint32_t> numbers);
     void clear();
     /// Whether the corner is there. Others than those of build() are never. O(log n).

@@ -39,7 +39,7 @@ struct SceneInfo {
 
 /// Lines of text: names on the left, figures on the right.
 [[nodiscard]] std::string describe(const SceneInfo& info);
-/// The same of what the scene does not need, a line each; empty if it needs everything.
+/// What the scene does not need, in the same form, a line each; empty if it needs everything.
 [[nodiscard]] std::string describe(std::span<const LeftOut> left_out);
 
 } // namespace hemilux

@@ -27,7 +27,7 @@ struct MtlFile {
     std::vector<std::string> textures;
 };
 
-/// Throws InputError.
+/// Reads a library. Throws InputError.
 [[nodiscard]] MtlFile read_mtl(const std::string& path);
 
 } // namespace hemilux

@@ -44,9 +44,9 @@ class PolygonDivision {
 
     /// Divides a polygon of any number of corners. Corners equal to the one before are left out.
     PolygonFlags divide(std::span<const Vec3> corners);
-    /// Of the last polygon.
+    /// The pieces of the last polygon.
     [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
-    /// That all polygons together may still cause; each brings some of its own.
+    /// The work that all polygons together may still cause; each adds some of its own.
     DivisionWork work;
 
   private:

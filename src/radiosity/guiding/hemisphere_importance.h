@@ -1,5 +1,5 @@
 #pragma once
-// What is known of the importance of rays, triangle by triangle of all hemispheres
+// Estimates of the importance of rays, for each triangle of each patch's hemisphere
 // (visibility_guide.h).
 //
 // A triangle's own hits say little when they are few. Its estimate is therefore moved towards that
@@ -29,13 +29,13 @@ class HemisphereImportance {
     void add(std::uint32_t patch, std::size_t leaf, float sum, float hits) {
         pending_[patch * leaves() + leaf] += Known{sum, hits};
     }
-    /// What was added becomes known, its sums times a factor.
+    /// Makes what was added known, with its sums multiplied by `factor`.
     void commit(double factor);
-    /// What was added is forgotten: its step was not finished.
+    /// Forgets what was added, because its step was not finished.
     void drop_pending();
 
     [[nodiscard]] std::size_t leaves() const { return leaves_; }
-    /// Share of a patch's power that a leaf has.
+    /// The share of a patch's power that a leaf has.
     [[nodiscard]] double share(std::size_t leaf) const { return shares_[first_leaf_ + leaf]; }
     /// Integral of the importance over a patch's hemisphere by its own hits, times its area.
     [[nodiscard]] double sum_of(std::uint32_t patch) const;
@@ -44,7 +44,7 @@ class HemisphereImportance {
     void estimate(std::uint32_t patch, double scale, double prior_mean,
                   std::span<double> importance) const;
 
-    /// Of use when no importance will be asked for again.
+    /// Frees the memory, for when no importance will be asked for again.
     void forget() { known_ = {}, pending_ = {}; }
     [[nodiscard]] std::size_t bytes() const {
         return (known_.size() + pending_.size()) * sizeof(Known);

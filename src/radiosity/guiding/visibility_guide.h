@@ -1,5 +1,5 @@
 #pragma once
-// The hemisphere guided by what is seen instead of how many surfaces are pierced.
+// A strategy that is guided by what rays hit instead of how many surfaces they pierce.
 //
 // A ray of power w that strikes patch j adds (rho_j w)^2 / A_j to the area-weighted variance of the
 // solution. So the importance of a triangle t of patch i is
@@ -34,7 +34,8 @@ class Workers;
 /// The part of its rays by power alone that a triangle always gets.
 inline constexpr double lowest_density = .2;
 
-/// A few rays from each patch before the first step; with `learn` also all rays of the steps.
+/// Learns from a few rays of each patch before the first step, and with `learn` also from all rays
+/// of the steps.
 [[nodiscard]] std::unique_ptr<Strategy> make_visibility_guide(const SolverInput& input,
                                                               const Hemisphere& hemisphere,
                                                               const Workers& workers, bool learn);

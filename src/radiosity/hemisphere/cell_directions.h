@@ -27,7 +27,7 @@ inline constexpr std::uint16_t whole_hemisphere = 0xffff;
                    : its.projected_solid_angle / std::numbers::pi;
 }
 
-/// Some samples, a place in each array for each.
+/// Samples that are drawn together; each has one place in every array.
 struct DirectionBatch {
     static constexpr std::size_t room = 1024;
     std::size_t size = 0;
@@ -54,12 +54,12 @@ class CellDirections {
     CellDirections(const CellDirections&) = delete;
     CellDirections& operator=(const CellDirections&) = delete;
 
-    /// Of the same hemisphere and rules.
+    /// The share of power of a cell of the constructor's hemisphere, by its rules.
     [[nodiscard]] double power_share(std::uint16_t cell) const {
         return cell == whole_hemisphere ? 1 : power_shares_[cell];
     }
 
-    /// Fills in u to z.
+    /// Draws all samples of the batch: fills in u, v, x, y and z.
     void draw(DirectionBatch& batch) const;
 
   private:

@@ -40,9 +40,9 @@ struct DensityCount {
 };
 
 /// The direction of a density ray through a vertex of the table. Vertices on the horizon lie in the
-/// patch's plane, where a count would hang on rounding errors; their rays are lifted a little. So
-/// does the pole where walls stand square to each other: straight on from the middle of a patch
-/// there is often an edge. Its ray is tipped as little.
+/// patch's plane, where a count would hang on rounding errors; their rays are lifted a little. The
+/// same is true of the pole where walls stand square to each other: straight on from the middle of
+/// a patch there is often an edge. Its ray is tilted as little.
 [[nodiscard]] Vec3 density_direction(const Vec3& vertex);
 
 class DensityMap {
@@ -61,9 +61,9 @@ class DensityMap {
     void counts(std::uint32_t patch, std::vector<DensityCount>& result) const;
 
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
-    /// Rays more that there would be if all triangles were divided.
+    /// How many more rays there would be if all triangles were divided.
     [[nodiscard]] std::uint64_t rays_spared() const { return rays_spared_; }
-    /// Everything that is kept: counts and the index to find them.
+    /// The memory of all that is kept: counts, and the index to find them.
     [[nodiscard]] std::uint64_t bytes() const {
         return counts_.size() + block_start_.size() * sizeof(block_start_[0]);
     }

@@ -17,7 +17,7 @@ class Hemisphere {
   public:
     static constexpr int max_depth = 5;
 
-    /// One triangle of the table.
+    /// One triangle of the subdivision.
     struct Cell {
         std::array<std::uint16_t, 3> vertex;   ///< counter-clockwise seen from outside
         std::array<std::uint16_t, 3> midpoint; ///< of edges 01, 12, 20; unused at the last level
@@ -49,7 +49,7 @@ class Hemisphere {
     int depth_;
     std::vector<Vec3> vertices_;
     std::vector<Cell> cells_;
-    /// Of each divided triangle, the planes that cut off its children 0, 1 and 2: normals to them.
+    /// For each divided triangle the normals of the planes that cut off its children 0, 1 and 2.
     std::vector<std::array<Vec3, 3>> cuts_;
 };
 

@@ -14,9 +14,9 @@
 namespace hemilux {
 
 struct GradientOptions {
-    /// Of the residual relative to the light at the same patch, channel by channel: root mean
-    /// square over the area that is lit. So a faint room beside a bright one is solved to its own
-    /// scale.
+    /// Ends when the residual relative to the light at the same patch, as root mean square over the
+    /// area that is lit, is below this in each channel. So a faint room beside a bright one is
+    /// solved to its own scale.
     double tolerance = 1e-9;
     int most = 1000;                       ///< iterations
     const StopFlag* interrupted = nullptr; ///< ends them; h is void then

@@ -1,9 +1,9 @@
 #pragma once
 // How much of the light of an emitter leaves the scene or falls on backs.
 //
-// It is known twice where the factors to an emitter are computed in closed form: as the share of
-// its own rays that were lost, and as what the receivers miss of all that it sent. Few rays of a
-// lamp go through a small window; that none did would be taken for a wall.
+// There are two estimates where the factors to an emitter are computed in closed form: the share of
+// its own rays that were lost, and the power that the receivers miss of all that it sent. Few rays
+// of an emitter go through a small window; if none did, the window would be taken for a wall.
 
 #include "radiosity/form_factors/sampled_form_factors.h"
 
@@ -17,11 +17,12 @@ struct EmitterLoss {
     double rays = 0; ///< as many would tell it as exactly
 };
 
-/// By batch and, in their order, the emitters that these have in closed form. Each is the mean
-/// of both, weighted by the inverse of their variances: of the rays of all batches together, and
-/// by what the batches differ. So no weight depends on what a batch itself has met. The rays
-/// alone count where none of any emitter was lost, and where patches are black, which need not
-/// look. `rays`: those of a patch in each batch.
+/// The losses, by batch, of the emitters whose factors are known in closed form, in the order of
+/// the batch. Each loss is the mean of both estimates, weighted by the inverse of their variances.
+/// The variances are those of the rays of all batches together, and of the spread of the batches,
+/// so no weight depends on what a batch itself has met. The rays alone count if no emitter lost
+/// any, and for black patches, which trace none. `rays` is the number of rays of a patch in each
+/// batch.
 [[nodiscard]] std::vector<std::vector<EmitterLoss>>
 emitter_losses(std::span<const SampledFormFactors> batches, double rays);
 

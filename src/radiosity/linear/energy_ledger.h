@@ -17,7 +17,7 @@ namespace hemilux {
 
 struct SolverInput;
 
-/// All by patch.
+/// What is known of the transport, all by patch.
 struct Transport {
     std::span<const double> area;
     std::span<const Vec3> emission, reflectance;
@@ -33,11 +33,11 @@ struct Transport {
 /// discarded because the few rays of an emitter all missed.
 void scale_direct_light(const Transport& transport, const Vec3& variance, std::span<Vec3> direct);
 
-/// Power of `direct` over all patches [area times W/m2].
+/// The power of `direct` over all patches [area times W/m2].
 [[nodiscard]] Vec3 power_arriving(const Transport& transport, std::span<const Vec3> direct);
 
-/// What becomes of `incident` [W/m2 arriving], B = E + rho incident: what was emitted and not
-/// absorbed was lost. Powers in units of area times incident.
+/// Where the power of `incident` [W/m2 arriving] goes, with B = E + rho incident: power that was
+/// emitted and not absorbed was lost. Powers are in units of area times incident.
 [[nodiscard]] EnergyBalance balance_energy(const Transport& transport,
                                            std::span<const Vec3> incident);
 
@@ -46,18 +46,20 @@ void scale_direct_light(const Transport& transport, const Vec3& variance, std::s
 /// absorbed + escaped.
 [[nodiscard]] EnergyBalance close_energy(const Transport& transport, std::span<Vec3> incident);
 
-/// Within a step whose rays have seen no way out: each try traces more, up to a limit.
+/// Searches for a way out within a step whose rays have found none: each try traces more rays, up
+/// to a limit.
 class SearchForWayOut {
   public:
     explicit SearchForWayOut(const SolverInput& input);
-    /// Whether light comes to an end at all. Where reflectances are 1 few rays may have found no
-    /// way out of the scene, and there is no solution with their factors, or one that is no number.
+    /// Whether the bounces of the light end. Where reflectances are 1 few rays may have found no
+    /// way out of the scene. Then the system with their factors has no solution, or one that is not
+    /// finite.
     [[nodiscard]] bool is_drained(const EnergyBalance& energy) const {
         const double imbalance = energy.imbalance();
         return perfect_ ? imbalance < .5 : !(imbalance >= .5);
     }
-    /// After a try in vain; `traced`: by the solver so far. Throws SolveError where there may be no
-    /// more rays, where the last try had no more, and at the limit.
+    /// Call it after a try that has failed, with the rays that the solver has traced so far. Throws
+    /// SolveError if there may be no more rays, if the last try had no more, and at the limit.
     void go_on(std::uint64_t traced, bool may_have_more);
 
   private:

@@ -5,12 +5,8 @@
 // of the patch in directions that follow the cosine law, each with the same power. No form factor
 // is computed: a patch receives what the rays that strike it bring.
 
-#include "geometry/polygon_sampler.h"
 #include "radiosity/plain/plain.h"
-#include "radiosity/plain/step_mean.h"
-#include "radiosity/rays/shot.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/plain/step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +18,9 @@ namespace {
 /// Rays of a shot with a stream of random numbers of their own.
 constexpr std::uint64_t rays_per_stream = 512;
 
-class MonteCarlo final : public StepMean {
+class MonteCarlo final : public StepSolver {
   public:
-    explicit MonteCarlo(const SolverInput& input) : StepMean(input, true) {}
+    explicit MonteCarlo(const SolverInput& input) : StepSolver(input, true) {}
 
   private:
     bool compute_radiosity(std::uint64_t step, double Phi_mean, Step& result) override {
@@ -56,7 +52,7 @@ class MonteCarlo final : public StepMean {
                 if (k % rays_per_stream == 0)
                     random = Rng(hash_words({stream, k / rays_per_stream}));
                 const Ray ray = cosine_ray(its, points, frame, random);
-                const std::uint32_t i = result.receive(input_.tracer.closest(ray), Phi_ray);
+                const std::uint32_t i = result.shoot(ray, Phi_ray);
                 if (i == none)
                     continue;
                 unshot[i] += input_.mesh.material(i).reflectance * Phi_ray;

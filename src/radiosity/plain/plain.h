@@ -3,9 +3,10 @@
 //
 // A page is nested loops with the paper's names, one ray at a time: no threads, no vector
 // instructions, nothing kept but what the method is about. To read one, have the scene, the mesh,
-// the tracer and the random numbers at hand, and for section 5 the hemisphere. The tests hold the
-// engine to these pages with ==, all bits of radiosity and standard errors; `stored-transport`,
-// whose page shows the principle alone, within standard errors. On the command line: --plain.
+// the tracer, step.h and the random numbers at hand, and for sections 4 and 5 the hemisphere. The
+// tests compare the engine with these pages by ==, all bits of the radiosity; `stored-transport`,
+// whose page shows the principle alone, within standard errors. Page and engine average their steps
+// by the same code (mean_of_steps.h). On the command line: --plain.
 //
 // A page does everything, also what the scene does not need: only the end of a run where nothing
 // reflects follows the needs of the scene.
@@ -16,16 +17,17 @@
 
 namespace hemilux::plain {
 
-/// Monte Carlo radiosity, section 3.2.
+/// Makes Monte Carlo radiosity, section 3.2.
 [[nodiscard]] std::unique_ptr<Solver> monte_carlo(const SolverInput& input);
-/// Monte Carlo progressive radiosity, section 3.3.
+/// Makes Monte Carlo progressive radiosity, section 3.3.
 [[nodiscard]] std::unique_ptr<Solver> progressive_monte_carlo(const SolverInput& input);
-/// The technique of 1997, section 4.
+/// Makes the technique of 1997, section 4.
 [[nodiscard]] std::unique_ptr<Solver> hemisphere_1997(const SolverInput& input);
-/// The new approach of hemisphere subdivision, section 5.
+/// Makes the new approach of hemisphere subdivision, section 5.
 [[nodiscard]] std::unique_ptr<Solver> hemisphere(const SolverInput& input);
-/// Not of the paper: all bounces solved on what rays struck. All pairs of patches are kept, 48
-/// bytes each; throws std::invalid_argument where there are more patches than that is meant for.
+/// Makes stored transport, which is not of the paper: all bounces are solved on what rays hit. It
+/// keeps all pairs of patches, 48 bytes each. Throws std::invalid_argument if there are more than
+/// `most_patches_of_stored_transport` patches.
 [[nodiscard]] std::unique_ptr<Solver> stored_transport(const SolverInput& input);
 inline constexpr std::size_t most_patches_of_stored_transport = 2000;
 

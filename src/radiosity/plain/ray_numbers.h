@@ -11,22 +11,24 @@ namespace hemilux::plain {
 
 class RayNumbers {
   public:
-    /// `key`: of a patch in a bounce of a step; `number`: of the ray among those of the patch.
+    /// `key` is that of a patch in a bounce of a step; `number` that of the ray among those of the
+    /// patch.
     RayNumbers(std::uint64_t key, std::uint32_t number)
         : low_(static_cast<std::uint32_t>(key)), high_(static_cast<std::uint32_t>(key >> 32)),
           number_(number) {}
 
-    /// For the point where the ray starts: two numbers uniform in (0,1).
+    /// Two numbers for the point where the ray starts, uniform in (0,1).
     [[nodiscard]] Vec2 start() const {
         const std::array<double, 4> four = of_attempt(0);
         return {four[2], four[3]};
     }
-    /// For the direction: two numbers of each attempt, one after the other.
+    /// The next number for the direction, uniform in (0,1). Each attempt has two.
     [[nodiscard]] double next() {
         const std::uint32_t attempt = taken_ / 2, which = taken_ % 2;
         ++taken_;
         return of_attempt(attempt)[which];
     }
+    double operator()() { return next(); }
 
   private:
     /// pcg4d of Jarzynski and Olano (2020, "Hash functions for GPU rendering").

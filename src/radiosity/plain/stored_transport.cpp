@@ -14,28 +14,21 @@
 // Sobol points, more rays where the error is, shadow rays to small lamps, conjugate gradients. Here
 // S is dense, so a few thousand patches are the limit.
 
-#include "geometry/compensated_sum.h"
-#include "geometry/polygon_sampler.h"
+#include "radiosity/plain/batches.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/rays/shot.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/alike_neighbours.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/check_input.h"
-#include "radiosity/solving/error_spread.h"
+#include "radiosity/solving/mean_of_steps.h"
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace hemilux::plain {
 namespace {
 
-constexpr std::size_t batches = 4;
 constexpr int scalings = 20;
 
-/// What rays struck: row i of c belongs to those of patch i.
+/// What rays hit: row i of c belongs to those of patch i.
 struct Counts {
     explicit Counts(std::size_t n) : c(n * n), escaped(n), absorbed(n) {}
     std::vector<double> c, escaped, absorbed;
@@ -44,19 +37,11 @@ struct Counts {
 class StoredTransport final : public Solver {
   public:
     explicit StoredTransport(const SolverInput& input)
-        : input_(input), n_(static_cast<std::uint32_t>(input.mesh.patches().size())) {
-        check_input(input);
+        : input_(input), n_(static_cast<std::uint32_t>(input.mesh.patches().size())),
+          solution_(solution_before_steps(input)) {
         if (n_ > most_patches_of_stored_transport)
             throw std::invalid_argument("too many patches to keep all pairs of them");
         counts_.assign(batches + 1, Counts(n_));
-        for (std::uint32_t i = 0; i < n_; ++i)
-            solution_.radiosity.push_back(input.mesh.material(i).emission);
-        solution_.standard_error.assign(n_, Vec3(std::numeric_limits<double>::quiet_NaN()));
-        solution_.hits.assign(n_, 0);
-        solution_.may_find_light = input.needs.bounces;
-        solution_.error_batches = batches;
-        solution_.energy.emitted = solution_.energy.unshot =
-            input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
     }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
@@ -67,12 +52,13 @@ class StoredTransport final : public Solver {
         for (std::size_t s = 0; s < batches; ++s)
             look_around(s, more);
         N_ += more;
-        std::vector<std::vector<Vec3>> B;
+        const double all = N_ * double(batches);
+        std::array<std::vector<Vec3>, batches + 1> B; // of each batch, then of all rays
         for (std::size_t s = 0; s <= batches && !input_.monitor.interrupted; ++s)
-            B.push_back(solve(counts_[s], s < batches ? N_ : N_ * double(batches)));
+            B[s] = solve(counts_[s], s < batches ? N_ : all);
         if (input_.monitor.interrupted)
             return false;
-        combine(B);
+        combine_batches(input_.mesh, B, counts_[batches].escaped, all, solution_);
         ++solution_.steps;
         return true;
     }
@@ -150,38 +136,6 @@ class StoredTransport final : public Solver {
             }
         }
         return B;
-    }
-
-    /// `B`: of each batch, then of all rays.
-    void combine(const std::vector<std::vector<Vec3>>& B) {
-        std::vector<Vec3> variance(n_);
-        std::array<double, batches * batches> products{};
-        CompensatedSum<Vec3> escaped;
-        double sum = 0;
-        for (std::uint32_t i = 0; i < n_; ++i) {
-            const double area = input_.mesh.patches()[i].area;
-            const Vec3 mean = (B[0][i] + B[1][i] + B[2][i] + B[3][i]) / double(batches);
-            for (std::size_t s = 0; s < batches; ++s) {
-                const Vec3 off = B[s][i] - mean;
-                variance[i] += off * off / double(batches * (batches - 1));
-                for (std::size_t t = 0; t < batches; ++t)
-                    products[s * batches + t] += area * glm::dot(off, B[t][i] - mean);
-            }
-            sum += area * (variance[i].x + variance[i].y + variance[i].z);
-            escaped += area * counts_[batches].escaped[i] / (N_ * double(batches)) * B[batches][i];
-        }
-        variance = pooled_over_neighbours(input_.mesh, variance); // of four samples each
-        for (std::uint32_t i = 0; i < n_; ++i)
-            solution_.standard_error[i] = glm::sqrt(variance[i]);
-        solution_.radiosity = B[batches];
-        solution_.variance = sum;
-        solution_.effective_freedom =
-            believed_freedom(solution_.effective_freedom, effective_freedom(products, batches));
-        // As all rows are closed, what does not escape is absorbed.
-        EnergyBalance& energy = solution_.energy;
-        energy.escaped = input_.mesh.frame().area_to_world(1.0) * escaped.value();
-        energy.absorbed = energy.emitted - energy.escaped;
-        energy.unshot = Vec3(0.0);
     }
 
     SolverInput input_;

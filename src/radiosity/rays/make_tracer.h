@@ -16,7 +16,8 @@ struct MadeTracer {
     std::optional<BvhQuality> tree; ///< empty where rays test all facets
 };
 
-/// The mesh must outlive it. `tree`: see Needs. `threads`: that build it, 0 for one per core.
+/// Makes a tracer, which the mesh must outlive. `tree` is that of Needs; so many `threads` build
+/// it, 0 being one per core.
 [[nodiscard]] MadeTracer make_tracer(const Mesh& mesh, bool tree, unsigned threads = 0);
 
 } // namespace hemilux

@@ -18,14 +18,14 @@ struct PatchStart {
     std::uint32_t patch, facet;
 };
 
-/// Of all patches. In small scenes they are kept, 240 bytes a patch: patches shoot few rays at a
-/// time, and to work them out each time takes a twentieth of a run.
+/// The starts of all patches. In small scenes they are kept, 240 bytes a patch: patches shoot few
+/// rays at a time, and to find them anew each time takes a twentieth of a run.
 class PatchStarts {
   public:
-    /// The mesh outlives this.
+    /// The mesh must outlive this object.
     explicit PatchStarts(const Mesh& mesh);
 
-    /// Refers to what is kept, or to what is put into `memory`.
+    /// The start of a patch: a reference to what is kept, or to what is put into `memory`.
     [[nodiscard]] const PatchStart& of(std::uint32_t patch,
                                        std::optional<PatchStart>& memory) const;
 

@@ -1,6 +1,6 @@
 #pragma once
-// Which patches rays strike, many at a time: tracers answer for many at once much sooner than for
-// each alone (bvh/tracer.h).
+// Which patches rays hit. Tracers answer for many rays at once much sooner than for each alone
+// (bvh/tracer.h).
 
 #include "bvh/tracer.h"
 
@@ -12,13 +12,14 @@ namespace hemilux {
 
 class Mesh;
 
-/// Where a ray arrived if not at a patch: in the open, or on the back of a one-sided face.
+/// The receiver of a ray that hits no patch: it leaves the scene, or falls on the back of a
+/// one-sided face.
 inline constexpr std::uint32_t escaped = 0xffffffff, absorbed = 0xfffffffe;
 
-/// Rays that are worth tracing together; more gain nothing.
+/// As many rays as it pays to trace together; more gain nothing.
 inline constexpr std::size_t rays_at_a_time = 1024;
 
-/// Adds for each ray the patch that it strikes, or `escaped` or `absorbed`.
+/// Appends for each ray the patch that it hits, or `escaped` or `absorbed`.
 void find_receivers(std::span<const Ray> rays, const Mesh& mesh, const Tracer& tracer,
                     std::vector<std::uint32_t>& receivers);
 

@@ -1,6 +1,6 @@
 #pragma once
-// What all methods that shoot rays at random share: points and directions to shoot from, where a
-// ray arrives, and what power in three channels is worth.
+// What all methods that shoot random rays share: where rays start, where they go, and how many rays
+// a power in three channels gets.
 
 #include "bvh/tracer.h"
 #include "geometry/compensated_sum.h"
@@ -16,12 +16,12 @@
 
 namespace hemilux {
 
-/// What decides how many rays a power in three channels is worth.
+/// Rays are allocated in proportion to this mean of a power in three channels.
 [[nodiscard]] inline double mean_of_channels(const Vec3& power) {
     return (power.x + power.y + power.z) / 3;
 }
 
-/// By all patches, local units.
+/// The power that all patches emit [W/m2 times area in local units].
 [[nodiscard]] inline Vec3 emitted_power(const Mesh& mesh) {
     CompensatedSum<Vec3> power;
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
@@ -29,7 +29,8 @@ namespace hemilux {
     return power.value();
 }
 
-/// Weighted by area; at most .999, so that 1 / (1 - rho) remains a number of use.
+/// The mean reflectance of the patches, weighted by area [-]. It is at most 0.999, so that 1 / (1 -
+/// rho) remains useful.
 [[nodiscard]] inline double mean_reflectance(const Mesh& mesh) {
     double area = 0, sum = 0;
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
@@ -40,7 +41,7 @@ namespace hemilux {
 }
 
 /// A direction with density cos(theta) / pi: a point uniform on the disc, lifted to the hemisphere.
-/// Trying points of the square is sooner done than a sine and a cosine.
+/// Rejecting points of the square is faster than a sine and a cosine.
 [[nodiscard]] inline Vec3 sample_cosine(Rng& rng) {
     for (;;) {
         const double x = 2 * rng.uniform() - 1, y = 2 * rng.uniform() - 1;
@@ -63,7 +64,8 @@ namespace hemilux {
     return polygon.sample({u, v});
 }
 
-/// A ray from anywhere on a patch, by Lambert's law. `frame` is one of its hemisphere.
+/// A ray from a uniform point of a patch, by Lambert's law. `points` and `frame` are those of the
+/// patch; z of the frame is its normal.
 [[nodiscard]] inline Ray cosine_ray(const Patch& from, const PolygonSampler& points,
                                     const Frame& frame, Rng& rng) {
     Ray ray{sample_uniform(points, rng), frame.to_world(sample_cosine(rng))};

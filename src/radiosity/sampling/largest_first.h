@@ -9,7 +9,7 @@
 
 namespace hemilux {
 
-/// Numbers >= 0, at first 0. Takes 16 to 32 bytes each.
+/// Holds `count` numbers that are 0 or more, and 0 at first. Each takes 16 to 32 bytes.
 class LargestFirst {
   public:
     explicit LargestFirst(std::size_t count)
@@ -27,7 +27,7 @@ class LargestFirst {
         }
     }
     [[nodiscard]] double largest() const { return node_[1]; }
-    /// Of equal ones the first.
+    /// The index of the largest number; of equal ones the first.
     [[nodiscard]] std::size_t index_of_largest() const {
         std::size_t at = 1;
         while (at < leaves_)

@@ -22,13 +22,13 @@ struct alignas(32) Lanes {
 };
 
 struct MatrixKernels {
-    /// Sum of value times x[column] over a row.
+    /// Sets `sum` to the sum of value times x[column] over the `count` entries of a row.
     void (*row_times)(const MatrixEntry* row, std::size_t count, const Lanes* x, Lanes* sum);
 };
 
-/// Of an instruction set that is available.
+/// The kernels of an instruction set, which must be available.
 [[nodiscard]] const MatrixKernels& matrix_kernels(InstructionSet set);
-/// Of the chosen one.
+/// The kernels of the instruction set that was chosen.
 [[nodiscard]] const MatrixKernels& matrix_kernels();
 
 } // namespace hemilux

@@ -26,13 +26,13 @@ struct alignas(64) SobolSteps {
     std::uint32_t step[most_dimensions][samples_per_block];
 };
 
-/// Patches that emit, by their places; local units.
+/// The patches that emit, in arrays by emitter; lengths and areas are in local units.
 struct EmitterArrays {
     const double *centre[3], *normal[3], *corner[4][3];
     const double *area, *side; ///< side: the root of the area
     const double* light;       ///< emission, mean of channels
 };
-/// Spheres that hold several of them.
+/// Spheres each of which holds several emitters, in arrays by sphere.
 struct ClusterArrays {
     const double *centre[3], *radius, *power;
     const double* area;  ///< mean of its emitters
@@ -42,7 +42,8 @@ struct EmitterReceiver {
     double centre[3], normal[3], corner[4][3], side, radius;
 };
 
-/// Of each sample: two words of its stream, and its number in that.
+/// Where each sample's random numbers come from: the two words of its stream's key, and its number
+/// in the stream.
 struct RandomKeys {
     const std::uint32_t *low, *high, *number;
 };
@@ -50,8 +51,8 @@ struct RandomKeys {
 /// Spherical triangles: points uniform in a parallelogram, or in its half, around the projection to
 /// the disc are kept if they lie inside (geometry/spherical_triangle.h). Arrays by cell.
 struct CellShapes {
-    /// Where what stands in `part`: first the unit normals of the planes of the three sides,
-    /// inwards; then the parallelogram; and 1 if it is half of that, else 0.
+    /// The indices into `part`. First come the unit normals of the planes of the three sides,
+    /// inwards; then the parallelogram; then a 1 if only half of it is used, else a 0.
     static constexpr unsigned corner = 9, edges = 11, half = 15, parts = 16;
     const double* part[parts];
 };
@@ -64,11 +65,12 @@ struct SamplingKernels {
     /// coordinates, lifted to the hemisphere.
     void (*cosine)(std::size_t count, const double* u, const double* v, double* x, double* y,
                    double* z);
-    /// The root of the mean square of what a shadow ray to each emitter may bring, about, and the
-    /// mean square of what a ray at random brings from it; 0 where they surely bring nothing.
+    /// Estimates for each emitter the root mean square of what a shadow ray to it may bring, and
+    /// the mean square of what a ray in a random direction brings from it; 0 where they bring
+    /// nothing for certain.
     void (*weigh_emitters)(const EmitterArrays&, std::size_t count, const EmitterReceiver&,
                            double* weights, double* found);
-    /// The same for clusters of emitters: rather too large than too small.
+    /// The same for clusters of emitters, on the high side.
     void (*weigh_clusters)(const ClusterArrays&, std::size_t count, const EmitterReceiver&,
                            double* weights, double* found);
     /// places[k]: the last place with sums[place] <= at[k], or 0. `size` is a power of two.
@@ -87,9 +89,9 @@ struct SamplingKernels {
                      std::uint32_t* inside);
 };
 
-/// Of an instruction set that is available.
+/// The kernels of an instruction set, which must be available.
 [[nodiscard]] const SamplingKernels& sampling_kernels(InstructionSet set);
-/// Of the chosen one.
+/// The kernels of the instruction set that was chosen.
 [[nodiscard]] const SamplingKernels& sampling_kernels();
 
 } // namespace hemilux

@@ -28,13 +28,13 @@ class SobolBlocks {
     [[nodiscard]] const double* coordinate(std::size_t d) const {
         return &points_[samples_per_block * d];
     }
-    /// Any point; those after each other cost least.
+    /// Any point of the sequence. Consecutive indices cost least.
     [[nodiscard]] std::array<double, n> at(std::uint32_t index) {
         if (index / samples_per_block != block_)
             move_to(index);
         return point(index);
     }
-    /// A point of the block.
+    /// A point of the present block.
     [[nodiscard]] std::array<double, n> point(std::uint32_t index) const {
         std::array<double, n> point;
         for (std::size_t d = 0; d < n; ++d)

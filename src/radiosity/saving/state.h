@@ -13,12 +13,12 @@
 
 namespace hemilux {
 
-/// Bytes that are not what the reader expects.
+/// Thrown for bytes that are not what the reader expects.
 struct StateError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What a number of a state may be. NaN is within no bounds.
+/// The range that a number of a state must be in. NaN is in none.
 struct Bounds {
     double least, most;
 };
@@ -55,14 +55,15 @@ class StateReader {
 
     [[nodiscard]] std::uint64_t whole();
     [[nodiscard]] double number();
-    /// StateError unless it is within the bounds.
+    /// A number within the bounds; else throws StateError.
     [[nodiscard]] double number(const Bounds& bounds);
-    /// A whole number of at most so much; else StateError.
+    /// A whole number of at most `most`; else throws StateError.
     [[nodiscard]] std::uint64_t whole_up_to(std::uint64_t most);
     [[nodiscard]] bool flag() { return whole_up_to(1) != 0; }
-    /// At most the bytes that are left are kept.
+    /// A text. Its length is checked before memory is taken.
     [[nodiscard]] std::string text();
-    /// A size that was written before its items, each of which takes so many bytes or more.
+    /// A size that was written before its items. Throws StateError unless there are `bytes_each`
+    /// bytes left for each.
     [[nodiscard]] std::size_t count(std::size_t bytes_each);
 
     void get(std::uint64_t& value) { value = whole(); }
@@ -70,7 +71,7 @@ class StateReader {
     void get(double& value) { value = number(); }
     void get(double& value, const Bounds& bounds) { value = number(bounds); }
     void get(Vec3& value, const Bounds& bounds);
-    /// Exactly as many values as there is room for; else StateError.
+    /// Reads exactly as many values as the span has; else throws StateError.
     template <class T>
     void get(std::span<T> values) {
         if (whole() != values.size())

@@ -6,9 +6,10 @@ namespace hemilux {
 
 class Mesh;
 
-/// Each plane has all vertices in front of it, and each edge belongs to two facets that run along
-/// it in opposite directions. False where that would take too long to tell: a room of some
-/// thousands of planes and vertices, or one whose walls are cut at different points of an edge.
+/// True if each plane has all vertices in front of it, and each edge belongs to two facets that run
+/// along it in opposite directions. False where that would take too long to find out: in a room of
+/// some thousands of planes and vertices, or one whose walls are cut at different points of an
+/// edge.
 [[nodiscard]] bool is_convex_enclosure(const Mesh& mesh);
 
 } // namespace hemilux

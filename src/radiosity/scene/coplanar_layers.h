@@ -1,7 +1,7 @@
 #pragma once
 // Facets that lie in one plane and cover each other, wholly or in part, laid one upon the other.
 //
-// Which of them a ray strikes would be left to rounding errors, and what one patch sees of another
+// Which of them a ray hits would be left to rounding errors, and what one patch sees of another
 // would not be what the other sees of it. So each side of a sheet lies to its front, and of those
 // that face the same way the brightest is on top, else the smaller by far, else the first.
 
@@ -15,7 +15,7 @@
 namespace hemilux {
 
 struct CoplanarLayers {
-    /// By facet, how many steps it is to be moved to its front; empty where none is to be.
+    /// By facet: how many steps it is to be moved to its front. Empty if no facet is to be moved.
     std::vector<std::int32_t> offset;
     /// Facets that nothing can reach, as many others of their shape that face their way lie over
     /// them. They lie beside the lowest of these.
@@ -24,9 +24,9 @@ struct CoplanarLayers {
     bool complete = true;    ///< coplanar_overlaps.h
 };
 
-/// `vertices` are those of the scene in its local frame. Of what is connected by overlaps the level
-/// with the largest area stays where it is, so that closed rooms remain closed. A chain of alike
-/// facets, each over its neighbour, takes two levels.
+/// `vertices` are those of the scene in its local frame. Among facets that overlaps connect, the
+/// level with the largest area stays where it is, so that closed rooms remain closed. A chain of
+/// alike facets, each over its neighbour, takes two levels.
 [[nodiscard]] CoplanarLayers find_coplanar_layers(const Scene& scene,
                                                   std::span<const Vec3> vertices);
 

@@ -19,12 +19,12 @@ struct Overlap {
 struct OverlapLimits {
     std::size_t comparisons, pairs;
 
-    /// Far more than scenes need that were made to be looked at; about a second of work, and 20 MB
-    /// of pairs, in a scene of few facets that all lie over each other.
+    /// These limits are far more than ordinary scenes need. A scene of few facets that all lie over
+    /// each other takes about a second of work and 20 MB of pairs.
     [[nodiscard]] static OverlapLimits of(const Scene& scene) {
         return {2'000'000 + 64 * scene.facets.size(), 500'000 + 8 * scene.facets.size()};
     }
-    /// What a pair takes until the facets are offset.
+    /// Memory that a pair takes until the facets are offset.
     static constexpr double bytes_per_pair = 40;
 };
 

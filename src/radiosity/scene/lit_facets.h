@@ -9,7 +9,8 @@ namespace hemilux {
 
 class Mesh;
 
-/// By patch. Never false where light comes; true where that would take too long to tell.
+/// By patch: whether light may reach it. Never false where light comes; true where that would take
+/// too long to find out.
 [[nodiscard]] std::vector<bool> find_lit_patches(const Mesh& mesh);
 
 } // namespace hemilux

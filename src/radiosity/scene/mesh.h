@@ -1,9 +1,9 @@
 #pragma once
 // The scene as the solvers see it: facets divided into patches, moved into a local frame.
 //
-// Rays are traced against whole facets, which share the vertices of the file, and the struck patch
-// is found from the coordinates inside the facet. So dividing a face costs the BVH nothing, and two
-// neighbours divided differently have no crack between them.
+// Rays are traced against whole facets, which share the vertices of the file, and the patch that a
+// ray hits is found from the coordinates inside the facet. So dividing a face costs the BVH
+// nothing, and two neighbours divided differently have no crack between them.
 
 #include "bvh/intersect.h"
 #include "geometry/box.h"
@@ -38,7 +38,7 @@ struct Patch {
     bool back; ///< the reverse of a two-sided facet
 };
 
-/// How far corners are from the centre, at most.
+/// The largest distance of a corner from the patch's centre, in the local frame.
 [[nodiscard]] double radius_of(const Patch& patch);
 
 /// The frame of computation: world = centre + local / scale. The scale is a power of two, so that
@@ -50,7 +50,7 @@ struct LocalFrame {
     [[nodiscard]] Vec3 to_world(const Vec3& local) const { return centre + local / scale; }
     [[nodiscard]] double area_to_world(double area) const { return area / (scale * scale); }
 
-    /// Around what the facets use of the scene.
+    /// The frame around the vertices that the scene's facets use.
     [[nodiscard]] static LocalFrame of(const Scene& scene);
     [[nodiscard]] std::vector<Vec3> to_local(std::span<const Vec3> world) const;
 };
@@ -60,9 +60,9 @@ class Mesh {
     /// Throws std::invalid_argument when the scene has no facet or too many patches would be made.
     explicit Mesh(Scene scene, const MeshOptions& options = {});
 
-    /// Divides patches: each level makes four of one, or two of a long one, and so on. `levels` by
-    /// patch; of the two sides of a patch the larger counts. Facets, and tracers of them, remain.
-    /// Returns which patch each of the new ones was a piece of.
+    /// Divides each patch `levels[patch]` times: each level makes four patches of one, or two of a
+    /// long one. Of the levels of a patch's two sides the larger counts. Facets, and tracers of
+    /// them, remain. Returns for each new patch the old one that it is a piece of.
     std::vector<std::uint32_t> refine(std::span<const std::uint8_t> levels);
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
@@ -81,23 +81,23 @@ class Mesh {
     /// an angle hashed from the patch's index, so that its vertices do not run along the edges of a
     /// regular mesh (docs/decisions.md, D12).
     [[nodiscard]] Frame hemisphere_frame(std::uint32_t patch) const;
-    /// The facets for a tracer to copy or to refer to.
+    /// The facets in the local frame, for a tracer to copy or to refer to.
     [[nodiscard]] FacetSoup soup() const;
     /// The same for a tracer, in which no ray can meet what is buried under many others.
     [[nodiscard]] FacetSoup soup_to_trace() const;
     /// False where so many facets lie over each other that not all could be offset.
     [[nodiscard]] bool is_laid_apart() const { return laid_apart_; }
-    /// One side of a facet as if it were not divided.
+    /// One side of a facet as a single patch, as if the facet were not divided.
     [[nodiscard]] Patch whole_side(std::uint32_t facet, bool back) const;
     /// Whether a facet has more than one patch a side.
     [[nodiscard]] bool is_divided(std::uint32_t facet) const { return only_patch_[facet] == none; }
-    /// The patch of a facet that is not divided; none for the back of a one-sided one.
+    /// The patch on one side of a facet that is not divided; none on the back of a one-sided facet.
     [[nodiscard]] std::uint32_t patch_of(std::uint32_t facet, bool front) const {
         if (!front && !two_sided_)
             return none;
         return only_patch_[facet] + (front ? 0 : 1);
     }
-    /// The patch that was struck; none where the back of a one-sided facet was.
+    /// The patch that a ray hit; none where it hit the back of a one-sided facet.
     [[nodiscard]] std::uint32_t patch_at(const Hit& hit) const;
 
   private:

@@ -20,7 +20,7 @@ struct Needs {
     bool tree = true;       ///< false: so few triangles that a ray tests them all at once
 
     /// No ray can leave the scene or meet the back of a face, as its geometry proves. This leaves
-    /// nothing out; it tells what errors are possible.
+    /// no work out; it says which errors are possible.
     bool closed = false;
 
     /// Whether a patch may ever hold power to be shot. If not it needs no rays and no hemisphere.
@@ -30,18 +30,18 @@ struct Needs {
     std::size_t black = 0, unlit = 0; ///< idle because it reflects nothing; because no light comes
 };
 
-/// Nothing is left out.
+/// The needs of a scene about which nothing is known: no work is left out.
 inline const Needs everything_needed;
 
-/// O(facets), but for scenes made to be difficult, where less is found out. Conservative: what
-/// cannot be told is needed.
+/// Takes O(facets) time; in scenes made to be difficult less is found out. The answer is
+/// conservative: what is uncertain is needed.
 [[nodiscard]] Needs find_needs(const Mesh& mesh);
 
-/// Of all that, whether rays need a tree: known at once.
+/// Whether rays need a tree, as find_needs() finds it, without the rest of the analysis.
 [[nodiscard]] bool needs_tree(const Mesh& mesh);
 
-/// So many triangles are one leaf of the tree, tested at once; with more of them boxes pay
-/// (measured; docs/results.md).
+/// Up to so many triangles are one leaf of the tree, tested at once. With more of them boxes pay
+/// (measured in docs/results.md).
 inline constexpr std::size_t most_triangles_without_tree = 8;
 
 } // namespace hemilux

@@ -3,7 +3,7 @@
 //
 // A cell is the image of the unit square by a bilinear map, or of a triangle by an affine one. A
 // square is cut in four or, where it is long, in two across its length; a triangle is cut in four
-// of its own shape. What a ray has struck is found by going down with the coordinates inside.
+// of its own shape. The leaf that a ray has hit is found by going down with the coordinates inside.
 
 #include "geometry/polygon.h"
 
@@ -20,13 +20,13 @@ struct CellShape {
     std::array<Vec3, 4> corner;
     bool triangle;
 
-    /// Of a square that two corners may share a place in.
+    /// The shape as a polygon. Two corners of a square may lie at the same point.
     [[nodiscard]] Polygon polygon() const;
 };
 
 enum class CellCut : std::uint8_t { leaf, four, across_x, across_y };
 
-/// How a shape is to be cut: so that the pieces are about as wide as long.
+/// The cut after which the pieces are about as wide as long.
 [[nodiscard]] CellCut best_cut(const CellShape& shape);
 /// The pieces, in the order of piece_at_point().
 [[nodiscard]] std::vector<CellShape> cut(const CellShape& shape, CellCut by);
@@ -34,14 +34,14 @@ enum class CellCut : std::uint8_t { leaf, four, across_x, across_y };
 /// outside by a rounding error belongs to the nearest.
 [[nodiscard]] std::uint32_t piece_at_point(CellCut by, bool triangle, Vec2& at);
 
-/// Cells of all facets.
+/// The cells of all facets.
 class CellTree {
   public:
     struct Cell {
         std::uint32_t first = 0; ///< of its pieces; of a leaf, the patch
         CellCut cut = CellCut::leaf;
     };
-    /// Adds so many cells in a row; returns the first.
+    /// Adds `count` consecutive cells and returns the index of the first.
     std::uint32_t add(std::uint32_t count);
     [[nodiscard]] Cell& operator[](std::uint32_t cell) { return cells_[cell]; }
     [[nodiscard]] const Cell& operator[](std::uint32_t cell) const { return cells_[cell]; }

@@ -16,8 +16,8 @@ struct Edge {
     bool forward; ///< the facet runs from the smaller vertex to the larger one
 };
 
-/// Edges without length are left out. Sorted by their ends, then by facet, so that those that lie
-/// in one place are neighbours.
+/// The edges of all facets, but for those without length. They are sorted by their ends, then by
+/// facet, so that edges in one place are neighbours.
 [[nodiscard]] std::vector<Edge> welded_edges(const Scene& scene);
 
 /// Calls visit(first, last) for each place: the range of the edges that lie there.

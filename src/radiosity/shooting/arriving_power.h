@@ -1,5 +1,5 @@
 #pragma once
-// About how much of the emitted power falls on patches: a moment's work before the first ray.
+// An estimate of how much of the emitted power falls on patches, without tracing a ray.
 
 #include "geometry/vector.h"
 
@@ -7,8 +7,9 @@ namespace hemilux {
 
 class Mesh;
 
-/// Were nothing between patches and emitters, local units. A sun sends most of its light elsewhere,
-/// and what lights a scene is to be measured by what gets there.
+/// The power that would arrive at patches if nothing stood between them and the emitters, in local
+/// units. A sun sends most of its light elsewhere; the light of a scene is to be measured by the
+/// power that arrives.
 [[nodiscard]] Vec3 power_to_patches(const Mesh& mesh);
 
 } // namespace hemilux

@@ -21,7 +21,7 @@
 
 namespace hemilux {
 
-/// What all steps share.
+/// The tables and the strategy that all steps share.
 struct ShootingTools {
     SolverInput input;
     Hemisphere hemisphere;
@@ -32,20 +32,22 @@ struct ShootingTools {
 
 class Bounces {
   public:
-    /// The tools outlive this. May be used for one step after the other.
+    /// The tools must outlive this object. It may be used for one step after another.
     explicit Bounces(const ShootingTools& tools) : tools_(tools), input_(tools.input) {}
 
-    /// Shoots what `result` holds as radiosity, and all that follows. False when interrupted.
+    /// Shoots the light that `result` has as radiosity, and all its bounces. False when
+    /// interrupted.
     bool shoot(const StepTask& task, StepResult& result);
 
   private:
-    /// What one thread shoots at a time at least: of the rays on the line (plan) those in (from,
+    /// The rays that one thread shoots at a time at least: those of the line (see plan()) in (from,
     /// to], which are of senders from `first` to before `last`.
     struct WorkItem {
         std::uint32_t first, last;
         double from, to;
     };
-    /// Where the next item begins: behind so many rays, or, as printed, of the sender's.
+    /// Where the next item begins: behind so many rays of the line, or with the rules as printed
+    /// behind so many of the sender.
     struct Place {
         std::uint32_t sender;
         double ray;
@@ -54,14 +56,15 @@ class Bounces {
     struct WorkRange {
         std::size_t first, last;
     };
-    /// What a share shot and where each ray arrived.
+    /// The rays of a work range, and where each arrived.
     struct RayBatch {
         std::vector<RayGroup> groups;
         std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
         std::vector<std::uint16_t> arrivals;  ///< from which of its cells, if the strategy learns
     };
 
-    /// What a patch received in a bounce; in one cache line, as rays strike here and there.
+    /// The power that a patch received in a bounce. It fills one cache line, as rays hit patches in
+    /// no order.
     struct alignas(64) Arrived {
         CompensatedSum<Vec3> power;
         std::uint32_t rays = 0;
@@ -78,7 +81,7 @@ class Bounces {
     void divide_work(double rays);
     void shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result);
     void shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const;
-    // What is to be drawn is added to `groups`.
+    // These add the rays to be drawn to `groups`.
     void schedule(const WorkItem& item, std::vector<RayGroup>& groups) const;
     void schedule(std::size_t sender, const WorkItem& item, const Allocation& allocation,
                   std::vector<RayGroup>& groups) const;
@@ -94,10 +97,10 @@ class Bounces {
     void add_sender(std::uint32_t patch, const Vec3& power);
 
     const ShootingTools& tools_;
-    const SolverInput& input_;
+    SolverInput input_;
     const StepTask* task_ = nullptr;
 
-    // Of the present bounce.
+    // These belong to the present bounce.
     std::vector<std::uint32_t> senders_; ///< patches that hold power, ascending
     double left_ = 0;                    ///< their power, mean of channels
     std::vector<Vec3> unshot_;           ///< by patch, of senders

@@ -1,5 +1,5 @@
 #pragma once
-// Rays that are listed are drawn: where on their patch they start, and where they go.
+// Draws rays that are listed: where on their patch they start, and where they go.
 
 #include "bvh/tracer.h"
 #include "radiosity/rays/patch_starts.h"
@@ -14,7 +14,7 @@ namespace hemilux {
 
 class Mesh;
 
-/// Rays from a patch into one of its cells.
+/// Some rays from a patch into one of its cells.
 struct RayGroup {
     std::uint32_t patch;
     std::uint16_t cell;
@@ -24,7 +24,7 @@ struct RayGroup {
     double ray_power;
 };
 
-/// From where and into what.
+/// What the rays are drawn from.
 struct RaySource {
     const Mesh& mesh;
     const PatchStarts& starts;
@@ -37,11 +37,12 @@ struct RaySource {
 /// patch, its number there and its cell, not on what else is listed.
 class GroupedRays {
   public:
-    /// `memory` holds the rays between two calls and may be used again afterwards.
+    /// What the source refers to outlives this. `memory` holds the rays between two calls and may
+    /// be used again afterwards.
     GroupedRays(const RaySource& source, std::span<RayGroup> groups, std::uint64_t stream,
                 std::vector<Ray>& memory);
 
-    /// The next ones, as many as a batch has room for until the last; none when there are no more.
+    /// The next rays, as many as a batch has room for; none if all have been drawn.
     [[nodiscard]] std::span<const Ray> next();
 
   private:
@@ -58,7 +59,7 @@ class GroupedRays {
     void fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
                       std::span<Ray> rays);
 
-    const RaySource& source_;
+    RaySource source_;
     std::span<RayGroup> groups_;
     std::uint64_t stream_;
     std::vector<Ray>& rays_;

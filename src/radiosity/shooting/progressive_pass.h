@@ -26,17 +26,19 @@ class ProgressivePass {
   public:
     explicit ProgressivePass(const SolverInput& input);
 
-    /// Again from the emitters on. `rays_per_light`: shadow rays in a shot that gives a receiver as
-    /// much light as the mean patch reflects in the end; other shots get them in proportion.
+    /// Starts again from the emitters. A receiver traces `rays_per_light` shadow rays in a shot
+    /// that gives it as much light as the mean patch reflects in the end, and in other shots in
+    /// proportion to the light.
     void begin(double rays_per_light);
-    /// The patch with the most unshot power; `step` is for messages. Void if interrupted.
+    /// Shoots from the patch with the most unshot power; `step` is for messages. The pass is void
+    /// if interrupted.
     void shoot(std::uint32_t step);
     [[nodiscard]] bool is_done() const;
-    /// After the last shot.
+    /// The solution and its errors, after the last shot.
     [[nodiscard]] Estimate estimate() const;
 
     [[nodiscard]] const Vec3& emitted() const { return emitted_; } ///< power, local units
-    // Of all passes.
+    // Numbers of all passes together: hits by patch, points that were looked from, and rays.
     [[nodiscard]] std::span<const std::uint64_t> hits() const { return hits_; }
     [[nodiscard]] std::uint64_t points() const { return points_; }
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
@@ -53,7 +55,7 @@ class ProgressivePass {
     [[nodiscard]] ShotRays look_for_losses(std::uint32_t shooter, const Vec3& shot);
     void receive(const Vec3& shot, const Vec3& shot_variance, const ShotShares& shares);
     void note_power_variance(const Vec3& shot, const ShotShares& shares);
-    /// With a mean reflectance of at most `most`.
+    /// The light reflected so far, with a mean reflectance of at most `most`.
     [[nodiscard]] Reflected reflected(double most) const;
     [[nodiscard]] Vec3 ambient() const;
     [[nodiscard]] Vec3 power_unshot() const;

@@ -18,10 +18,10 @@ ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strat
     tools_.strategy = make_strategy(input_, tools_.hemisphere, Workers(input.options.threads));
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     const Strategy& strategy = *tools_.strategy;
-    solution_.seconds_density = elapsed.count();
-    solution_.rays_density = strategy.density_rays();
-    solution_.rays_density_spared = strategy.density_rays_spared();
-    solution_.bytes_density = strategy.density_bytes();
+    mean_.solution.seconds_density = elapsed.count();
+    mean_.solution.rays_density = strategy.density_rays();
+    mean_.solution.rays_density_spared = strategy.density_rays_spared();
+    mean_.solution.bytes_density = strategy.density_bytes();
 }
 
 void ShootingSolver::make_places(unsigned count) {
@@ -49,9 +49,9 @@ void ShootingSolver::load_more(StateReader& state) {
     constexpr double most_times = 1e3;
     tools_.strategy->load(state);
     double power = 0, rays = 0;
-    for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i) {
+    for (std::uint32_t i = 0; i < mean_.solution.radiosity.size(); ++i) {
         const double of_patch =
-            input_.mesh.patches()[i].area * mean_of_channels(solution_.radiosity[i]);
+            input_.mesh.patches()[i].area * mean_of_channels(mean_.solution.radiosity[i]);
         power += of_patch;
         rays += of_patch * tools_.strategy->rays_for_power(i);
     }

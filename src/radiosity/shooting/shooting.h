@@ -34,7 +34,7 @@ class ShootingSolver final : public StepwiseSolver {
     std::vector<Bounces> bounces_; ///< for each step that is worked out at the same time
 };
 
-/// Method::make of a strategy.
+/// Makes the solver of a strategy, for Method::make.
 template <MakeStrategy make_strategy>
 [[nodiscard]] std::unique_ptr<Solver> shoot_with(const SolverInput& input) {
     return std::make_unique<ShootingSolver>(input, make_strategy);

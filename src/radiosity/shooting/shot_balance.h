@@ -18,8 +18,8 @@ struct ShotRays {
     double count = 0, escaped = 0, absorbed = 0;
 };
 
-/// Cosine-distributed, from the whole shooter. What falls on patches that hold no power counts as
-/// absorbed.
+/// Shoots `count` cosine-distributed rays from the whole shooter. Rays that hit patches without
+/// power count as absorbed.
 [[nodiscard]] ShotRays shoot_to_lose(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                                      std::uint32_t shooter, std::uint32_t count,
                                      std::uint64_t seed);
@@ -32,7 +32,7 @@ struct FactorSum {
     double points = 0;  ///< of receivers, that were looked from
 };
 
-/// Shares of the shot.
+/// Where the power of a shot goes, as shares of it.
 struct ShotShares {
     double scale = 1;     ///< of all factors
     EscapeFraction lost;  ///< what falls elsewhere

@@ -1,6 +1,6 @@
 #pragma once
 // The form factors of all patches to one that shoots, for progressive radiosity: found anew for
-// each shot, as exactly as the light that they bring is worth (pair_factor.h).
+// each shot, the more exactly the more light they carry (pair_factor.h).
 
 #include "radiosity/form_factors/pair_factor.h"
 #include "radiosity/sampling/workers.h"
@@ -13,17 +13,17 @@
 
 namespace hemilux {
 
-/// F_receiver,shooter.
+/// The form factor from a receiver to the shooter.
 struct Sight : PairFactor {
     double at_risk = 0; ///< about the factor, if it was left to chance whether to look
-    /// The variance which that adds, as guessed before anything was seen. `variance` holds it as
-    /// seen: right on average, but 0 where nobody has looked.
+    /// The variance that this chance adds, as guessed before any ray. `variance` has it as
+    /// measured: right on average, but 0 where nothing was traced.
     double left_to_chance = 0;
 };
 
 class ShotFactors {
   public:
-    /// `mean_reflected`: radiosity that the mean patch will reflect in the end [W/m2].
+    /// `mean_reflected` is the radiosity that the mean patch will reflect in the end [W/m2].
     ShotFactors(const SolverInput& input, double mean_reflected);
 
     /// Looks from all patches to the shooter, which shoots the radiosity `shot`. `rays_per_light`:
@@ -31,7 +31,7 @@ class ShotFactors {
     /// get them in proportion. Void if interrupted.
     void look(std::uint32_t shooter, const Vec3& shot, double rays_per_light, std::uint64_t seed);
 
-    /// By receiver, of the last shot.
+    /// The factors of the last shot, by receiver.
     [[nodiscard]] std::span<const Sight> sights() const { return sights_; }
     /// The share of that shot that arrives.
     [[nodiscard]] FactorSum sum() const;
@@ -52,7 +52,7 @@ class ShotFactors {
     std::vector<Sight> sights_;
 };
 
-/// Black patches count as if they reflected this: they are to account for what they absorb.
+/// Black patches count as if they had this reflectance, since what they absorb is to be known too.
 inline constexpr double least_reflectance_of_receivers = .1;
 
 } // namespace hemilux

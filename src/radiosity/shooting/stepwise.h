@@ -1,11 +1,9 @@
 #pragma once
-// Methods each of whose steps is a complete solution of all bounces, independent of the other
-// steps (docs/decisions.md, D11): the result is the mean of the steps, its standard error their
-// spread. As they are independent, several are worked out at the same time, each by a thread.
+// Methods whose steps are independent solutions of all bounces (mean_of_steps.h). As they are
+// independent, several are solved at the same time, each by a thread.
 
-#include "geometry/compensated_sum.h"
 #include "radiosity/sampling/workers.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/mean_of_steps.h"
 
 #include <cstdint>
 #include <deque>
@@ -15,16 +13,7 @@
 
 namespace hemilux {
 
-/// What one step found. Powers are in local units.
-struct StepResult {
-    std::vector<Vec3> radiosity;
-    std::vector<std::uint32_t> hits;              ///< rays that struck each patch
-    CompensatedSum<Vec3> absorbed, escaped, sent; ///< power, `sent`: of all rays
-    double shot = 0; ///< all power that was to be shot, mean of channels
-    std::uint64_t rays = 0;
-};
-
-/// One step to be worked out.
+/// One step to be solved.
 struct StepTask {
     std::uint64_t stream; ///< of its random numbers
     std::uint64_t number; ///< from 1; the pilot belongs to the first
@@ -39,10 +28,10 @@ void check_bounces(const Mesh& mesh, std::uint64_t bounces, std::uint64_t step);
 class StepwiseSolver : public Solver {
   public:
     bool step() final;
-    [[nodiscard]] const Solution& solution() const final { return solution_; }
+    [[nodiscard]] const Solution& solution() const final { return mean_.solution; }
     /// Where nothing reflects, radiosity is emission: no step improves it.
     [[nodiscard]] bool finished() const final {
-        return !input_.needs.bounces && solution_.steps > 0;
+        return !input_.needs.bounces && mean_.solution.steps > 0;
     }
     [[nodiscard]] std::uint32_t steps_ready() const final;
     void save(StateWriter& state) const final;
@@ -52,31 +41,32 @@ class StepwiseSolver : public Solver {
     /// Without equal rays there is no power per ray: each patch shoots as many rays as any other.
     StepwiseSolver(const SolverInput& input, bool equal_rays);
 
-    /// One solution of all bounces. `result` comes with emission as radiosity and nothing else.
-    /// False when interrupted. If steps are alike, called for several at the same time.
+    /// Finds one solution of all bounces. `result` comes with the emission as radiosity and nothing
+    /// else. False when interrupted. If steps are alike, it is called for several at the same time.
     virtual bool solve_once(const StepTask& task, StepResult& result) = 0;
-    /// Before solve_once is called for so many places.
+    /// Called before solve_once is called for `count` places at the same time.
     virtual void make_places(unsigned /*count*/) {}
-    /// No step depends on those before.
+    /// Whether no step depends on those before.
     [[nodiscard]] virtual bool steps_are_alike() const { return false; }
 
-    /// What the next steps depend on besides, see Solver.
+    /// Save and load what the next steps depend on besides, as Solver does.
     virtual void save_more(StateWriter&) const {}
     virtual void load_more(StateReader&) {}
 
-    /// Of the radiosity, before a step: by the steps so far, or by the pilot.
+    /// An estimate of the radiosity by patch, before a step: from the steps so far, or from the
+    /// pilot.
     [[nodiscard]] std::span<const Vec3> estimate() const {
-        return solution_.steps > 0 || pilot_.empty() ? solution_.radiosity : pilot_;
+        return mean_.solution.steps > 0 || pilot_.empty() ? mean_.solution.radiosity : pilot_;
     }
 
     /// The stream of the pilot; steps count from 0.
     static constexpr std::uint64_t pilot_stream = ~std::uint64_t{0};
 
     SolverInput input_;
-    Solution solution_;
+    MeanOfSteps mean_;
 
   private:
-    /// A step that is worked out, or that was begun.
+    /// A step that is solved, or that was begun.
     struct Ahead {
         StepResult result;
         bool done = false;
@@ -85,31 +75,13 @@ class StepwiseSolver : public Solver {
     void work_ahead();
     [[nodiscard]] unsigned side_by_side() const;
     [[nodiscard]] double steps_to_come() const;
-    [[nodiscard]] double emitted() const;
-    [[nodiscard]] Vec3 power_leaving() const;
-    [[nodiscard]] StepResult fresh_result() const;
     bool find_ray_power();
-    void load_ray_power(StateReader& state);
-    [[nodiscard]] Vec3 mean_ray() const;
-    [[nodiscard]] Vec3 purest_ray() const;
-    [[nodiscard]] Vec3 one_ray(std::uint32_t patch) const;
-    [[nodiscard]] double unseen() const;
-    void estimate_errors();
-    void note_level(const std::vector<Vec3>& radiosity);
-    void combine(const StepResult& result);
-    void account(const StepResult& result);
+    void check_ray_power() const;
 
     Workers workers_;
-    bool equal_rays_;
     std::deque<Ahead> ahead_;     ///< the next steps
     double seconds_per_step_ = 0; ///< of one thread, when several are worked out; 0: unknown
-    double ray_power_ = 0;        ///< 0 until the pilot has found it
     std::vector<Vec3> pilot_;     ///< its radiosity; empty where there was none
-    std::vector<Vec3> squares_;   ///< sum of squared deviations of the steps (Welford 1962)
-    /// Of each step, how bright all of it is beside the mean of the steps; mean and sum of squared
-    /// deviations.
-    double level_ = 0, level_squares_ = 0;
-    CompensatedSum<Vec3> absorbed_, escaped_, sent_; ///< of all steps
 };
 
 } // namespace hemilux

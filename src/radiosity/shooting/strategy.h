@@ -1,7 +1,6 @@
 #pragma once
-// A strategy allocates a patch's rays to the cells of its hemisphere. That is all in which
-// the stepwise shooting methods differ: the loops of Compute Radiosity (paper section 5b) are the
-// same.
+// A strategy allocates a patch's rays to the cells of its hemisphere. The stepwise shooting methods
+// differ in nothing else: the loops of Compute Radiosity (paper section 5b) are the same.
 
 #include "geometry/polygon.h"
 #include "geometry/spherical_triangle.h"
@@ -38,13 +37,13 @@ struct Allocation {
     }
 };
 
-/// Memory of an allocation.
+/// The memory of an allocation.
 struct AllocatedCells {
     std::vector<std::uint16_t> cells;
     std::vector<float> rays_up_to;
 
     void clear() { cells.clear(), rays_up_to.clear(), sum_ = 0; }
-    /// Rounding leaves no cell without rays.
+    /// Adds a cell and its share of the patch's rays. Rounding leaves no cell without rays.
     void add(std::uint16_t cell, double rays) {
         const float before = rays_up_to.empty() ? 0 : rays_up_to.back();
         const float after = static_cast<float>(sum_ += rays);
@@ -69,18 +68,20 @@ struct PrivateCell {
 class Strategy {
   public:
     virtual ~Strategy() = default;
-    /// It allocates alike in all steps and learns nothing: then several steps are worked out at the
-    /// same time, and it is told of none.
+    /// Whether it allocates alike in all steps and learns nothing. Then several steps are solved at
+    /// the same time, and prepare(), begin_step() and end_step() are not called.
     [[nodiscard]] virtual bool is_same_in_all_steps() const { return false; }
-    /// Before a step other than the pilot: estimates of the radiosity, by patch, in local units,
-    /// and the power of a ray, mean of channels.
+    /// Called before each step but the pilot, with estimates of the radiosity by patch [W/m2] and
+    /// the power of a ray, mean of channels [W/m2 times area in local units].
     virtual void prepare(std::span<const Vec3> /*radiosity*/, double /*ray_power*/) {}
-    /// What is allocated from now on belongs to this step, 0 being the first.
+    /// Called when a step begins, 0 being the first: allocations that follow belong to it.
     virtual void begin_step(std::uint64_t) {}
-    /// Not of a step that was interrupted: what it has learned is to be forgotten.
+    /// Called when a step ends, unless it was interrupted: what was learned in that step is to be
+    /// forgotten.
     virtual void end_step() {}
-    /// How many times more rays than its power alone would give it a patch gets, each with as much
-    /// less power; positive, and the same throughout a step. On average over all power about 1.
+    /// A patch gets so many times the rays that its power alone would give it, each with as much
+    /// less power. The factor is positive, the same throughout a step, and on average over all
+    /// power about 1.
     [[nodiscard]] virtual double rays_for_power(std::uint32_t /*patch*/) const { return 1; }
     /// The cells of a patch, always in the same order: a view of what is kept or of what is put
     /// into `memory`, until either changes. Callable from several threads.
@@ -88,30 +89,30 @@ class Strategy {
                                               AllocatedCells& memory) const = 0;
     /// Whether any cell that it allocates may be private.
     [[nodiscard]] virtual bool has_private_cells() const { return false; }
-    /// What a cell that was allocated is, where it is not of the table.
+    /// The shape and power of a cell that was allocated; empty if the cell is in the shared table.
     [[nodiscard]] virtual std::optional<PrivateCell> private_cell(std::uint32_t /*patch*/,
                                                                   std::uint16_t /*cell*/) const {
         return std::nullopt;
     }
 
-    /// Whether it wants to be told in this step what its rays struck.
+    /// Whether it learns in this step from what its rays hit.
     [[nodiscard]] virtual bool learns() const { return false; }
-    /// From which cells of their receivers rays come, ray by ray: what `learn` is to be told of it.
-    /// Callable from several threads.
+    /// Adds for each ray the cell of its receiver's hemisphere that it comes from, as `learn` takes
+    /// it. Callable from several threads.
     virtual void find_arrivals(std::span<const Ray> /*rays*/,
                                std::span<const std::uint32_t> /*receivers*/,
                                std::vector<std::uint16_t>& /*added to*/) const {}
-    /// Where the rays of a cell arrived, see receivers.h; in a fixed order.
+    /// Called in a fixed order with where the rays of a cell arrived (receivers.h).
     virtual void learn(std::uint32_t /*patch*/, std::uint16_t /*cell*/,
                        std::span<const std::uint32_t> /*receivers*/,
                        std::span<const std::uint16_t> /*arrivals*/) {}
 
-    /// As Solver's: what was learned.
+    /// Saves and loads what was learned, as Solver does.
     virtual void save(StateWriter&) const {}
     virtual void load(StateReader&) {}
 
     [[nodiscard]] virtual std::uint64_t density_rays() const { return 0; }
-    /// Those that would have been shot if all triangles were divided.
+    /// How many more density rays there would be if all triangles were divided.
     [[nodiscard]] virtual std::uint64_t density_rays_spared() const { return 0; }
     [[nodiscard]] virtual std::uint64_t density_bytes() const { return 0; }
 };

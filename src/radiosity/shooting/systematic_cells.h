@@ -21,10 +21,10 @@ namespace hemilux {
     return static_cast<double>(static_cast<std::int64_t>(rays));
 }
 
-/// The part of the line that a patch owns.
+/// The cells on the part of the line that a patch owns.
 class SystematicCells {
   public:
-    /// From `before` to `after`.
+    /// The patch owns the line from `before` to `after`.
     SystematicCells(const Allocation& allocation, double before, double after)
         : allocation_(allocation), before_(before), after_(after),
           rays_((after - before) / allocation.rays_up_to.back()) {}
@@ -44,7 +44,7 @@ class SystematicCells {
   private:
     static constexpr std::size_t most_looked_up = 24;
 
-    /// Cell by cell.
+    /// Goes through all cells.
     template <class Found>
     void walk(double low, const Found& found) const {
         for (std::size_t k = 0; k < allocation_.cells.size(); ++k) {
@@ -55,7 +55,7 @@ class SystematicCells {
         }
     }
 
-    /// Ray by ray: when the light is nearly spent, most cells have none.
+    /// Looks up the cell of each ray: late bounces have fewer rays than cells.
     template <class Found>
     void look_up(double first, std::size_t rays, const Found& found) const {
         std::array<float, most_looked_up> at;

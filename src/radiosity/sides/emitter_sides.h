@@ -17,7 +17,8 @@ struct EmitterSide {
     bool certain; ///< false where a file that is right elsewhere is to be believed
 };
 
-/// Of a shell with emitting facets; empty where its surroundings do not tell.
+/// The side to which a shell with emitting facets shines; empty if its surroundings do not decide
+/// it.
 ///
 /// In this order:
 /// - A closed shell around which there is nothing lights its own inside: a furnace, an empty room.

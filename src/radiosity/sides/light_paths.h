@@ -17,16 +17,17 @@ struct FacetSide {
     bool back;
 };
 
-/// What leaves a random point of a side, by the cosine law. It starts a little off the plane, so
+/// A ray from a random point of a side, by the cosine law. It starts a little off the plane, so
 /// that layers that lie in one place (coplanar_layers.h) do not hide each other.
 [[nodiscard]] Ray diffuse_ray(const Mesh& mesh, FacetSide side, Rng& rng);
 
-/// Points of all facets that do not shine, by area. Rays towards them find the ground below a sun,
-/// which hardly any ray by the cosine law does.
+/// Random points of all facets that do not shine, uniform by area. Rays towards them find the
+/// ground below a sun, which hardly any ray by the cosine law does.
 class Targets {
   public:
     explicit Targets(const Mesh& mesh);
-    /// From a random point of a side; empty where the target is behind it.
+    /// A ray from a random point of a side to a random target; empty where the target is behind the
+    /// side.
     [[nodiscard]] std::optional<Ray> ray_from(FacetSide side, Rng& rng) const;
 
   private:
@@ -34,11 +35,11 @@ class Targets {
     std::vector<double> area_sums_;
 };
 
-/// In the local frame.
+/// The area of a facet in the local frame.
 [[nodiscard]] double area_of(const Mesh& mesh, std::uint32_t facet);
 
-/// What a facet emits on one side, all channels together, in the local frame; 0 for what is no
-/// finite number.
+/// The power that a facet emits on one side, all channels together [W/m2 times area in the local
+/// frame]; 0 where that is not finite.
 [[nodiscard]] double power_of(const Mesh& mesh, std::uint32_t facet);
 
 /// How many of about `count` items each facet gets, in proportion to its weight: systematic
@@ -46,12 +47,12 @@ class Targets {
 [[nodiscard]] std::vector<std::uint32_t> shares_of(const std::vector<double>& weights,
                                                    std::uint32_t count);
 
-/// Light that arrives on a facet, front and back as the scene has them, in rays.
+/// The light that arrives on the front and on the back of a facet, as the scene has them, in rays.
 using SideLight = std::array<double, 2>;
 
-/// By facet, if all facets reflect half of the light on both sides: an estimate by which sides can
-/// be judged before they are known. `shines_back`: by facet, whether an emitting one shines to its
-/// back.
+/// The light on each facet if all facets reflected half of it on both sides: an estimate that does
+/// not depend on which side is the front. `shines_back`: by facet, whether an emitting one shines
+/// to its back.
 [[nodiscard]] std::vector<SideLight> light_on_sides(const Mesh& mesh, const Tracer& tracer,
                                                     const Targets& targets,
                                                     const std::vector<bool>& shines_back);
@@ -63,7 +64,8 @@ struct LightShares {
     double escaped = 0; ///< leaves the scene
 };
 
-/// By 1024 paths, so to within 2 % (one standard error: 1.6 %). Deterministic.
+/// Traces 1024 paths, so the standard error of a share is at most 1.6 %. The same mesh gives the
+/// same shares.
 [[nodiscard]] LightShares find_light_shares(const Mesh& mesh, const Tracer& tracer);
 
 } // namespace hemilux

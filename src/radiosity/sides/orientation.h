@@ -35,9 +35,10 @@ struct Orientation {
     std::vector<std::uint32_t> groups_in_doubt; ///< ascending
 };
 
-/// Deterministic. In a scene in which nothing emits no face looks away. The mesh has no backs.
+/// Finds the faces that look away; the same mesh gives the same faces. In a scene without an
+/// emitter there are none. The mesh must be one-sided.
 [[nodiscard]] Orientation find_orientation(const Mesh& mesh, const Tracer& tracer);
-/// The same by a mesh and a tracer of its own, with the light in any case.
+/// The same with a mesh and a tracer that it makes itself. `light` is found in any case.
 [[nodiscard]] Orientation find_orientation(const Scene& scene);
 
 /// Turns all faces that look away.

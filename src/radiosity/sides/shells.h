@@ -18,8 +18,8 @@ struct Shell {
     bool consistent = true; ///< all neighbours agree
     bool orientable = true; ///< they would, if some were turned; not so for a Moebius strip
     double against = 0;     ///< the part of its area that would be turned, at most a half
-    /// Of a closed one, once it is consistent: 1 faces outwards, -1 inwards, 0 encloses nothing, as
-    /// a folded sheet.
+    /// Which way a closed shell faces once it is consistent: 1 outwards, -1 inwards, 0 if it
+    /// encloses nothing, as a folded sheet.
     int outwards = 0;
 };
 
@@ -38,7 +38,7 @@ struct Shells {
     }
 };
 
-/// O(n log n) in the facets.
+/// Finds the shells of a scene of n facets in O(n log n) time.
 [[nodiscard]] Shells find_shells(const Scene& scene);
 
 } // namespace hemilux

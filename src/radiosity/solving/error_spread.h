@@ -24,32 +24,33 @@ struct ErrorSpread {
     /// In 39 of 40 runs the true error is below so many times the estimated one: the ratio of their
     /// squares has Fisher's F distribution.
     [[nodiscard]] double bound() const;
-    /// What an error is multiplied with before it is reported, so that the true one is below 1.5
-    /// times the reported one in as many runs; 1 from some ten degrees of freedom on.
+    /// The factor by which an error is multiplied before it is reported, so that the true one is
+    /// below 1.5 times the reported one in as many runs. It is 1 from some ten degrees of freedom
+    /// on.
     [[nodiscard]] double reported() const;
 };
 
-/// Of the error that the solution's variance gives. Where a method does not report its freedom
-/// (Solution::effective_freedom) patches are taken to err each for itself. NaN before two
-/// steps.
+/// The spread of the error that the solution's variance gives. If a method does not report its
+/// degrees of freedom (Solution::effective_freedom), the errors of patches are taken as
+/// independent. NaN before two steps.
 [[nodiscard]] ErrorSpread error_spread(const Mesh& mesh, const Solution& solution);
-/// Of the part of that error besides the level of all light, where this is known from few samples
-/// (Solution::level_freedom); else of the whole.
+/// The spread of the part of that error besides the level of all light, if the level is known from
+/// few samples (Solution::level_freedom); else that of the whole error.
 [[nodiscard]] ErrorSpread error_spread_besides_level(const Mesh& mesh, const Solution& solution);
 
-/// Degrees of freedom of an error whose variance is the sum of `of_patch`, where each patch errs
-/// for itself but for the part `shared` that all err together: by whichever gives fewer. Infinite
-/// where nothing errs.
+/// Degrees of freedom of an error whose variance is the sum of `of_patch`. Patches err
+/// independently, but for a variance of `shared` that all have in common; the smaller number that
+/// follows from either counts. Infinite if all variances are 0.
 [[nodiscard]] double effective_freedom_of(std::span<const double> of_patch, double shared);
 
-/// Degrees of freedom from the scalar products of what each of some batches is off from their mean,
-/// all with all: row by row, `batches` squared of them. With G this matrix of n degrees of freedom
-/// and P of the error, tr G^2 / (tr G)^2 is about (1 + (n + 1) / P) / (n + 2 / P) (moments of the
-/// Wishart distribution).
+/// Degrees of freedom from the deviations of independent batches from their mean: `products` are
+/// the scalar products of all pairs of deviations, row by row, `batches` squared of them. With G
+/// this matrix of n degrees of freedom and P of the error, tr G^2 / (tr G)^2 is about (1 + (n + 1)
+/// / P) / (n + 2 / P) (moments of the Wishart distribution).
 [[nodiscard]] double effective_freedom(std::span<const double> products, std::size_t batches);
 
-/// The same after a step: as few as any step before has shown, since a few batches in which a
-/// common error happens to be small show many.
+/// The degrees of freedom to believe after a step: the fewest of all steps, since a few batches in
+/// which a common error happens to be small show many.
 [[nodiscard]] double believed_freedom(std::optional<double> before, double now);
 
 } // namespace hemilux

@@ -7,15 +7,15 @@
 
 namespace hemilux {
 
-/// By patch: B, its variance, what of that nobody may have seen, as guessed, and how much light may
-/// still be missing; and where the power went.
+/// All by patch: the radiosity B, its variance, the part of the variance that pairs add which were
+/// seldom looked at, as guessed, and the light that may still be missing. And where the power went.
 struct Estimate {
     std::vector<Vec3> radiosity, variance, left_to_chance, missing;
     double shared = 0;    ///< area times variance of all patches, as far as they err together
     EnergyBalance energy; ///< local units
 
-    /// Mean with an independent one; `share`: of the other. Chance evens out, missing light does
-    /// not.
+    /// Becomes the mean with an independent estimate, which has the weight `share`. Variances fall
+    /// in the mean; missing light does not.
     void join(const Estimate& other, double share) {
         const auto mean = [share](const auto& a, const auto& b) { return a + share * (b - a); };
         const auto both = [share](const auto& a, const auto& b) {

@@ -1,5 +1,5 @@
 #pragma once
-// In words, what a scene did not need and what was therefore not done.
+// The work that a scene did not need and that was left out, in words.
 
 #include <string>
 #include <vector>
@@ -15,9 +15,9 @@ struct LeftOut {
     std::string what, why, saved;
 };
 
-/// In words: by any method.
+/// What every method leaves out.
 [[nodiscard]] std::vector<LeftOut> left_out(const Needs& needs);
-/// By this one, in a run that came to this solution.
+/// What `method` left out in the run that found `solution`.
 [[nodiscard]] std::vector<LeftOut> left_out(const Needs& needs, const Method& method,
                                             const Solution& solution);
 

@@ -133,7 +133,7 @@ class Search {
     const Mesh& mesh_;
     const Tracer& tracer_;
     std::uint64_t seed_;
-    const Workers& workers_;
+    Workers workers_;
     Monitor& monitor_;
     double enough_rays_;
     int channel_;

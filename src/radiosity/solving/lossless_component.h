@@ -4,8 +4,8 @@
 //
 // Whether a scene is closed cannot be told from its faces with certainty, so rays tell: patches
 // from which one ray has left the scene, or fallen on something that absorbs, let light out, and so
-// do those whose rays meet them, or that lamps see. What is left when many rays have found no other
-// way out is trapped. Only reflectances of exactly 1 are looked at.
+// do those whose rays meet them, or that lamps see. Patches that remain when many rays have found
+// no other way out trap the light. Only reflectances of exactly 1 are looked at.
 
 #include "bvh/tracer.h"
 #include "radiosity/sampling/workers.h"
@@ -25,8 +25,8 @@ struct LosslessComponent {
     std::uint64_t rays;                 ///< of which none got out
 };
 
-/// Empty where there is none, or when interrupted. `enough_rays`: so many that find no way out mean
-/// that there is none.
+/// Finds such a component that holds an emitter; empty if there is none, or when interrupted. There
+/// is no way out if `enough_rays` rays in a row have found none.
 [[nodiscard]] std::optional<LosslessComponent>
 find_lossless_component(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed,
                         double enough_rays, const Workers& workers, Monitor& monitor);

@@ -1,5 +1,5 @@
 #pragma once
-// What every method delivers: radiosity per patch and how far off it may be.
+// What every method finds: the radiosity of each patch and its error.
 
 #include "geometry/vector.h"
 
@@ -18,12 +18,12 @@ struct EnergyBalance {
     Vec3 emitted{0.0};
     Vec3 absorbed{0.0}; ///< by patches and by backs of one-sided faces
     Vec3 escaped{0.0};
-    /// Power that leaves patches and was not sent on: what is still to be shot, or what chance has
-    /// left; negative where it sent more than there was, and 0 on average.
+    /// Power that leaves patches and was not carried by rays: it is still to be shot, or differs by
+    /// chance. It may be negative; chance adds 0 on average.
     Vec3 unshot{0.0};
 
-    /// What is missing, or too much, as a share of what is emitted; the largest of the channels. 0
-    /// where nothing is emitted.
+    /// The power that is missing or too much, relative to the emitted power, in the worst channel
+    /// [-]; 0 if nothing is emitted.
     [[nodiscard]] double imbalance() const;
 };
 
@@ -35,17 +35,18 @@ struct Slope {
 
 struct Solution {
     std::vector<Vec3> radiosity; ///< B per patch [W/m2 leaving], own emission included
-    /// By patch: its light is a linear function whose mean is B. Empty: B everywhere on it.
+    /// By patch: how its light, whose mean is B, changes linearly. Empty if the light is B
+    /// everywhere on a patch.
     std::vector<Slope> slope = {};
     std::vector<Vec3> standard_error; ///< of B [W/m2]; NaN before two steps
     std::vector<std::uint64_t> hits;  ///< energy rays that struck each patch
     /// Sum over patches and channels of area times the variance of B, where that is known better
     /// than from standard_error, which is on the safe side where few rays arrive.
     std::optional<double> variance;
-    /// The part of that sum by which all light of a part of the scene is off together.
+    /// The part of that sum due to errors that all light of a part of the scene shares.
     double variance_of_level = 0;
-    /// Degrees of freedom from which that part is known: infinite where it was found by counting
-    /// and not from the spread of a few samples.
+    /// Degrees of freedom of the estimate of that part: infinite where it was found by counting and
+    /// not from the spread of a few samples.
     double level_freedom = std::numeric_limits<double>::infinity();
     /// The same sum for what no ray may have seen so far, by the rule of three, or for light that
     /// is still to be shot: a squared error which counts besides the variance.
@@ -53,7 +54,7 @@ struct Solution {
     /// False where no light can reach anything that reflects, as the scene itself tells: then
     /// finding none is no lack of knowledge.
     bool may_find_light = true;
-    /// Independent solutions whose spread the standard errors are; 0: the steps.
+    /// How many independent solutions the standard errors come from; 0 if they are the steps.
     double error_batches = 0;
     /// Effective degrees of freedom of the error (error_spread.h), where they are known better than
     /// from standard_error, which does not tell what patches err together; where level_freedom is
@@ -72,8 +73,8 @@ struct Solution {
     double seconds_density = 0;            ///< spent before the first step
 };
 
-/// Errors relative to the reflected radiosity (RMS over area and channels, see docs): either over
-/// all patches or split by a mask.
+/// Errors relative to the reflected radiosity [-], as root mean squares over area and channels: of
+/// all patches, and split by a mask.
 struct RelativeError {
     double all = 0;
     double detail = 0; ///< patches under the mask; NaN if there are none
@@ -85,9 +86,9 @@ struct RelativeError {
                                        std::span<const Vec3> reference,
                                        const std::vector<bool>& detail = {});
 
-/// The same as the solution knows it itself: from its variance, more where that is known badly
-/// (ErrorSpread::reported), and what may not have been seen. NaN where it is not known: before two
-/// steps, and where no light was found that is more than its own error.
+/// The same error as the solution estimates it: from its variance, which is enlarged where it is
+/// known badly (ErrorSpread::reported), and from light that may not have been seen. NaN where it is
+/// unknown: before two steps, and where no light was found that exceeds its own error.
 [[nodiscard]] double estimated_error(const Mesh& mesh, const Solution& solution);
 
 /// Standardised differences z = (B - B*) / sigma over patches with at least `min_hits` and all

@@ -1,6 +1,6 @@
 #pragma once
-// What keeps a scene from being solved: found before the first step or within one. The solution of
-// the steps before stays what it was.
+// The reason why a scene cannot be solved, found before the first step or within one. The solution
+// of the steps before remains.
 
 #include "geometry/vector.h"
 
@@ -14,7 +14,7 @@ namespace hemilux {
 
 class Mesh;
 
-/// what() says which patch, face and material, and in which step.
+/// what() names the patch, its face and material, and the step.
 struct SolveError : std::runtime_error {
     SolveError(const std::string& message, std::uint32_t first_face)
         : std::runtime_error(message), face(first_face) {}
@@ -23,16 +23,17 @@ struct SolveError : std::runtime_error {
 
 /// Larger radiosities are refused, so that sums of their squares remain finite [W/m2].
 inline constexpr double largest_radiosity = 1e145;
-/// And where all emission of a channel is less, unless there is none: squares would vanish.
+/// Emission of a channel that is everywhere less than this, and not 0, is refused too: squares
+/// would vanish [W/m2].
 inline constexpr double least_radiosity = 1e-145;
 
-/// Of the file, from 0: the one that a patch is part of.
+/// The face of the file that a patch is part of, counted from 0.
 [[nodiscard]] std::uint32_t face_of(const Mesh& mesh, std::uint32_t patch);
-/// "patch 3 (face 1, material 'wall')"
+/// A patch's name in messages, such as "patch 3 (face 1, material 'wall')".
 [[nodiscard]] std::string name_of_patch(const Mesh& mesh, std::uint32_t patch);
 
 /// Throws SolveError for the first patch whose value is not finite, or beyond largest_radiosity.
-/// `step` from 1; 0: before the first.
+/// `step` counts from 1; 0 stands for before the first.
 void check_finite(const Mesh& mesh, std::span<const Vec3> values, const char* what,
                   std::uint64_t step);
 /// The same for one patch.

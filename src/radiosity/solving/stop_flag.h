@@ -6,8 +6,8 @@
 
 namespace hemilux {
 
-/// As std::atomic<bool> it holds the caller's wish alone, which a signal handler may set. Whoever
-/// is to stop asks for both.
+/// As std::atomic<bool> it holds the caller's wish alone, which a signal handler may set. Converted
+/// to bool it is true for either reason.
 class StopFlag : public std::atomic<bool> {
   public:
     StopFlag() : std::atomic<bool>(false) {}

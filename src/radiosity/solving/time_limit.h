@@ -1,5 +1,5 @@
 #pragma once
-// A time limit that holds within a step, too.
+// A time limit that also holds within a step.
 
 #include "radiosity/solving/stop_flag.h"
 
@@ -10,8 +10,8 @@
 
 namespace hemilux {
 
-/// While it lives, the flag says that the time is over once so many seconds have passed. Without a
-/// number it does nothing.
+/// While it lives, it sets the flag's out_of_time() once `seconds` have passed. Without a number it
+/// does nothing.
 class TimeLimit {
   public:
     TimeLimit(StopFlag& flag, std::optional<double> seconds);

@@ -13,7 +13,7 @@ namespace hemilux {
 /// "If nothing goes wrong, is everything all right?").
 inline constexpr double rule_of_three = 3;
 
-/// All by patch.
+/// What is known of the light, all by patch.
 struct PatchLight {
     std::span<const double> area;
     std::span<const Vec3> reflectance;
@@ -22,11 +22,12 @@ struct PatchLight {
     std::span<const double> rays;   ///< of the patch
 };
 
-/// The mean of what leaves, weighted by itself: that of the patches that most light comes from.
+/// The mean of `leaving`, weighted by itself: the radiosity of the patches that most light comes
+/// from [W/m2].
 [[nodiscard]] Vec3 bright_radiosity(const PatchLight& light);
 
-/// By patch [W/m2 leaving]: what it would reflect if three rays had met something bright, of those
-/// of all patches that are about as dark as it, and of those by which bright patches look at it.
+/// By patch: the light that it would reflect [W/m2] if three rays had met something bright, among
+/// those of all patches that are about as dark as it and those by which bright patches look at it.
 [[nodiscard]] std::vector<Vec3> unseen_sights(const PatchLight& light);
 
 } // namespace hemilux

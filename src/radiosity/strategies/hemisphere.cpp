@@ -32,7 +32,7 @@ class HemisphereStrategy final : public Strategy {
   public:
     HemisphereStrategy(const SolverInput& input, const Hemisphere& hemisphere,
                        const Workers& workers)
-        : hemisphere_(hemisphere), literal_(input.options.literal) {
+        : literal_(input.options.literal) {
         for (std::size_t cell = 0; cell < hemisphere.cells().size(); ++cell)
             area_shares_.push_back(
                 power_share(hemisphere, static_cast<std::uint16_t>(cell), literal_));
@@ -42,7 +42,7 @@ class HemisphereStrategy final : public Strategy {
                              input.options.keep_all ? DensityStore::everything
                                                     : DensityStore::divided_only);
         else
-            allocate_leaves(leaves_of_one_surface(input.options.threshold),
+            allocate_leaves(leaves_of_one_surface(hemisphere, input.options.threshold),
                             allocated_of_one_surface_);
         const std::size_t cells = hemisphere.cells().size() * input.mesh.patches().size();
         if (density_ && cells <= most_kept_cells && !input.monitor.interrupted)
@@ -94,11 +94,12 @@ class HemisphereStrategy final : public Strategy {
     }
 
     /// What a patch of a convex enclosure would count: one surface in each direction.
-    [[nodiscard]] std::vector<DensityLeaf> leaves_of_one_surface(double threshold) const {
-        const int level = is_divided(1, threshold) ? hemisphere_.depth() : 0;
+    [[nodiscard]] static std::vector<DensityLeaf>
+    leaves_of_one_surface(const Hemisphere& hemisphere, double threshold) {
+        const int level = is_divided(1, threshold) ? hemisphere.depth() : 0;
         std::vector<DensityLeaf> leaves;
-        for (std::size_t c = 0; c < hemisphere_.cells().size(); ++c)
-            if (hemisphere_.cells()[c].level == level)
+        for (std::size_t c = 0; c < hemisphere.cells().size(); ++c)
+            if (hemisphere.cells()[c].level == level)
                 leaves.push_back({static_cast<std::uint16_t>(c), 1});
         return leaves;
     }
@@ -125,7 +126,6 @@ class HemisphereStrategy final : public Strategy {
     /// mean. Where nothing is seen anywhere, rays then follow the power (D5).
     static constexpr double least_density = 1, least_share = 0.25;
 
-    const Hemisphere& hemisphere_;
     bool literal_;
     std::vector<double> area_shares_; ///< by cell
     std::optional<DensityMap> density_;

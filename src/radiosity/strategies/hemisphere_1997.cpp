@@ -42,30 +42,15 @@ namespace {
 constexpr int stored_steps = 2, estimated_steps = 1;
 constexpr int guided_steps = stored_steps + estimated_steps;
 
-constexpr std::size_t sub_patches = 4;
+constexpr std::size_t sub_patches = 4; ///< quarters of a patch
 constexpr std::size_t triangles(int level) { return std::size_t{4} << (2 * level); }
 static_assert(sub_patches * triangles(guided_steps) < whole_hemisphere);
-
-/// 2 x 2 pieces of a quad, or the four of a triangle that are similar to it.
-std::array<Polygon, sub_patches> divide(const Polygon& shape) {
-    const auto& [a, b, c, d] = shape.corner;
-    const auto middle = [](const Vec3& p, const Vec3& q) { return (p + q) / 2.0; };
-    if (shape.is_triangle()) {
-        const Vec3 ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-        return {{{{a, ab, ca, ca}}, {{ab, b, bc, bc}}, {{ca, bc, c, c}}, {{ab, bc, ca, ca}}}};
-    }
-    const Vec3 ab = middle(a, b), bc = middle(b, c), cd = middle(c, d), da = middle(d, a);
-    const Vec3 centre = middle(ab, cd);
-    return {{{{a, ab, centre, da}},
-             {{ab, b, bc, centre}},
-             {{centre, bc, c, cd}},
-             {{da, centre, cd, d}}}};
-}
 
 class Hemisphere1997 final : public Strategy {
   public:
     Hemisphere1997(const SolverInput& input, const Workers& workers)
-        : mesh_(input.mesh), options_(input.options), needs_(input.needs), topology_(stored_steps) {
+        : mesh_(input.mesh), needs_(input.needs), literal_(input.options.literal),
+          rays_asked_(input.options.rays), topology_(stored_steps) {
         const std::size_t looking = needs_.densities ? mesh_.patches().size() : 1;
         const std::size_t places = looking * sub_patches * vertices();
         direction_.resize(places);
@@ -92,8 +77,8 @@ class Hemisphere1997 final : public Strategy {
         level_ = static_cast<int>(step) + 1;
         const std::size_t cells = sub_patches * triangles(level_);
         double share = 1 / static_cast<double>(cells);
-        if (options_.literal)
-            share = std::max(std::round(options_.rays * share), 1.0) / options_.rays;
+        if (literal_)
+            share = std::max(std::round(rays_asked_ * share), 1.0) / rays_asked_;
         allocated_.clear();
         for (std::size_t cell = 0; cell < cells; ++cell)
             allocated_.add(static_cast<std::uint16_t>(cell), share);
@@ -111,11 +96,10 @@ class Hemisphere1997 final : public Strategy {
         const CountedTriangle corner = triangle(patch, piece, cell % triangles(level_));
         PrivateCell result{0,
                            {corner[0].direction, corner[1].direction, corner[2].direction},
-                           divide(whole.shape)[piece]};
+                           quarters_of(whole.shape)[piece]};
         const double part = result.origins.area() / whole.area;
-        const double share = options_.literal
-                                 ? result.shape.solid_angle() / (2 * std::numbers::pi)
-                                 : result.shape.projected_solid_angle() / std::numbers::pi;
+        const double share = literal_ ? result.shape.solid_angle() / (2 * std::numbers::pi)
+                                      : result.shape.projected_solid_angle() / std::numbers::pi;
         result.power = part * std::max(share, 0.0);
         return result;
     }
@@ -143,7 +127,7 @@ class Hemisphere1997 final : public Strategy {
     /// share a vertex is the same as in the regular subdivision; only the places differ.
     void look(std::uint32_t patch, const Tracer& tracer) {
         const Frame frame = mesh_.hemisphere_frame(patch);
-        const auto pieces = divide(mesh_.patches()[patch].shape);
+        const auto pieces = quarters_of(mesh_.patches()[patch].shape);
         for (std::size_t piece = 0; piece < sub_patches; ++piece) {
             const std::size_t begin = place(patch, piece);
             const Vec3 centre = pieces[piece].centre();
@@ -189,8 +173,9 @@ class Hemisphere1997 final : public Strategy {
     static constexpr std::size_t first_vertices = 5; ///< of the four octants
 
     const Mesh& mesh_;
-    const SolveOptions& options_;
     const Needs& needs_;
+    bool literal_;
+    double rays_asked_; ///< of each patch: N_hemi
     Hemisphere topology_;
     std::atomic<std::uint64_t> rays_{0};
     // By patch, sub-patch and vertex of the topology, in the patch's own frame.

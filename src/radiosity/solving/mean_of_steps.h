@@ -1,0 +1,84 @@
+#pragma once
+// The mean of steps each of which is a complete solution of all bounces, independent of the others
+// (docs/decisions.md, D11). Paper section 5b, point 2: "the radiosity of each patch computed up
+// until the previous step is combined with the radiosity computed in the current step".
+//
+// The spread of the steps is the standard error of their mean (D16, D19).
+
+#include "geometry/compensated_sum.h"
+#include "radiosity/solving/solver.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace hemilux {
+
+/// The solution that a method begins with: the emission, with an unknown error unless nothing
+/// reflects. Throws SolveError as check_input() does.
+[[nodiscard]] Solution solution_before_steps(const SolverInput& input);
+
+/// What one step found. Powers are in local units.
+struct StepResult {
+    StepResult() = default;
+    /// Begins a step: nothing has been shot, and the radiosity is the emission.
+    explicit StepResult(const Mesh& mesh);
+
+    std::vector<Vec3> radiosity;                  ///< by patch [W/m2]
+    std::vector<std::uint32_t> hits;              ///< by patch: rays that hit it
+    CompensatedSum<Vec3> absorbed, escaped, sent; ///< power; `sent` is that of all rays
+    double shot = 0; ///< all power that was to be shot, mean of channels
+    std::uint64_t rays = 0;
+};
+
+/// What the steps so far add up to, besides their mean. Powers are in local units.
+struct StepSums {
+    std::vector<Vec3> squares; ///< by patch: sum of squared deviations of the radiosity
+    /// How bright all light of a step is beside the mean of the steps: its mean, and the sum of its
+    /// squared deviations.
+    double level = 0, level_squares = 0;
+    CompensatedSum<Vec3> absorbed, escaped, sent; ///< power
+};
+
+class MeanOfSteps {
+  public:
+    /// Without `equal_rays` no power is common to all rays: each patch shoots as many as any other.
+    /// Throws SolveError as check_input() does.
+    MeanOfSteps(const SolverInput& input, bool equal_rays);
+
+    /// Solves one step, whose rays carry `ray_power` on average; false when interrupted.
+    using SolveOnce = std::function<bool(double ray_power, StepResult& result)>;
+    /// All bounces together carry several times the emitted power; how many depends on the scene. A
+    /// pilot of few rays finds it, so that a step shoots as many rays as were asked for. The power
+    /// per ray is then the same in all steps, which keeps them independent and equally weighted.
+    /// The solution counts the rays of the pilot, but has none of its light. False when
+    /// interrupted.
+    bool find_ray_power(const SolveOnce& pilot);
+
+    /// Combines a step with those before. Throws SolveError if its radiosity is not finite.
+    void add(const StepResult& step);
+    /// Finds the errors of the solution from `sums`. Requires two steps.
+    void estimate_errors();
+    /// The power that all patches emit, mean of channels [W/m2 times area in local units].
+    [[nodiscard]] double emitted() const;
+    [[nodiscard]] bool equal_rays() const { return equal_rays_; }
+
+    Solution solution;
+    StepSums sums;
+    /// The power that each ray is to carry on average, mean of channels [W/m2 times area in local
+    /// units]: 0 before find_ray_power(), infinite where rays are not equal.
+    double ray_power = 0;
+
+  private:
+    void note_level(const std::vector<Vec3>& radiosity);
+    [[nodiscard]] Vec3 power_leaving() const;
+    [[nodiscard]] Vec3 mean_ray() const;
+    [[nodiscard]] Vec3 purest_ray() const;
+    [[nodiscard]] Vec3 one_ray(std::uint32_t patch) const;
+    [[nodiscard]] double unseen() const;
+
+    SolverInput input_;
+    bool equal_rays_;
+};
+
+} // namespace hemilux
