@@ -42,7 +42,11 @@ struct Statistics {
     /// patches' means.
     double estimated_error = unknown;
     double estimated_error_uncertainty = unknown; ///< one sigma; NaN before two steps
-    double error_sampling = unknown;              ///< of the patches' means
+    /// What it is the error of, if not of all patches alike, as it was asked for; then also that of
+    /// all that has no weight in it.
+    std::vector<std::string> target = {};
+    double estimated_error_elsewhere = unknown;
+    double error_sampling = unknown; ///< of the patches' means
     /// Of the light on the surfaces, which changes within patches (division_error.h).
     double error_division = unknown, error_division_uncertainty = unknown;
     EnergyBalance energy;

@@ -108,7 +108,9 @@ double seen_variance(const Mesh& mesh, const Solution& solution) {
         const Vec3& sigma = solution.standard_error[i];
         sum += mesh.patches()[i].area * glm::dot(sigma, sigma);
     }
-    return seen_share(mesh, solution) * solution.variance.value_or(std::isfinite(sum) ? sum : 0);
+    const double by_patch = std::isfinite(sum) ? sum : 0;
+    const bool of_all = solution.weight.empty();
+    return seen_share(mesh, solution) * (of_all ? solution.variance.value_or(by_patch) : by_patch);
 }
 
 /// What is not of the division, relative to the square of the patches' values as all else. One

@@ -10,8 +10,6 @@
 namespace hemilux {
 namespace {
 
-constexpr double least_share = 1.0 / 8, most_share = 8;
-
 /// The power of two nearest to a number, in logarithms: the whole part of log2(sqrt(2) rays), which
 /// is an exponent's bits. The allocation asks for it ten times a patch.
 std::uint32_t power_of_two(double rays) {
@@ -44,7 +42,8 @@ struct Open {
 } // namespace
 
 std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double mean,
-                                         std::span<const std::uint32_t> already) {
+                                         std::span<const std::uint32_t> already,
+                                         const AllocationRange& range) {
     const double largest = given.empty() ? 0 : *std::ranges::max_element(given);
     std::vector<std::uint32_t> rays(given.size());
     if (!(largest > 0))
@@ -52,12 +51,12 @@ std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double m
     const std::vector<double> weights = rounded(given, largest);
     const auto rays_of = [&](std::uint32_t i, double per_weight) {
         const double share =
-            std::clamp(per_weight * weights[i], least_share * mean, most_share * mean);
+            std::clamp(per_weight * weights[i], range.least * mean, range.most * mean);
         return std::max(power_of_two(share), already[i]);
     };
     // The number of rays per weight that allocates what there is, by bisection of its
     // logarithm. A patch that gets as many at one end as at the other needs no more asking.
-    double low = std::log(least_share * mean), high = low + 80;
+    double low = std::log(range.least * mean), high = low + 80;
     std::vector<Open> open;
     for (std::uint32_t i = 0; i < weights.size(); ++i)
         if (weights[i] > 0)

@@ -37,13 +37,24 @@ constexpr double trust = .5, area_exponent = .42;
 /// lamp may shine through a gap that all of them have missed.
 constexpr double share_of_unlit = 1.0 / 8;
 
+/// With a target rays go where they are important, and few elsewhere: the least and the most that a
+/// patch gets, over the mean.
+constexpr AllocationRange range_with_target{1.0 / 64, 256};
+
+/// The mean that a first step with a target has at least, of one batch: the search for what light
+/// can reach takes a ray of each patch.
+constexpr double least_first = 1.5;
+
 /// Black emitters count as if they reflected this: their rays tell where their light goes.
 constexpr double least_reflectance = .1;
 
 /// Throws StateError for rays that cannot have been allocated with this mean (ray_allocation.h): a
-/// patch has at most about eleven times the mean, and all have more than a small part of it.
-void check_allocated(std::span<const std::uint32_t> rays, double mean) {
-    constexpr double most_share = 12, least_share = 1.0 / 64;
+/// patch has little more than the most of its range, and all have more than a small part of the
+/// mean.
+void check_allocated(std::span<const std::uint32_t> rays, double mean,
+                     const AllocationRange& range) {
+    constexpr double least_share = 1.0 / 64;
+    const double most_share = 1.5 * range.most; // the next power of two is sqrt(2) away
     double sum = 0, count = 0;
     for (const std::uint32_t of_patch : rays) {
         if (of_patch > std::max(1.0, most_share * mean))
@@ -92,26 +103,57 @@ void RayPlan::leave_out(const std::vector<bool>& lit) {
             weights_[i] = emitter_weights_[i] = 0;
 }
 
+void RayPlan::aim(std::span<const double> importance) {
+    aim_.clear();
+    for (const double each : importance) // as variances in weigh_emitters()
+        aim_.push_back(std::pow(each, 1 / (1 + fall)));
+}
+
+/// What the mean of a first step is times, so that important patches get as many rays as they would
+/// without a target.
+double RayPlan::share_of_first(std::span<const double> weights) const {
+    double sum = 0, important = 0;
+    for (std::size_t i = 0; i < aim_.size(); ++i) {
+        sum += weights[i];
+        important += weights[i] * std::min(aim_[i], 1.0);
+    }
+    return goal_.growing && sum > 0 ? important / sum : 1;
+}
+
+std::vector<std::uint32_t> RayPlan::allocate(std::span<const double> weights, double mean,
+                                             std::span<const std::uint32_t> already) const {
+    if (!has_target())
+        return allocate_rays(weights, mean, already);
+    std::vector<double> aimed;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        aimed.push_back(weights[i] * aim_[i]);
+    return allocate_rays(aimed, mean, already, range_with_target);
+}
+
 void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers) {
     before_ = now_;
     if (has_begun()) {
         choose(known);
         now_.random = std::min(now_.random, room * before_.random);
     } else {
-        now_.random = first_.random;
-        now_.to_emitters = first_.to_emitters;
+        const auto first = [this](double mean, std::span<const double> weights) {
+            return std::min(mean, std::max(share_of_first(weights) * mean, least_first));
+        };
+        now_.random = first(first_.random, weights_);
+        now_.to_emitters = first(first_.to_emitters, emitter_weights_);
     }
     workers.for_chunks(2, 1, [&](std::size_t kind, std::size_t) {
         if (kind == 0)
-            now_.rays.random = allocate_rays(weights_, now_.random, before_.rays.random);
+            now_.rays.random = allocate(weights_, now_.random, before_.rays.random);
         else
             now_.rays.to_emitters =
-                allocate_rays(emitter_weights_, now_.to_emitters, before_.rays.to_emitters);
+                allocate(emitter_weights_, now_.to_emitters, before_.rays.to_emitters);
     });
     const auto of_unlit =
         std::bit_floor(static_cast<std::uint32_t>(share_of_unlit * now_.to_emitters));
     for (std::size_t i = 0; i < emitter_weights_.size(); ++i)
-        if (emitter_weights_[i] == 0 && prior_emitter_weights_[i] > 0)
+        if (emitter_weights_[i] == 0 && prior_emitter_weights_[i] > 0 &&
+            (!has_target() || aim_[i] > 0))
             now_.rays.to_emitters[i] = std::max(of_unlit, before_.rays.to_emitters[i]);
 }
 
@@ -239,6 +281,8 @@ void RayPlan::save(StateWriter& state) const {
     for (const std::vector<double>* weights : {&weights_, &learned_weights_, &emitter_weights_})
         state.add(std::span<const double>(*weights));
     state.add(std::uint64_t{has_learned_});
+    if (has_target())
+        state.add(std::span<const double>(aim_));
 }
 
 void RayPlan::load(StateReader& state) {
@@ -249,8 +293,9 @@ void RayPlan::load(StateReader& state) {
         stage->rays.to_emitters.resize(weights_.size());
         state.get(std::span(stage->rays.random));
         state.get(std::span(stage->rays.to_emitters));
-        check_allocated(stage->rays.random, stage->random);
-        check_allocated(stage->rays.to_emitters, stage->to_emitters);
+        const AllocationRange range = has_target() ? range_with_target : AllocationRange();
+        check_allocated(stage->rays.random, stage->random, range);
+        check_allocated(stage->rays.to_emitters, stage->to_emitters, range);
     }
     if (before_.random > now_.random || before_.to_emitters > now_.to_emitters)
         throw StateError("the plan of rays does not grow");
@@ -263,6 +308,8 @@ void RayPlan::load(StateReader& state) {
     state.get(std::span(learned_weights_), {0, sum_of(prior_weights_)});
     state.get(std::span(emitter_weights_), {0, sum_of(prior_emitter_weights_)});
     has_learned_ = state.flag();
+    if (has_target())
+        state.get(std::span(aim_), bounds::non_negative);
 }
 
 } // namespace hemilux
