@@ -57,7 +57,8 @@ class StoredTransportSolver final : public Solver {
   public:
     explicit StoredTransportSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)),
-          system_(input.mesh, emitters_, input.needs.closed),
+          system_(input.mesh, emitters_, input.needs.closed,
+                  input.target.empty() ? Closing::evenly : Closing::by_rays),
           aim_(input.mesh, system_, input.target), plan_(first_plan(input, !emitters_.empty())),
           light_(batches, input.mesh.patches().size()) {
         check_input(input);
@@ -184,7 +185,7 @@ class StoredTransportSolver final : public Solver {
     [[nodiscard]] ExchangeMatrix factors_so_far() const {
         std::vector<ExchangeMatrix> parts(batches);
         workers_.for_chunks(batches, 1, [&](std::size_t batch, std::size_t) {
-            parts[batch] = ExchangeMatrix(input_.mesh, counts_[batch]);
+            parts[batch] = ExchangeMatrix(input_.mesh, counts_[batch], system_.closing());
         });
         return {std::move(parts), workers_};
     }

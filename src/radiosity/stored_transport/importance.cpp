@@ -9,6 +9,12 @@
 #include <algorithm>
 
 namespace hemilux {
+namespace {
+
+/// Patches of a wall that are off by the same.
+constexpr double err_together = 64;
+
+} // namespace
 
 std::vector<Vec3> importance_of(const ExchangeMatrix& factors, std::span<const double> area,
                                 std::span<const Vec3> reflectance, std::span<const double> weight,
@@ -40,7 +46,8 @@ std::vector<double> importance_of_rays(const Mesh& mesh, std::span<const Vec3> i
             ++count;
         });
         const Vec3 mean = sum / count;
-        const double counts = weight[i] + patches[i].area * glm::dot(mean, mean) / (3 * target);
+        const double through = patches[i].area * glm::dot(mean, mean) / (3 * target);
+        const double counts = weight[i] + err_together * through;
         result.push_back(counts * target / squares);
     }
     return result;

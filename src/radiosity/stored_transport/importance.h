@@ -40,9 +40,10 @@ class TransportSystem;
 /// rho, and the squared error of the target by sum_i w_i A_i rho_i^2 G_ik^2 of e_k^2. The patch's
 /// own light, G_kk = 1, counts w_k A_k rho_k^2. All other light counts at least as its mean over
 /// the target does (Jensen), (sum_i w_i A_i rho_i K_ik)^2 / W with W = sum_i w_i A_i, and that sum
-/// is A_k rho_k (I_k - w_k). Over A_k rho_k^2 both are
+/// is A_k rho_k (I_k - w_k). Neighbours do not err each for itself but some c of them together,
+/// as they look at the same things: then sums are squared, not summands. Over A_k rho_k^2 all is
 ///
-///     m_k = w_k + A_k (I_k - w_k)^2 / W,
+///     m_k = w_k + c A_k (I_k - w_k)^2 / W,
 ///
 /// and given out are m_k over sum_i w_i^2 A_i / W, which is 1 for a group.
 ///

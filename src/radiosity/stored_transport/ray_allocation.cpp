@@ -10,6 +10,11 @@
 namespace hemilux {
 namespace {
 
+constexpr double least_share = 1.0 / 8, most_share = 8;
+
+/// With importance of their own.
+constexpr double least_of_usual = 1.0 / 4;
+
 /// The power of two nearest to a number, in logarithms: the whole part of log2(sqrt(2) rays), which
 /// is an exponent's bits. The allocation asks for it ten times a patch.
 std::uint32_t power_of_two(double rays) {
@@ -43,20 +48,23 @@ struct Open {
 
 std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double mean,
                                          std::span<const std::uint32_t> already,
-                                         const AllocationRange& range) {
+                                         std::span<const double> usual) {
     const double largest = given.empty() ? 0 : *std::ranges::max_element(given);
     std::vector<std::uint32_t> rays(given.size());
     if (!(largest > 0))
         return rays;
     const std::vector<double> weights = rounded(given, largest);
+    const double most = most_share * (usual.empty() ? 1 : *std::ranges::max_element(usual));
+    const auto least = [&](std::uint32_t i) {
+        return usual.empty() ? least_share : least_of_usual * usual[i];
+    };
     const auto rays_of = [&](std::uint32_t i, double per_weight) {
-        const double share =
-            std::clamp(per_weight * weights[i], range.least * mean, range.most * mean);
+        const double share = std::clamp(per_weight * weights[i], least(i) * mean, most * mean);
         return std::max(power_of_two(share), already[i]);
     };
     // The number of rays per weight that allocates what there is, by bisection of its
     // logarithm. A patch that gets as many at one end as at the other needs no more asking.
-    double low = std::log(range.least * mean), high = low + 80;
+    double low = std::log(least_share * mean), high = low + 80;
     std::vector<Open> open;
     for (std::uint32_t i = 0; i < weights.size(); ++i)
         if (weights[i] > 0)

@@ -37,10 +37,6 @@ constexpr double trust = .5, area_exponent = .42;
 /// lamp may shine through a gap that all of them have missed.
 constexpr double share_of_unlit = 1.0 / 8;
 
-/// With a target rays go where they are important, and few elsewhere: the least and the most that a
-/// patch gets, over the mean.
-constexpr AllocationRange range_with_target{1.0 / 64, 256};
-
 /// The mean that a first step with a target has at least, of one batch: the search for what light
 /// can reach takes a ray of each patch.
 constexpr double least_first = 1.5;
@@ -49,12 +45,11 @@ constexpr double least_first = 1.5;
 constexpr double least_reflectance = .1;
 
 /// Throws StateError for rays that cannot have been allocated with this mean (ray_allocation.h): a
-/// patch has little more than the most of its range, and all have more than a small part of the
-/// mean.
-void check_allocated(std::span<const std::uint32_t> rays, double mean,
-                     const AllocationRange& range) {
+/// patch has at most about eleven times what is usual for it, and all have more than a small part
+/// of the mean.
+void check_allocated(std::span<const std::uint32_t> rays, double mean, double most_usual) {
     constexpr double least_share = 1.0 / 64;
-    const double most_share = 1.5 * range.most; // the next power of two is sqrt(2) away
+    const double most_share = 12 * most_usual;
     double sum = 0, count = 0;
     for (const std::uint32_t of_patch : rays) {
         if (of_patch > std::max(1.0, most_share * mean))
@@ -109,15 +104,20 @@ void RayPlan::aim(std::span<const double> importance) {
         aim_.push_back(std::pow(each, 1 / (1 + fall)));
 }
 
-/// What the mean of a first step is times, so that important patches get as many rays as they would
-/// without a target.
-double RayPlan::share_of_first(std::span<const double> weights) const {
-    double sum = 0, important = 0;
-    for (std::size_t i = 0; i < aim_.size(); ++i) {
-        sum += weights[i];
-        important += weights[i] * std::min(aim_[i], 1.0);
-    }
-    return goal_.growing && sum > 0 ? important / sum : 1;
+/// By patch, over the mean of those that are to get more: as important as it is, but where a patch
+/// is of little importance all the same the mean. What many such patches send together is known by
+/// few rays each, but not by any number.
+std::vector<double> RayPlan::usual_rays(std::span<const double> weights) const {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < aim_.size(); ++i)
+        if (weights[i] * aim_[i] > 0) {
+            sum += aim_[i];
+            ++count;
+        }
+    std::vector<double> usual;
+    for (const double each : aim_)
+        usual.push_back(sum > 0 ? std::max(each * count / sum, 1.0) : 1);
+    return usual;
 }
 
 std::vector<std::uint32_t> RayPlan::allocate(std::span<const double> weights, double mean,
@@ -127,7 +127,15 @@ std::vector<std::uint32_t> RayPlan::allocate(std::span<const double> weights, do
     std::vector<double> aimed;
     for (std::size_t i = 0; i < weights.size(); ++i)
         aimed.push_back(weights[i] * aim_[i]);
-    return allocate_rays(aimed, mean, already, range_with_target);
+    return allocate_rays(aimed, mean, already, usual_rays(weights));
+}
+
+/// Of one kind, so that patches of the target get as many as they would if all were the target.
+double RayPlan::first_mean(double mean) const {
+    if (!has_target() || !goal_.growing)
+        return mean;
+    const double sum = std::accumulate(aim_.begin(), aim_.end(), 0.0);
+    return std::clamp(mean * sum / double(aim_.size()), std::min(least_first, mean), mean);
 }
 
 void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers) {
@@ -136,11 +144,8 @@ void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers)
         choose(known);
         now_.random = std::min(now_.random, room * before_.random);
     } else {
-        const auto first = [this](double mean, std::span<const double> weights) {
-            return std::min(mean, std::max(share_of_first(weights) * mean, least_first));
-        };
-        now_.random = first(first_.random, weights_);
-        now_.to_emitters = first(first_.to_emitters, emitter_weights_);
+        now_.random = first_mean(first_.random);
+        now_.to_emitters = first_mean(first_.to_emitters);
     }
     workers.for_chunks(2, 1, [&](std::size_t kind, std::size_t) {
         if (kind == 0)
@@ -293,9 +298,9 @@ void RayPlan::load(StateReader& state) {
         stage->rays.to_emitters.resize(weights_.size());
         state.get(std::span(stage->rays.random));
         state.get(std::span(stage->rays.to_emitters));
-        const AllocationRange range = has_target() ? range_with_target : AllocationRange();
-        check_allocated(stage->rays.random, stage->random, range);
-        check_allocated(stage->rays.to_emitters, stage->to_emitters, range);
+        const double most_usual = has_target() ? double(aim_.size()) : 1;
+        check_allocated(stage->rays.random, stage->random, most_usual);
+        check_allocated(stage->rays.to_emitters, stage->to_emitters, most_usual);
     }
     if (before_.random > now_.random || before_.to_emitters > now_.to_emitters)
         throw StateError("the plan of rays does not grow");

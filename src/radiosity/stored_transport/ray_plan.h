@@ -93,7 +93,8 @@ class RayPlan {
     [[nodiscard]] double of_neighbours(std::uint32_t patch, std::span<const double> known) const;
     void learn(std::span<const Vec3> variance);
     [[nodiscard]] bool has_target() const { return !aim_.empty(); }
-    [[nodiscard]] double share_of_first(std::span<const double> weights) const;
+    [[nodiscard]] std::vector<double> usual_rays(std::span<const double> weights) const;
+    [[nodiscard]] double first_mean(double mean) const;
     [[nodiscard]] std::vector<std::uint32_t> allocate(std::span<const double> weights, double mean,
                                                       std::span<const std::uint32_t> already) const;
     static void mix(std::span<const double> known, std::span<const double> prior,
