@@ -108,9 +108,7 @@ double seen_variance(const Mesh& mesh, const Solution& solution) {
         const Vec3& sigma = solution.standard_error[i];
         sum += mesh.patches()[i].area * glm::dot(sigma, sigma);
     }
-    const double by_patch = std::isfinite(sum) ? sum : 0;
-    const bool of_all = solution.weight.empty();
-    return seen_share(mesh, solution) * (of_all ? solution.variance.value_or(by_patch) : by_patch);
+    return seen_share(mesh, solution) * solution.variance.value_or(std::isfinite(sum) ? sum : 0);
 }
 
 /// What is not of the division, relative to the square of the patches' values as all else. One

@@ -80,6 +80,7 @@ class TargetAim {
 
   private:
     void learn(const ExchangeMatrix& factors, const Workers& workers);
+    [[nodiscard]] std::uint64_t hash() const;
 
     const Mesh& mesh_;
     const TransportSystem& system_;
