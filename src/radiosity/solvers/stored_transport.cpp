@@ -303,7 +303,8 @@ class StoredTransportSolver final : public Solver {
         light = reflected + system_.seen_emission()[i];
         direct_variance =
             area * glm::dot(rho * rho, direct_squares) / double(batches * (batches - 1));
-        spread.direct_variance += counts * direct_variance / light_.generations();
+        spread.direct_variance +=
+            (aim_.has_target() ? aim_.counts_alone(i) : 1) * direct_variance / light_.generations();
         if (direct_->samples(i) == 0)
             direct_variance = -1;
     }

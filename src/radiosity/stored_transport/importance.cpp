@@ -16,6 +16,20 @@ namespace {
 /// Patches of a wall that are off by the same.
 constexpr double err_together = 64;
 
+/// Over the patches, of the weight and its square, times the area.
+struct WeightSums {
+    double first = 0, second = 0;
+};
+
+WeightSums sums_of(const Mesh& mesh, std::span<const double> weight) {
+    WeightSums sums;
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+        sums.first += weight[i] * mesh.patches()[i].area;
+        sums.second += weight[i] * weight[i] * mesh.patches()[i].area;
+    }
+    return sums;
+}
+
 } // namespace
 
 std::vector<Vec3> importance_of(const ExchangeMatrix& factors, std::span<const double> area,
@@ -33,11 +47,7 @@ std::vector<Vec3> importance_of(const ExchangeMatrix& factors, std::span<const d
 std::vector<double> importance_of_rays(const Mesh& mesh, std::span<const Vec3> importance,
                                        std::span<const double> weight) {
     const auto patches = mesh.patches();
-    double target = 0, squares = 0;
-    for (std::size_t i = 0; i < weight.size(); ++i) {
-        target += weight[i] * patches[i].area;
-        squares += weight[i] * weight[i] * patches[i].area;
-    }
+    const WeightSums sums = sums_of(mesh, weight);
     const auto through_others = [&](std::uint32_t i) { return importance[i] - weight[i]; };
     std::vector<double> result;
     for (std::uint32_t i = 0; i < weight.size(); ++i) {
@@ -48,9 +58,9 @@ std::vector<double> importance_of_rays(const Mesh& mesh, std::span<const Vec3> i
             ++count;
         });
         const Vec3 mean = sum / count;
-        const double through = patches[i].area * glm::dot(mean, mean) / (3 * target);
+        const double through = patches[i].area * glm::dot(mean, mean) / (3 * sums.first);
         const double counts = weight[i] + err_together * through;
-        result.push_back(counts * target / squares);
+        result.push_back(counts * sums.first / sums.second);
     }
     return result;
 }
@@ -58,7 +68,10 @@ std::vector<double> importance_of_rays(const Mesh& mesh, std::span<const Vec3> i
 TargetAim::TargetAim(const Mesh& mesh, const TransportSystem& system,
                      std::span<const double> weight)
     : mesh_(mesh), system_(system), weight_(weight), learned_(weight.size()),
-      of_rays_(weight.size()) {}
+      of_rays_(weight.size()) {
+    const WeightSums sums = sums_of(mesh, weight);
+    unit_ = sums.second / sums.first;
+}
 
 /// What light cannot leave for the target, as far as is known, may yet turn out to.
 void TargetAim::learn(const ExchangeMatrix& factors, const Workers& workers) {
@@ -96,6 +109,11 @@ void TargetAim::step_done(const ExchangeMatrix& factors, std::span<const std::ui
         learn(factors, workers);
     for (std::size_t i = 0; i < part.size(); ++i)
         of_rays_[i] = needed_[i] ? learned_[i] : 0;
+}
+
+double TargetAim::counts_alone(std::uint32_t patch) const {
+    const double through = of_rays_[patch] * unit_ - weight_[patch];
+    return weight_[patch] + std::max(through, 0.0) / err_together;
 }
 
 /// Of the weights: a state belongs to its target.

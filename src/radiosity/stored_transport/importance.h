@@ -71,6 +71,9 @@ class TargetAim {
 
     /// Of the rays of each patch (importance_of_rays); 0: it needs no more.
     [[nodiscard]] std::span<const double> importance() const { return of_rays_; }
+    /// What the squared error of a patch's own light counts, times its area and reflectance
+    /// squared, where it errs for itself, as by shadow rays: m_k with c = 1.
+    [[nodiscard]] double counts_alone(std::uint32_t patch) const;
     /// Of lit patches, those that need no more rays.
     [[nodiscard]] std::size_t unneeded() const { return unneeded_; }
 
@@ -85,6 +88,7 @@ class TargetAim {
     const Mesh& mesh_;
     const TransportSystem& system_;
     std::span<const double> weight_;
+    double unit_ = 0;             ///< of of_rays_, in weights
     std::vector<double> learned_; ///< of rays, were all patches needed
     std::vector<double> of_rays_;
     std::vector<bool> needed_; ///< empty: not known yet

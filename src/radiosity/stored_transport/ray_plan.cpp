@@ -41,6 +41,10 @@ constexpr double share_of_unlit = 1.0 / 8;
 /// can reach takes a ray of each patch.
 constexpr double least_first = 1.5;
 
+/// With a target, what each of the two kinds gets of the rays that are added, at least: how much
+/// of the error comes from which kind is known of the target's own rays, and less of others'.
+constexpr double least_of_kind = 1.0 / 4;
+
 /// Black emitters count as if they reflected this: their rays tell where their light goes.
 constexpr double least_reflectance = .1;
 
@@ -189,7 +193,10 @@ void RayPlan::split(double rays, const ErrorSoFar& known) {
         due(std::max(known.variance - known.variance_from_emitters, 0.0), before_.random);
     const double to_emitters = due(known.variance_from_emitters, before_.to_emitters);
     const double share = random + to_emitters > 0 ? random / (random + to_emitters) : .5;
-    now_.random = std::clamp(share * rays, before_.random, rays - before_.to_emitters);
+    const double added = rays - before_.random - before_.to_emitters;
+    const double least = has_target() ? least_of_kind * added : 0;
+    now_.random =
+        std::clamp(share * rays, before_.random + least, rays - before_.to_emitters - least);
     now_.to_emitters = rays - now_.random;
 }
 
