@@ -37,8 +37,8 @@ double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
 
 } // namespace
 
-ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& batch, Closing closing)
-    : scale_(mesh.patches().size(), 1.0), lost_(mesh.patches().size()), closing_(closing) {
+ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& batch)
+    : scale_(mesh.patches().size(), 1.0), lost_(mesh.patches().size()) {
     for (const Patch& patch : mesh.patches())
         area_.push_back(patch.area);
     find_lost(batch);
@@ -48,7 +48,7 @@ ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& batch, Closing
 
 ExchangeMatrix::ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers)
     : scale_(batches[0].scale_.size()), area_(std::move(batches[0].area_)), rays_(area_.size()),
-      lost_(area_.size()), closing_(batches[0].closing_) {
+      lost_(area_.size()) {
     find_lost(batches);
     for (const ExchangeMatrix& batch : batches)
         for (std::size_t i = 0; i < scale_.size(); ++i)
@@ -147,34 +147,10 @@ std::vector<double> ExchangeMatrix::due(const Workers& workers) const {
     return due;
 }
 
-/// The power of what closes a row that is taken: 1, and less where a patch has few rays by its area
-/// beside those that it exchanges with.
-std::vector<double> ExchangeMatrix::trust(const Workers& workers) const {
-    constexpr double few = 1.0 / 8;
-    const std::size_t n = area_.size();
-    std::vector<double> rays_per_area(n), trust(n, 1.0);
-    for (std::size_t i = 0; i < n; ++i)
-        rays_per_area[i] = area_[i] > 0 ? rays_[i] / area_[i] : 0;
-    for_rows(workers, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            double sum = 0, of_others = 0;
-            for (const MatrixEntry& entry : rows_.row(i)) {
-                sum += entry.value;
-                of_others += entry.value * rays_per_area[entry.column];
-            }
-            if (of_others > 0)
-                trust[i] = std::min(rays_per_area[i] * sum / (few * of_others), 1.0);
-        }
-    });
-    return trust;
-}
-
 /// Rows are closed by c = due / (S r), then by r = due / (S c), and so on (Sinkhorn and Knopp
 /// 1967). As S is symmetric, r and c end as multiples of each other, and g is their geometric mean.
 void ExchangeMatrix::find_scale(std::span<const double> due, int times, const Workers& workers) {
     const std::size_t n = area_.size();
-    const std::vector<double> trust =
-        closing_ == Closing::by_rays ? this->trust(workers) : std::vector<double>(n, 1.0);
     std::vector<double> before, after(n);
     for (int k = 0; k < times; ++k) {
         for_rows(workers, [&](std::size_t begin, std::size_t end) {
@@ -183,8 +159,6 @@ void ExchangeMatrix::find_scale(std::span<const double> due, int times, const Wo
                 after[i] = 1; // where the patch itself has not looked, what others saw is all
                 if (due[i] >= 0)
                     after[i] = sum > 0 ? due[i] / sum : 0;
-                if (trust[i] < 1)
-                    after[i] = std::pow(after[i], trust[i]);
             }
         });
         before = std::exchange(scale_, after);

@@ -22,22 +22,12 @@
 
 namespace hemilux {
 
-/// How rows are closed.
-enum class Closing {
-    evenly, ///< by scaling all of them
-    /// The fewer rays by its area a patch has beside those that it exchanges with, the less its row
-    /// is scaled and the more it exchanges with itself: so what it knows badly does not change what
-    /// they know well. Where many times more rays leave some patches than others.
-    by_rays
-};
-
 class ExchangeMatrix {
   public:
     ExchangeMatrix() = default;
     /// Of the rays of one batch.
-    ExchangeMatrix(const Mesh& mesh, const RayCounts& batch, Closing closing = Closing::evenly);
-    /// Of the rays of several batches, where each patch shot as many in one as in the others;
-    /// closed as these are.
+    ExchangeMatrix(const Mesh& mesh, const RayCounts& batch);
+    /// Of the rays of several batches, where each patch shot as many in one as in the others.
     ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers);
 
     /// y_i = sum_j F_ij x_j
@@ -82,7 +72,6 @@ class ExchangeMatrix {
     void store(const RayCounts& batch);
     void close(int times, const Workers& workers);
     [[nodiscard]] std::vector<double> due(const Workers& workers) const;
-    [[nodiscard]] std::vector<double> trust(const Workers& workers) const;
     void find_scale(std::span<const double> due, int times, const Workers& workers);
     [[nodiscard]] Workers readers(const Workers& workers) const;
 
@@ -96,7 +85,6 @@ class ExchangeMatrix {
     std::vector<double> area_;
     std::vector<double> rays_;
     std::vector<EscapeFraction> lost_;
-    Closing closing_ = Closing::evenly;
 };
 
 } // namespace hemilux

@@ -57,8 +57,7 @@ class StoredTransportSolver final : public Solver {
   public:
     explicit StoredTransportSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)),
-          system_(input.mesh, emitters_, input.needs.closed,
-                  input.target.empty() ? Closing::evenly : Closing::by_rays),
+          system_(input.mesh, emitters_, input.needs.closed),
           aim_(input.mesh, system_, input.target), plan_(first_plan(input, !emitters_.empty())),
           light_(batches, input.mesh.patches().size()) {
         check_input(input);
@@ -185,7 +184,7 @@ class StoredTransportSolver final : public Solver {
     [[nodiscard]] ExchangeMatrix factors_so_far() const {
         std::vector<ExchangeMatrix> parts(batches);
         workers_.for_chunks(batches, 1, [&](std::size_t batch, std::size_t) {
-            parts[batch] = ExchangeMatrix(input_.mesh, counts_[batch], system_.closing());
+            parts[batch] = ExchangeMatrix(input_.mesh, counts_[batch]);
         });
         return {std::move(parts), workers_};
     }

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double least_share = 1.0 / 8, most_share = 8;
 
-/// With importance of their own.
+/// The least where patches are not of the same importance. With an eighth, patches with many rays
+/// inherit too much of what those with few are off by (docs/decisions.md, D57).
 constexpr double least_of_usual = 1.0 / 4;
 
 /// The power of two nearest to a number, in logarithms: the whole part of log2(sqrt(2) rays), which

@@ -32,8 +32,8 @@ Vec3 sample_variance(std::span<const Vec3> values) {
 } // namespace
 
 TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps,
-                                 bool closed, Closing closing)
-    : mesh_(mesh), closed_(closed), closing_(closing) {
+                                 bool closed)
+    : mesh_(mesh), closed_(closed) {
     const auto patches = mesh.patches();
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
         const Material& material = mesh.material(i);
@@ -58,7 +58,7 @@ ExchangeMatrix TransportSystem::solve(const Rays& rays, double error,
     std::vector<Vec3> power(batches);
     const Workers alone(1);
     workers.for_chunks(batches, 1, [&](std::size_t batch, std::size_t) {
-        parts[batch] = ExchangeMatrix(mesh_, rays.counts[batch], closing_);
+        parts[batch] = ExchangeMatrix(mesh_, rays.counts[batch]);
         direct[batch].light = straight_light(parts[batch], rays.direct, batch, alone);
         power[batch] = power_arriving(transport(parts[batch]), direct[batch].light);
     });

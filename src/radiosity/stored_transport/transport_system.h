@@ -24,8 +24,7 @@ class TransportSystem {
     /// `lamps`: patches whose light comes by shadow rays, not by rays at random. `closed`: no ray
     /// can leave the scene or meet the back of a face, as its geometry proves. The mesh outlives
     /// this.
-    TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps, bool closed,
-                    Closing closing = Closing::evenly);
+    TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps, bool closed);
 
     /// By patch.
     [[nodiscard]] std::span<const double> area() const { return area_; }
@@ -35,7 +34,6 @@ class TransportSystem {
     [[nodiscard]] std::span<const Vec3> seen_emission() const { return seen_emission_; }
     /// Whether the geometry proves that no ray is lost.
     [[nodiscard]] bool closed() const { return closed_; }
-    [[nodiscard]] Closing closing() const { return closing_; }
 
     /// Rays at random of each batch, and shadow rays with an estimate for each.
     struct Rays {
@@ -67,7 +65,6 @@ class TransportSystem {
     std::vector<Vec3> reflectance_, emission_, seen_emission_;
     double lost_at_least_ = 1; ///< of what falls on a patch, in any channel
     bool closed_;
-    Closing closing_; ///< of the factors
 };
 
 } // namespace hemilux
