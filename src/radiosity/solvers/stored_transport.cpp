@@ -140,6 +140,7 @@ class StoredTransportSolver final : public Solver {
         state.get(variance_, bounds::non_negative);
         state.get(direct_variance_, bounds::non_negative);
         aim_.load(state);
+        plan_.aim(aim_.importance());
         plan_.load(state);
         for (RayCounts& batch : counts_)
             batch.load(state);

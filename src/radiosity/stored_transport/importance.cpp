@@ -69,8 +69,10 @@ TargetAim::TargetAim(const Mesh& mesh, const TransportSystem& system,
                      std::span<const double> weight)
     : mesh_(mesh), system_(system), weight_(weight), learned_(weight.size()),
       of_rays_(weight.size()) {
-    const WeightSums sums = sums_of(mesh, weight);
-    unit_ = sums.second / sums.first;
+    if (has_target()) {
+        const WeightSums sums = sums_of(mesh, weight);
+        unit_ = sums.second / sums.first;
+    }
 }
 
 /// What light cannot leave for the target, as far as is known, may yet turn out to.

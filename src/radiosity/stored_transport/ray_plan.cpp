@@ -293,8 +293,6 @@ void RayPlan::save(StateWriter& state) const {
     for (const std::vector<double>* weights : {&weights_, &learned_weights_, &emitter_weights_})
         state.add(std::span<const double>(*weights));
     state.add(std::uint64_t{has_learned_});
-    if (has_target())
-        state.add(std::span<const double>(aim_));
 }
 
 void RayPlan::load(StateReader& state) {
@@ -320,8 +318,6 @@ void RayPlan::load(StateReader& state) {
     state.get(std::span(learned_weights_), {0, sum_of(prior_weights_)});
     state.get(std::span(emitter_weights_), {0, sum_of(prior_emitter_weights_)});
     has_learned_ = state.flag();
-    if (has_target())
-        state.get(std::span(aim_), bounds::non_negative);
 }
 
 } // namespace hemilux

@@ -51,7 +51,7 @@ class RayPlan {
     /// From now on more rays to patches by whose light a target is lit: `importance` of the
     /// variance at each (importance_of_rays), over that where all patches are the target. A step
     /// that grows begins with as many rays of important patches as there would be without a target.
-    /// 0: no more rays. Also before load(), of a plan that was saved with a target.
+    /// 0: no more rays. A plan does not save it.
     void aim(std::span<const double> importance);
 
     /// Plans more rays than before, at most `room` times as many random ones; `known` is not used
