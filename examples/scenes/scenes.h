@@ -8,6 +8,7 @@ namespace hemilux {
 [[nodiscard]] SceneWriter make_cornell_box();
 [[nodiscard]] SceneWriter make_room();
 [[nodiscard]] SceneWriter make_office();
+[[nodiscard]] SceneWriter make_building();
 [[nodiscard]] SceneWriter make_wall_before_crowd();
 [[nodiscard]] SceneWriter make_open_scene();
 [[nodiscard]] SceneWriter make_furnace_box();

@@ -27,7 +27,7 @@ const std::vector<Promise> promises{
     {"office_3576", 3576, 1, 0, true},    {"wall_before_crowd", 1462, 1, 0, true},
     {"open_scene", 856, 0, 1, true},      {"furnace_box", 150, 1, 0, false},
     {"furnace_lshape", 150, 1, 0, false}, {"cube_96", 96, 1, 0, false},
-    {"cube_6", 6, 1, 0, false},
+    {"cube_6", 6, 1, 0, false},           {"building_6", 6068, 1, 0, false},
 };
 
 ReadResult read(const std::string& name) {

@@ -16,6 +16,7 @@ namespace hemilux {
 namespace {
 
 constexpr const char* comparison_group = "Comparison";
+constexpr const char* target_group = "Target";
 
 void add_plain_option(Command command, bool& plain) {
     command
@@ -220,6 +221,37 @@ void add_point_options(Command command, SolveSettings& settings) {
         .group(output_group);
 }
 
+/// One thing that --for names.
+void add_target(const std::string& text, TargetSettings& target) {
+    const std::size_t colon = text.find(':');
+    const std::string kind = text.substr(0, colon);
+    const std::string name = colon == std::string::npos ? "" : text.substr(colon + 1);
+    std::vector<std::string>* const names = kind == "group"    ? &target.groups
+                                            : kind == "points" ? &target.points
+                                                               : nullptr;
+    if (text != "camera" && (!names || name.empty()))
+        throw UsageError("--for: expected camera, group:NAME or points:FILE, found '" + text + "'");
+    if (names ? std::ranges::find(*names, name) != names->end() : target.camera)
+        throw UsageError("--for: '" + text + "' is named twice");
+    if (names)
+        names->push_back(name);
+    else
+        target.camera = true;
+}
+
+void add_target_option(Command command, TargetSettings& target) {
+    command
+        .add_values("--for", "camera|group:NAME|points:FILE",
+                    "what is to be right to --error, all else may be rough: what the picture of "
+                    "--camera shows, a group, the patches at points as of --points; repeatable",
+                    [&target](const std::vector<std::string>& texts) {
+                        for (const std::string& text : texts)
+                            add_target(text, target);
+                    })
+        .repeatable()
+        .group(target_group);
+}
+
 void add_error_map_option(Command command, SolveSettings& settings) {
     add_parsed(
         command, "--error-map", "FILE.png",
@@ -322,6 +354,7 @@ Examples:
   hemilux solve room.obj --divide auto --error .03 -o room.png
   hemilux solve room.obj --max-edge .1 --error .01 -o room.hdr -o room.csv
   hemilux solve room.obj --points desks.txt --points-output desks.csv
+  hemilux solve house.obj --for group:kitchen --error .02 -o house.csv
   hemilux solve map.obj --emission 'Lava=8,2,.3' --reflectance '*=.6' -o map.ply
   hemilux solve room.obj --method matrix -o reference.csv
   hemilux solve room.obj --reference reference.csv --steps-log steps.csv
@@ -389,6 +422,7 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_plain_option(command, settings.plain);
     add_own_options(command, settings.options);
     add_stop_options(command, settings.stop);
+    add_target_option(command, settings.target);
     add_output_options(command, settings);
     add_point_options(command, settings);
     add_error_map_option(command, settings);

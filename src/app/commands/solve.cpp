@@ -12,6 +12,7 @@
 #include "app/running/signals.h"
 #include "app/running/step_pictures.h"
 #include "app/running/step_size.h"
+#include "app/running/target_weights.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/memory.h"
 #include "app/settings/method_options.h"
@@ -74,6 +75,8 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
     statistics.estimated_error = estimated_error(mesh, solution);
     statistics.estimated_error_uncertainty =
         statistics.estimated_error * error_spread(mesh, solution).uncertainty();
+    statistics.target = settings.target.names();
+    statistics.estimated_error_elsewhere = estimated_error_elsewhere(mesh, solution);
     statistics.energy = solution.energy;
 }
 
@@ -174,6 +177,7 @@ class SolveRun {
     SolveOptions options_;
     std::optional<Checkpoint> resumed_;
     std::vector<NamedPoint> points_;
+    std::vector<double> target_; ///< SolverInput::target
     std::optional<LoadedMesh> loaded_;
     std::optional<Prepared> prepared_;
     std::optional<SolverInput> input_;
@@ -196,6 +200,7 @@ void SolveRun::read_scene() {
     const std::span methods(&settings_.method, 1);
     check_own_options(settings_.options, methods);
     check_plain(settings_);
+    check_target(settings_);
     check_checkpoint_options(settings_);
     Workers(settings_.options.threads).start();
     resumed_ = read_resumed(settings_);
@@ -221,7 +226,8 @@ void SolveRun::build_tree() {
     statistics_.seconds_bvh = prepared_->seconds;
     log_line(settings_.verbosity, Verbosity::verbose,
              tracer_text(prepared_->made.tree, statistics_.seconds_bvh));
-    input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs});
+    target_ = target_weights(settings_, mesh(), tracer());
+    input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs, target_});
     guard_.watch(monitor_.interrupted);
 }
 

@@ -26,15 +26,18 @@ std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 /// scene is in its hash.
 Options options_of(const SolveSettings& settings) {
     const SolveOptions& o = settings.options;
-    return {{"hemilux", HEMILUX_VERSION},
-            {"--method", std::string(settings.method->name)},
-            {"--rays", exact_text(o.rays)},
-            {"--depth", std::to_string(o.depth)},
-            {"--threshold", exact_text(o.threshold)},
-            {"--guide", guide_names[static_cast<std::size_t>(o.guide)]},
-            {"--seed", std::to_string(o.seed)},
-            {"--literal", yes_or_no(o.literal)},
-            {"--keep-all", yes_or_no(o.keep_all)}};
+    Options options = {{"hemilux", HEMILUX_VERSION},
+                       {"--method", std::string(settings.method->name)},
+                       {"--rays", exact_text(o.rays)},
+                       {"--depth", std::to_string(o.depth)},
+                       {"--threshold", exact_text(o.threshold)},
+                       {"--guide", guide_names[static_cast<std::size_t>(o.guide)]},
+                       {"--seed", std::to_string(o.seed)},
+                       {"--literal", yes_or_no(o.literal)},
+                       {"--keep-all", yes_or_no(o.keep_all)}};
+    for (const std::string& name : settings.target.names())
+        options.emplace_back("--for " + name, "yes");
+    return options;
 }
 
 void check_options(const Options& found, const Options& wanted, const std::string& file) {

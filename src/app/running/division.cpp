@@ -232,6 +232,8 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
                         const Tracer& tracer, const Solution& solution, const Divided& divided,
                         const StopFlag& interrupted) {
     statistics.error_sampling = statistics.estimated_error;
+    if (!solution.weight.empty()) // all that was not asked for is too rough to tell
+        return;
     const bool is_known = divided.error && solution.steps == divided.before.steps;
     if (!is_known && (solution.steps == 0 || interrupted)) {
         if (settings.divide_auto) // the whole error is not known

@@ -55,7 +55,7 @@ using BeginSolver = std::function<std::unique_ptr<Solver>()>;
 [[nodiscard]] Solution with_slopes(Solution solution, const Divided& divided);
 
 /// Adds the error of the division to the statistics of a solution, and with --divide auto makes the
-/// estimated error that of the light as given out.
+/// estimated error that of the light as given out. With --for it stays unknown.
 void add_division_error(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
                         const Tracer& tracer, const Solution& solution, const Divided& divided,
                         const StopFlag& interrupted);

@@ -91,7 +91,7 @@ void write_output(const Output& output, const Results& results, SharedClasses& c
     case OutputKind::csv:
         return write_patch_table(output.path, results.mesh, solution.radiosity,
                                  solution.standard_error, Workers(results.statistics.threads),
-                                 solution.slope);
+                                 solution.slope, solution.weight);
     case OutputKind::json:
         return write_statistics(output.path, results.statistics);
     }
@@ -132,6 +132,8 @@ RunFiles check_files(const SolveSettings& settings) {
         files.read("reference", settings.reference);
     if (!settings.points.path.empty())
         files.read("file of --points", settings.points.path);
+    for (const std::string& path : settings.target.points)
+        files.read("file of --for", path);
     // A run may renew the checkpoint that it goes on from.
     if (!resumed.empty() && resumed != checkpoint &&
         identity_of(resumed) != identity_of(checkpoint))
@@ -141,6 +143,8 @@ RunFiles check_files(const SolveSettings& settings) {
     for (const std::string& path : {settings.reference, settings.points.path})
         if (!path.empty())
             check_input(path, InputKind::stream);
+    for (const std::string& path : settings.target.points)
+        check_input(path, InputKind::regular);
     if (is_same_stream(settings.reference, settings.points.path))
         throw UsageError("--reference and --points: '" + settings.points.path +
                          "' is a pipe, which can be read once");

@@ -49,6 +49,23 @@ struct PointSettings {
     static constexpr unsigned rays_per_gather_ray = 256;
 };
 
+/// --for: what is to be right. Nothing: all alike.
+struct TargetSettings {
+    bool camera = false;
+    std::vector<std::string> groups, points; ///< names; paths of files as of --points
+    /// As they are given; empty where nothing is.
+    [[nodiscard]] std::vector<std::string> names() const {
+        std::vector<std::string> names;
+        if (camera)
+            names.emplace_back("camera");
+        for (const std::string& group : groups)
+            names.push_back("group:" + group);
+        for (const std::string& path : points)
+            names.push_back("points:" + path);
+        return names;
+    }
+};
+
 /// --checkpoint, --every, --resume.
 struct CheckpointSettings {
     std::string path, resumed;   ///< empty: none
@@ -72,6 +89,7 @@ struct SolveSettings {
     std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
     CheckpointSettings checkpoint;
     PointSettings points;
+    TargetSettings target;
     unsigned gather = default_gather; ///< rays at a point of a surface that a picture shows
     static constexpr unsigned default_gather = 16, most_gather = 1024;
     bool gather_pictures = true; ///< else they interpolate the light of the patches

@@ -30,6 +30,12 @@ std::string uncertainty_text(const Statistics& s) {
 /// The estimated error, of what, and what the other part of it is.
 std::string errors_text(const Statistics& s) {
     std::string error = "estimated error " + percent(s.estimated_error) + uncertainty_text(s);
+    if (!s.target.empty()) {
+        error += ", of the light on ";
+        for (std::size_t i = 0; i < s.target.size(); ++i)
+            error += (i > 0 ? " and " : "") + s.target[i];
+        return error + "; elsewhere it is rough: " + percent(s.estimated_error_elsewhere);
+    }
     if (!std::isfinite(s.error_division))
         return error;
     const std::string division =

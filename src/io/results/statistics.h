@@ -42,7 +42,12 @@ struct Statistics {
     /// for; else that of the patches' means.
     double estimated_error = unknown;
     double estimated_error_uncertainty = unknown; ///< one sigma; NaN before two steps
-    double error_sampling = unknown;              ///< of the patches' means
+    /// The groups, points or camera that the estimated error is of, as they were asked for; empty:
+    /// all patches alike. Where there are any, the error of all that has no weight stands beside
+    /// it.
+    std::vector<std::string> target = {};
+    double estimated_error_elsewhere = unknown;
+    double error_sampling = unknown; ///< of the patches' means
     /// The relative error of the light on the surfaces because it changes within patches
     /// (division_error.h).
     double error_division = unknown, error_division_uncertainty = unknown;

@@ -55,8 +55,10 @@ void add_if_known(std::string& line, double value) {
 class PatchRows {
   public:
     PatchRows(const Mesh& mesh, std::span<const Vec3> radiosity,
-              std::span<const Vec3> standard_error, std::span<const Slope> slope)
-        : mesh_(mesh), radiosity_(radiosity), standard_error_(standard_error), slope_(slope) {
+              std::span<const Vec3> standard_error, std::span<const Slope> slope,
+              std::span<const double> weight)
+        : mesh_(mesh), radiosity_(radiosity), standard_error_(standard_error), slope_(slope),
+          weight_(weight) {
         for (const Material& m : mesh.scene().materials) {
             csv::append_text(material_.emplace_back(","), m.name);
             std::string& text = colours_.emplace_back();
@@ -87,6 +89,8 @@ class PatchRows {
                 add(text,
                     frame.scale * (slope_[i].x[channel] * axes.x + slope_[i].y[channel] * axes.y));
         }
+        if (!weight_.empty())
+            add(text, weight_[i]);
         text += '\n';
     }
 
@@ -94,6 +98,7 @@ class PatchRows {
     const Mesh& mesh_;
     std::span<const Vec3> radiosity_, standard_error_;
     std::span<const Slope> slope_;
+    std::span<const double> weight_;
     std::vector<std::string> material_, colours_, group_;
 };
 
@@ -101,15 +106,21 @@ class PatchRows {
 
 void write_patch_table(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
                        std::span<const Vec3> standard_error, const Workers& workers,
-                       std::span<const Slope> slope) {
+                       std::span<const Slope> slope, std::span<const double> weight) {
     const std::size_t rows = mesh.patches().size();
     assert(radiosity.size() == rows);
     assert(standard_error.empty() || standard_error.size() == rows);
-    const PatchRows table(mesh, radiosity, standard_error, slope);
+    const PatchRows table(mesh, radiosity, standard_error, slope, weight);
     AtomicFile file(path);
-    const std::string_view columns = patch_header.substr(0, patch_header.size() - 1);
-    file.write(slope.empty() ? std::string(patch_header)
-                             : std::string(columns) + std::string(gradient_header));
+    const auto columns = [](std::string_view header) {
+        return header.substr(0, header.size() - 1);
+    };
+    std::string header(columns(patch_header));
+    if (!slope.empty())
+        header += columns(gradient_header);
+    if (!weight.empty())
+        header += ",target";
+    file.write(header + "\n");
     std::array<std::string, texts_at_a_time> texts;
     for (std::size_t first = 0; first < rows; first += texts.size() * rows_per_text) {
         const auto row = [&](std::size_t text) {

@@ -31,6 +31,7 @@
 #include "radiosity/solving/solver.h"
 #include "radiosity/stored_transport/batch_light.h"
 #include "radiosity/stored_transport/direct_light.h"
+#include "radiosity/stored_transport/importance.h"
 #include "radiosity/stored_transport/linked_parts.h"
 #include "radiosity/stored_transport/ray_plan.h"
 #include "radiosity/stored_transport/row_spread.h"
@@ -57,7 +58,7 @@ class StoredTransportSolver final : public Solver {
     explicit StoredTransportSolver(const SolverInput& input)
         : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)),
           system_(input.mesh, emitters_, input.needs.closed),
-          plan_(first_plan(input, !emitters_.empty())),
+          aim_(input.mesh, system_, input.target), plan_(first_plan(input, !emitters_.empty())),
           light_(batches, input.mesh.patches().size()) {
         check_input(input);
         renew();
@@ -69,6 +70,8 @@ class StoredTransportSolver final : public Solver {
         solution_.standard_error.resize(patches.size());
         solution_.may_find_light = input.needs.bounces;
         solution_.hits.resize(patches.size());
+        solution_.weight.assign(input.target.begin(), input.target.end());
+        plan_.aim(aim_.importance());
     }
 
     bool step() override {
@@ -122,6 +125,7 @@ class StoredTransportSolver final : public Solver {
         state.add(traced_);
         state.add(variance_);
         state.add(direct_variance_);
+        aim_.save(state);
         plan_.save(state);
         for (const RayCounts& batch : counts_)
             batch.save(state);
@@ -135,11 +139,14 @@ class StoredTransportSolver final : public Solver {
         state.get(traced_);
         state.get(variance_, bounds::non_negative);
         state.get(direct_variance_, bounds::non_negative);
+        aim_.load(state);
+        plan_.aim(aim_.importance());
         plan_.load(state);
         for (RayCounts& batch : counts_)
             batch.load(state);
         direct_->load(state);
         load_solution(solution_, state);
+        solution_.unneeded = aim_.unneeded();
         if (!plan_.has_begun() && (planned_ || solution_.steps > 0))
             throw StateError("steps were done without a plan");
     }
@@ -168,7 +175,19 @@ class StoredTransportSolver final : public Solver {
         for (const std::uint32_t part : parts.of)
             lit.push_back(lit_part[part]);
         plan_.leave_out(lit);
+        if (aim_.has_target()) {
+            aim_.begin(factors_so_far(), workers_);
+            plan_.aim(aim_.importance());
+        }
         return true;
+    }
+
+    [[nodiscard]] ExchangeMatrix factors_so_far() const {
+        std::vector<ExchangeMatrix> parts(batches);
+        workers_.for_chunks(batches, 1, [&](std::size_t batch, std::size_t) {
+            parts[batch] = ExchangeMatrix(input_.mesh, counts_[batch]);
+        });
+        return {std::move(parts), workers_};
     }
 
     /// Unless an interrupted step is to be taken up.
@@ -234,8 +253,8 @@ class StoredTransportSolver final : public Solver {
             spread.direct_variance += part.direct_variance;
         }
         const RowSpread rows = spread_of_rows(all, light, workers_);
-        TransportErrors errors =
-            errors_of<batches>({input_.mesh, system_, light_, all, rows, *direct_}, workers_);
+        TransportErrors errors = errors_of<batches>(
+            {input_.mesh, system_, light_, all, rows, *direct_, input_.target}, workers_);
         direct_variance_ = spread.direct_variance + errors.unseen_by_shadow_rays;
         variance_ = std::max(errors.variance + errors.unseen, direct_variance_);
         solution_.standard_error = std::move(errors.standard_error);
@@ -248,6 +267,11 @@ class StoredTransportSolver final : public Solver {
         solution_.unlit = 0;
         for (std::uint32_t i = 0; i < n; ++i)
             solution_.unlit += !errors.lit[i] && input_.needs.power(i);
+        if (aim_.has_target()) {
+            aim_.step_done(all, errors.part, errors.lit, workers_);
+            solution_.unneeded = aim_.unneeded();
+            plan_.aim(aim_.importance());
+        }
         plan_.weigh(rows.variance, errors.lit);
         plan_.weigh_emitters(direct_variances, errors.lit);
         direct_->set_parts(errors.part);
@@ -265,7 +289,8 @@ class StoredTransportSolver final : public Solver {
         const Vec3 rho = system_.reflectance()[i], direct_mean = direct_->irradiance(i);
         const auto off = light_.deviations<batches>(i);
         Vec3 direct_squares(0.0);
-        const Vec3 weight = area * rho * rho;
+        const double counts = input_.target.empty() ? 1 : input_.target[i];
+        const Vec3 weight = counts * area * rho * rho;
         for (std::size_t s = 0; s < batches; ++s) {
             for (std::size_t t = 0; t < batches; ++t)
                 spread.products[s * batches + t] += glm::dot(weight * off[s], off[t]);
@@ -278,7 +303,8 @@ class StoredTransportSolver final : public Solver {
         light = reflected + system_.seen_emission()[i];
         direct_variance =
             area * glm::dot(rho * rho, direct_squares) / double(batches * (batches - 1));
-        spread.direct_variance += direct_variance / light_.generations();
+        spread.direct_variance +=
+            (aim_.has_target() ? aim_.counts_alone(i) : 1) * direct_variance / light_.generations();
         if (direct_->samples(i) == 0)
             direct_variance = -1;
     }
@@ -294,6 +320,7 @@ class StoredTransportSolver final : public Solver {
     Workers workers_;
     std::vector<std::uint32_t> emitters_; ///< those reached by shadow rays
     TransportSystem system_;
+    TargetAim aim_;
     RayPlan plan_;
     BatchLight light_;
     std::vector<RayCounts> counts_;
@@ -325,6 +352,7 @@ const Method stored_transport_method{
     .plain = plain::stored_transport,
     .most_plain_patches = plain::most_patches_of_stored_transport,
     .role = Role::standard,
+    .aims = true,
     .former_name = "gathering",
 };
 

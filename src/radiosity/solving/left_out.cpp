@@ -58,6 +58,10 @@ std::vector<LeftOut> left_out(const Needs& needs, const Method& method, const So
         list.push_back({"rays of " + patches(solution.unlit) + " after the first step",
                         "no path to them from an emitter was found",
                         "their rays at random, and most of their shadow rays"});
+    if (solution.unneeded > 0)
+        list.push_back({"rays of " + patches(solution.unneeded) + " after the first step",
+                        "no path from them to what --for names was found",
+                        "their rays at random and their shadow rays"});
     if (solution.rays_density_spared > 0)
         list.push_back(
             {"densities below triangles that are not divided",

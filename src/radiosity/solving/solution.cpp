@@ -19,6 +19,12 @@ double squared(const Vec3& v) { return glm::dot(v, v); }
 struct Ratio {
     double error = 0, value = 0;
     [[nodiscard]] double root() const { return value > 0 ? std::sqrt(error / value) : nan; }
+    /// A patch by its standard error, and the light that it reflects.
+    void add(const Mesh& mesh, const Solution& solution, std::uint32_t patch, double weight) {
+        const double area = weight * mesh.patches()[patch].area;
+        error += area * squared(solution.standard_error[patch]);
+        value += area * squared(solution.radiosity[patch] - mesh.material(patch).emission);
+    }
 };
 
 } // namespace
@@ -58,12 +64,8 @@ RelativeError true_error(const Mesh& mesh, std::span<const Vec3> radiosity,
 
 double estimated_error(const Mesh& mesh, const Solution& solution) {
     Ratio all;
-    for (std::uint32_t i = 0; i < solution.radiosity.size(); ++i) {
-        const double area = mesh.patches()[i].area;
-        const double error = area * squared(solution.standard_error[i]);
-        all.error += error;
-        all.value += area * squared(solution.radiosity[i] - mesh.material(i).emission);
-    }
+    for (std::uint32_t i = 0; i < solution.radiosity.size(); ++i)
+        all.add(mesh, solution, i, solution.weight.empty() ? 1 : solution.weight[i]);
     if (solution.variance)
         all.error = *solution.variance;
     all.value -= all.error; // the square of an estimate is too large by its variance
@@ -80,6 +82,15 @@ double estimated_error(const Mesh& mesh, const Solution& solution) {
     // Relative to light that is less than its own error an error has no meaning: a single ray that
     // found a patch may stand for many times what truly arrives.
     return all.error > all.value ? nan : all.root();
+}
+
+double estimated_error_elsewhere(const Mesh& mesh, const Solution& solution) {
+    Ratio rest;
+    for (std::uint32_t i = 0; i < solution.weight.size(); ++i)
+        if (!(solution.weight[i] > 0))
+            rest.add(mesh, solution, i, 1);
+    rest.value -= rest.error; // as above
+    return rest.error > rest.value ? nan : rest.root();
 }
 
 ZScores z_scores(const Mesh& mesh, const Solution& solution, std::span<const Vec3> reference,

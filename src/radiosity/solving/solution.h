@@ -40,7 +40,10 @@ struct Solution {
     std::vector<Slope> slope = {};
     std::vector<Vec3> standard_error; ///< of B [W/m2]; NaN before two steps
     std::vector<std::uint64_t> hits;  ///< energy rays that struck each patch
-    /// Sum over patches and channels of area times the variance of B, where that is known better
+    /// By patch: what its squared error and its light count in the error of the whole (target.h).
+    /// Empty: 1 everywhere.
+    std::vector<double> weight = {};
+    /// Sum over patches and channels of weight, area and variance of B, where that is known better
     /// than from standard_error, which is on the safe side where few rays arrive.
     std::optional<double> variance;
     /// The part of that sum due to errors that all light of a part of the scene shares.
@@ -64,6 +67,8 @@ struct Solution {
     /// Patches from which `stored-transport` traces no more rays at random, as none of those that
     /// were traced has found a path to them from an emitter.
     std::size_t unlit = 0;
+    /// Lit patches from which it traces no more, as no path leads from them to one that has weight.
+    std::size_t unneeded = 0;
     std::uint32_t steps = 0;
     std::uint64_t rays_energy = 0;
     std::uint64_t rays_density = 0;
@@ -90,6 +95,10 @@ struct RelativeError {
 /// known badly (ErrorSpread::reported), and from light that may not have been seen. NaN where it is
 /// unknown: before two steps, and where no light was found that exceeds its own error.
 [[nodiscard]] double estimated_error(const Mesh& mesh, const Solution& solution);
+
+/// Of the patches that have no weight, by their standard errors; NaN where there is no such patch,
+/// or no light on them that is more than its own error.
+[[nodiscard]] double estimated_error_elsewhere(const Mesh& mesh, const Solution& solution);
 
 /// Standardised differences z = (B - B*) / sigma over patches with at least `min_hits` and all
 /// channels with a positive sigma, where sigma^2 adds both standard errors.

@@ -125,6 +125,8 @@ struct SolverInput {
     const SolveOptions& options;
     Monitor& monitor;
     const Needs& needs = everything_needed; ///< of this mesh: what is not needed may be left out
+    /// By patch: Solution::weight, for methods that take one (Method::aims). Empty: 1 everywhere.
+    std::span<const double> target = {};
 };
 
 class Strategy;
@@ -173,6 +175,7 @@ struct Method {
     std::size_t most_plain_patches = std::numeric_limits<std::size_t>::max(); ///< of its page
     std::optional<Role> role = {};
     bool guided = false; ///< --guide changes it
+    bool aims = false;   ///< --for changes it
     std::span<const MethodFlag> flags = {};
     /// Options that make it the one to solve with where --method is not given.
     std::span<const std::string_view> implied_by = {};

@@ -12,6 +12,10 @@ namespace {
 
 constexpr double least_share = 1.0 / 8, most_share = 8;
 
+/// The least where patches are not of the same importance. With an eighth, patches with many rays
+/// inherit too much of what those with few are off by (docs/decisions.md, D57).
+constexpr double least_of_usual = 1.0 / 4;
+
 /// The power of two nearest to a number, in logarithms: the whole part of log2(sqrt(2) rays), which
 /// is an exponent's bits. The allocation asks for it ten times a patch.
 std::uint32_t power_of_two(double rays) {
@@ -44,15 +48,19 @@ struct Open {
 } // namespace
 
 std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double mean,
-                                         std::span<const std::uint32_t> already) {
+                                         std::span<const std::uint32_t> already,
+                                         std::span<const double> usual) {
     const double largest = given.empty() ? 0 : *std::ranges::max_element(given);
     std::vector<std::uint32_t> rays(given.size());
     if (!(largest > 0))
         return rays;
     const std::vector<double> weights = rounded(given, largest);
+    const double most = most_share * (usual.empty() ? 1 : *std::ranges::max_element(usual));
+    const auto least = [&](std::uint32_t i) {
+        return usual.empty() ? least_share : least_of_usual * usual[i];
+    };
     const auto rays_of = [&](std::uint32_t i, double per_weight) {
-        const double share =
-            std::clamp(per_weight * weights[i], least_share * mean, most_share * mean);
+        const double share = std::clamp(per_weight * weights[i], least(i) * mean, most * mean);
         return std::max(power_of_two(share), already[i]);
     };
     // The number of rays per weight that allocates what there is, by bisection of its

@@ -10,7 +10,11 @@ namespace hemilux {
 /// Rays per patch, `mean` of them on average, in proportion to the weights, but at least an eighth
 /// and at most eight times the mean, and never less than a patch has already. Powers of two, for
 /// which well-distributed points are best. A weight of 0 gets none.
+///
+/// `usual`: of each patch, over the mean, where patches are not of the same importance; empty: of
+/// the same. Then it is at least a quarter of that, and at most eight times the largest.
 [[nodiscard]] std::vector<std::uint32_t> allocate_rays(std::span<const double> weights, double mean,
-                                                       std::span<const std::uint32_t> already);
+                                                       std::span<const std::uint32_t> already,
+                                                       std::span<const double> usual = {});
 
 } // namespace hemilux

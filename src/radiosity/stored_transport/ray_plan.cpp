@@ -37,13 +37,23 @@ constexpr double trust = .5, area_exponent = .42;
 /// lamp may shine through a gap that all of them have missed.
 constexpr double share_of_unlit = 1.0 / 8;
 
+/// The mean that a first step with a target has at least, of one batch: the search for what light
+/// can reach takes a ray of each patch.
+constexpr double least_first = 1.5;
+
+/// With a target, what each of the two kinds gets of the rays that are added, at least: how much
+/// of the error comes from which kind is known of the target's own rays, and less of others'.
+constexpr double least_of_kind = 1.0 / 4;
+
 /// Black emitters count as if they reflected this: their rays tell where their light goes.
 constexpr double least_reflectance = .1;
 
 /// Throws StateError for rays that cannot have been allocated with this mean (ray_allocation.h): a
-/// patch has at most about eleven times the mean, and all have more than a small part of it.
-void check_allocated(std::span<const std::uint32_t> rays, double mean) {
-    constexpr double most_share = 12, least_share = 1.0 / 64;
+/// patch has at most about eleven times what is usual for it, and all have more than a small part
+/// of the mean.
+void check_allocated(std::span<const std::uint32_t> rays, double mean, double most_usual) {
+    constexpr double least_share = 1.0 / 64;
+    const double most_share = 12 * most_usual;
     double sum = 0, count = 0;
     for (const std::uint32_t of_patch : rays) {
         if (of_patch > std::max(1.0, most_share * mean))
@@ -92,26 +102,67 @@ void RayPlan::leave_out(const std::vector<bool>& lit) {
             weights_[i] = emitter_weights_[i] = 0;
 }
 
+void RayPlan::aim(std::span<const double> importance) {
+    aim_.clear();
+    for (const double each : importance) // as variances in weigh_emitters()
+        aim_.push_back(std::pow(each, 1 / (1 + fall)));
+}
+
+/// By patch, over the mean of those that are to get more: as important as it is, but where a patch
+/// is of little importance all the same the mean. What many such patches send together is known by
+/// few rays each, but not by any number.
+std::vector<double> RayPlan::usual_rays(std::span<const double> weights) const {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < aim_.size(); ++i)
+        if (weights[i] * aim_[i] > 0) {
+            sum += aim_[i];
+            ++count;
+        }
+    std::vector<double> usual;
+    for (const double each : aim_)
+        usual.push_back(sum > 0 ? std::max(each * count / sum, 1.0) : 1);
+    return usual;
+}
+
+std::vector<std::uint32_t> RayPlan::allocate(std::span<const double> weights, double mean,
+                                             std::span<const std::uint32_t> already) const {
+    if (!has_target())
+        return allocate_rays(weights, mean, already);
+    std::vector<double> aimed;
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        aimed.push_back(weights[i] * aim_[i]);
+    return allocate_rays(aimed, mean, already, usual_rays(weights));
+}
+
+/// Of one kind, so that patches of the target get as many as they would if all were the target.
+double RayPlan::first_mean(double mean) const {
+    if (!has_target() || !goal_.growing)
+        return mean;
+    const double sum = std::accumulate(aim_.begin(), aim_.end(), 0.0);
+    return std::clamp(mean * sum / double(aim_.size()), std::min(least_first, mean), mean);
+}
+
 void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers) {
     before_ = now_;
     if (has_begun()) {
         choose(known);
         now_.random = std::min(now_.random, room * before_.random);
     } else {
-        now_.random = first_.random;
-        now_.to_emitters = first_.to_emitters;
+        now_.random = first_mean(first_.random);
+        now_.to_emitters = first_mean(first_.to_emitters);
     }
     workers.for_chunks(2, 1, [&](std::size_t kind, std::size_t) {
         if (kind == 0)
-            now_.rays.random = allocate_rays(weights_, now_.random, before_.rays.random);
+            now_.rays.random = allocate(weights_, now_.random, before_.rays.random);
         else
             now_.rays.to_emitters =
-                allocate_rays(emitter_weights_, now_.to_emitters, before_.rays.to_emitters);
+                allocate(emitter_weights_, now_.to_emitters, before_.rays.to_emitters);
     });
     const auto of_unlit =
         std::bit_floor(static_cast<std::uint32_t>(share_of_unlit * now_.to_emitters));
     for (std::size_t i = 0; i < emitter_weights_.size(); ++i)
-        if (emitter_weights_[i] == 0 && prior_emitter_weights_[i] > 0)
+        if (emitter_weights_[i] == 0 && prior_emitter_weights_[i] > 0 &&
+            (!has_target() || aim_[i] > 0))
             now_.rays.to_emitters[i] = std::max(of_unlit, before_.rays.to_emitters[i]);
 }
 
@@ -142,7 +193,10 @@ void RayPlan::split(double rays, const ErrorSoFar& known) {
         due(std::max(known.variance - known.variance_from_emitters, 0.0), before_.random);
     const double to_emitters = due(known.variance_from_emitters, before_.to_emitters);
     const double share = random + to_emitters > 0 ? random / (random + to_emitters) : .5;
-    now_.random = std::clamp(share * rays, before_.random, rays - before_.to_emitters);
+    const double added = rays - before_.random - before_.to_emitters;
+    const double least = has_target() ? least_of_kind * added : 0;
+    now_.random =
+        std::clamp(share * rays, before_.random + least, rays - before_.to_emitters - least);
     now_.to_emitters = rays - now_.random;
 }
 
@@ -249,8 +303,9 @@ void RayPlan::load(StateReader& state) {
         stage->rays.to_emitters.resize(weights_.size());
         state.get(std::span(stage->rays.random));
         state.get(std::span(stage->rays.to_emitters));
-        check_allocated(stage->rays.random, stage->random);
-        check_allocated(stage->rays.to_emitters, stage->to_emitters);
+        const double most_usual = has_target() ? double(aim_.size()) : 1;
+        check_allocated(stage->rays.random, stage->random, most_usual);
+        check_allocated(stage->rays.to_emitters, stage->to_emitters, most_usual);
     }
     if (before_.random > now_.random || before_.to_emitters > now_.to_emitters)
         throw StateError("the plan of rays does not grow");

@@ -48,6 +48,11 @@ class RayPlan {
     void begin();
     /// From the first step on, patches that no light has reached by these rays get no more.
     void leave_out(const std::vector<bool>& lit);
+    /// From now on more rays to patches by whose light a target is lit: `importance` of the
+    /// variance at each (importance_of_rays), over that where all patches are the target. A step
+    /// that grows begins with as many rays of important patches as there would be without a target.
+    /// 0: no more rays. A plan does not save it.
+    void aim(std::span<const double> importance);
 
     /// Plans more rays than before, at most `room` times as many random ones; `known` is not used
     /// for the first step.
@@ -87,6 +92,11 @@ class RayPlan {
     };
     [[nodiscard]] double of_neighbours(std::uint32_t patch, std::span<const double> known) const;
     void learn(std::span<const Vec3> variance);
+    [[nodiscard]] bool has_target() const { return !aim_.empty(); }
+    [[nodiscard]] std::vector<double> usual_rays(std::span<const double> weights) const;
+    [[nodiscard]] double first_mean(double mean) const;
+    [[nodiscard]] std::vector<std::uint32_t> allocate(std::span<const double> weights, double mean,
+                                                      std::span<const std::uint32_t> already) const;
     static void mix(std::span<const double> known, std::span<const double> prior,
                     std::vector<double>& weights);
     void choose(const ErrorSoFar& known);
@@ -100,6 +110,7 @@ class RayPlan {
     std::vector<double> weights_, emitter_weights_; ///< importance of a ray
     std::vector<double> learned_weights_;           ///< of random rays, were all patches lit
     bool has_learned_ = false;
+    std::vector<double> aim_; ///< by patch, a factor of all weights; empty: there is no target
     std::vector<double> prior_weights_;         ///< of random rays, before anything is known
     std::vector<double> prior_emitter_weights_; ///< likewise of shadow rays
 };

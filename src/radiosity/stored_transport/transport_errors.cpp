@@ -19,6 +19,12 @@ namespace hemilux {
 namespace {
 
 bool any(const Vec3& v) { return v != Vec3(0.0); }
+
+/// What a patch's squared error counts.
+double weighted_area(const TransportResult& result, std::size_t patch) {
+    return (result.weight.empty() ? 1 : result.weight[patch]) * result.system.area()[patch];
+}
+
 /// Sums over the patches of a linked part, by channel.
 struct PartLedger {
     Vec3 used{0.0};          ///< power that ends there: absorbed, or lost
@@ -65,9 +71,10 @@ class Account {
             shadow_rays += shadow_rays_of(i);
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
             const Vec3 level = lit_[i] ? unseen_loss(i) + unseen_sights_[i] : unseen_light(i);
-            (lit_[i] ? errors.unseen : dark[parts_.of[i]]) += area_[i] * glm::dot(level, level);
+            const double counts = weighted_area(result_, i);
+            (lit_[i] ? errors.unseen : dark[parts_.of[i]]) += counts * glm::dot(level, level);
             const Vec3 loss = known_loss(i);
-            errors.of_losses += area_[i] * glm::dot(loss, loss);
+            errors.of_losses += counts * glm::dot(loss, loss);
             const Vec3 sample = one_shadow_ray(i);
             const bool missed = result_.direct.hits(i) == 0;
             const Vec3 one = glm::max(glm::max(one_ray(i), loss), missed ? sample : Vec3(0.0));
@@ -75,7 +82,7 @@ class Account {
             sigma = glm::sqrt(glm::max(sigma * sigma, one * one) + level * level);
             const double share = shadow_rays > 0 ? shadow_rays_of(i) / shadow_rays : 0;
             errors.unseen_by_shadow_rays +=
-                rule_of_three * share * area_[i] * glm::dot(sample, sample);
+                rule_of_three * share * counts * glm::dot(sample, sample);
         }
         if (!dark.empty())
             errors.unseen += std::ranges::max(dark);
@@ -237,7 +244,7 @@ TransportErrors errors_of(const TransportResult& result, const Workers& workers)
         }
     });
     for (std::size_t i = 0; i < n; ++i)
-        errors.variance += result.system.area()[i] * glm::dot(variance[i], Vec3(1.0));
+        errors.variance += weighted_area(result, i) * glm::dot(variance[i], Vec3(1.0));
     errors.standard_error = pooled_over_neighbours(result.mesh, variance);
     for (std::size_t i = 0; i < n; ++i)
         errors.standard_error[i] = glm::sqrt(raise[i] * errors.standard_error[i]);

@@ -12,6 +12,7 @@
 #include "geometry/vector.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -26,7 +27,7 @@ struct RowSpread;
 
 struct TransportErrors {
     std::vector<Vec3> standard_error; ///< of the radiosity by patch [W/m2]
-    double variance = 0;  ///< by the batches: sum over patches and channels of area times variance
+    double variance = 0;  ///< by the batches: sum over patches of weight, area and variance
     double of_losses = 0; ///< the part of it that comes from how many rays were lost, by counting
     /// The same, of what random rays and what shadow rays have not seen.
     double unseen = 0, unseen_by_shadow_rays = 0;
@@ -42,6 +43,7 @@ struct TransportResult {
     const ExchangeMatrix& factors; ///< of all batches
     const RowSpread& rows;
     const DirectLight& direct;
+    std::span<const double> weight = {}; ///< by patch, in the sums of errors; empty: 1
 };
 
 /// `Sets`: of light.

@@ -1,0 +1,115 @@
+#include "app/running/target_weights.h"
+
+#include "app/running/point_table.h"
+#include "app/settings/exit_code.h"
+#include "app/settings/names.h"
+#include "io/files/error.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/solving/target.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux {
+namespace {
+
+/// Pixels of the picture that stand for all, along its longer side; and rays from each.
+constexpr double most_pixels = 128;
+constexpr unsigned rays_of_pixel = 16;
+
+std::string methods_that_aim() {
+    std::string names;
+    for (const Method* const method : methods())
+        if (method->aims)
+            names += (names.empty() ? "" : ", ") + std::string(method->name);
+    return names;
+}
+
+std::vector<double> weights_of_camera(const SolveSettings& settings, const Mesh& mesh,
+                                      const Tracer& tracer) {
+    const auto [width, height] = settings.view.size;
+    const double share = std::min(1.0, most_pixels / std::max(width, height));
+    const auto columns = static_cast<int>(std::ceil(share * width));
+    const auto rows = static_cast<int>(std::ceil(share * height));
+    const CameraRays camera(*settings.view.camera, mesh, static_cast<double>(width) / height);
+    std::vector<SeenPoint> seen;
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < columns; ++x) {
+            const Ray ray = camera.ray((x + .5) / columns, (y + .5) / rows);
+            if (const std::optional<Seen> at = look(mesh, tracer, ray))
+                seen.push_back({ray.origin + at->hit.t * ray.direction,
+                                mesh.patches()[at->patch].normal, at->hit.facet, at->patch});
+        }
+    return weights_of_points(mesh, tracer, seen, rays_of_pixel, Workers(settings.options.threads));
+}
+
+std::vector<double> weights_of_groups(const SolveSettings& settings, const Mesh& mesh) {
+    const std::vector<std::string>& known = mesh.scene().groups;
+    std::vector<std::uint32_t> groups;
+    for (const std::string& name : settings.target.groups) {
+        const auto found = std::ranges::find(known, name);
+        if (found == known.end())
+            throw InputError(settings.scene.path, "--for: " + unknown_name("group", name, known));
+        groups.push_back(static_cast<std::uint32_t>(found - known.begin()));
+    }
+    return weights_of_groups(mesh, groups);
+}
+
+/// 1 where a point lies.
+std::vector<double> weights_of_file(const std::string& path, const Mesh& mesh,
+                                    const Tracer& tracer) {
+    std::vector<double> weights(mesh.patches().size());
+    for (const NamedPoint& point : read_points(path)) {
+        const std::uint32_t patch =
+            sensor_at(mesh, tracer, mesh.frame().to_local(point.position), point.normal).patch;
+        if (patch == none)
+            throw InputError(path, point.line,
+                             "--for: expected a point on a face that looks along its normal");
+        weights[patch] = 1;
+    }
+    return weights;
+}
+
+} // namespace
+
+void check_target(const SolveSettings& settings) {
+    const TargetSettings& target = settings.target;
+    if (target.names().empty())
+        return;
+    if (!settings.method->aims)
+        throw InputError("--for", "--method " + std::string(settings.method->name) +
+                                      " solves for all patches alike; these take a target: " +
+                                      methods_that_aim());
+    if (settings.plain)
+        throw InputError("--for", "--plain solves for all patches alike; leave one of them out");
+    if (settings.divide_auto)
+        throw InputError("--for", "--divide auto divides by the light of all patches; take "
+                                  "--divide none or a length");
+    if (target.camera && !settings.view.camera)
+        throw UsageError("--for camera needs the view of --camera, as the program chooses one by "
+                         "the light");
+}
+
+std::vector<double> target_weights(const SolveSettings& settings, const Mesh& mesh,
+                                   const Tracer& tracer) {
+    const TargetSettings& target = settings.target;
+    std::vector<double> weights;
+    if (target.camera)
+        add_weights(weights, weights_of_camera(settings, mesh, tracer));
+    if (!target.groups.empty())
+        add_weights(weights, weights_of_groups(settings, mesh));
+    for (const std::string& path : target.points)
+        add_weights(weights, weights_of_file(path, mesh, tracer));
+    const auto counts = [&](std::size_t i) {
+        return weights[i] > 0 && mesh.material(std::uint32_t(i)).reflectance != Vec3(0.0);
+    };
+    bool any = weights.empty();
+    for (std::size_t i = 0; i < weights.size() && !any; ++i)
+        any = counts(i);
+    if (!any)
+        throw InputError(settings.scene.path, "nothing that --for names reflects light, so there "
+                                              "is no error to solve it to");
+    return weights;
+}
+
+} // namespace hemilux

@@ -1,0 +1,80 @@
+#include "radiosity/solving/target.h"
+
+#include "geometry/frame.h"
+#include "radiosity/rays/receivers.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/workers.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+
+namespace hemilux {
+namespace {
+
+constexpr std::size_t points_per_chunk = 64;
+
+/// What the rays from some points meet, point by point.
+std::vector<std::uint32_t> met_from(std::span<const SeenPoint> points, std::size_t first,
+                                    const Mesh& mesh, const Tracer& tracer, unsigned rays) {
+    std::vector<Ray> all;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        Rng rng(hash_words({first + k}));
+        const Frame frame = Frame::from_normal(points[k].normal);
+        for (unsigned r = 0; r < rays; ++r) {
+            Ray ray{points[k].position, frame.to_world(sample_cosine(rng))};
+            ray.from = points[k].facet;
+            all.push_back(ray);
+        }
+    }
+    std::vector<std::uint32_t> met;
+    find_receivers(all, mesh, tracer, met);
+    return met;
+}
+
+} // namespace
+
+std::vector<double> weights_of_groups(const Mesh& mesh, std::span<const std::uint32_t> groups) {
+    std::vector<double> weights;
+    for (const Patch& patch : mesh.patches()) {
+        const std::uint32_t group = mesh.scene().facets[patch.facet].group;
+        weights.push_back(std::ranges::find(groups, group) != groups.end() ? 1 : 0);
+    }
+    return weights;
+}
+
+std::vector<double> weights_of_points(const Mesh& mesh, const Tracer& tracer,
+                                      std::span<const SeenPoint> points, unsigned rays,
+                                      const Workers& workers) {
+    std::vector<std::vector<std::uint32_t>> met((points.size() + points_per_chunk - 1) /
+                                                points_per_chunk);
+    workers.for_chunks(points.size(), points_per_chunk, [&](std::size_t begin, std::size_t end) {
+        met[begin / points_per_chunk] =
+            met_from(points.subspan(begin, end - begin), begin, mesh, tracer, rays);
+    });
+    std::vector<double> weights(mesh.patches().size());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const std::uint32_t on = points[k].patch;
+        const double reflected = mean_of_channels(mesh.material(on).reflectance);
+        weights[on] += 1;
+        for (unsigned r = 0; r < rays; ++r) {
+            const std::uint32_t patch = met[k / points_per_chunk][k % points_per_chunk * rays + r];
+            if (patch != escaped && patch != absorbed)
+                weights[patch] += reflected / rays;
+        }
+    }
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] /= mesh.patches()[i].area;
+    const double largest = weights.empty() ? 0 : std::ranges::max(weights);
+    for (double& weight : weights)
+        weight = largest > 0 ? weight / largest : 0;
+    return weights;
+}
+
+void add_weights(std::vector<double>& weights, std::span<const double> others) {
+    weights.resize(std::max(weights.size(), others.size()));
+    for (std::size_t i = 0; i < others.size(); ++i)
+        weights[i] = std::max(weights[i], others[i]);
+}
+
+} // namespace hemilux

@@ -1,0 +1,46 @@
+#pragma once
+// What a run is for, as weights of patches: a solution that is to be right on some patches need not
+// be right on all.
+//
+// The error that is asked for is sqrt(sum_i w_i A_i |B_i - B*_i|^2 / sum_i w_i A_i |B*_i - E_i|^2),
+// and where all weights are alike the usual one (true_error). What else the light of the target
+// depends on is the method's to find out (stored_transport/importance.h).
+
+#include "bvh/tracer.h"
+#include "geometry/vector.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+class Workers;
+
+/// 1 for the patches of these groups of the scene (Facet::group), else 0.
+[[nodiscard]] std::vector<double> weights_of_groups(const Mesh& mesh,
+                                                    std::span<const std::uint32_t> groups);
+
+/// Where a picture shows a surface, in the local frame.
+struct SeenPoint {
+    Vec3 position;
+    Vec3 normal; ///< unit, to the side that is seen
+    std::uint32_t facet;
+    std::uint32_t patch;
+};
+
+/// Of a picture that shows these points, one for each pixel: each counts at the patch that it lies
+/// on, and as much as that reflects at those that `rays` cosine-distributed rays from it meet, as a
+/// gathered picture reads them (Smits, Arvo and Salesin 1992 start importance at what the eye
+/// sees; the second part is theirs after one step of transport). A patch has what it gets over its
+/// area; the largest weight is 1. The same for any number of threads.
+[[nodiscard]] std::vector<double> weights_of_points(const Mesh& mesh, const Tracer& tracer,
+                                                    std::span<const SeenPoint> points,
+                                                    unsigned rays, const Workers& workers);
+
+/// Adds weights of another part of the target: a patch has the larger one. One of both may be
+/// empty.
+void add_weights(std::vector<double>& weights, std::span<const double> others);
+
+} // namespace hemilux

@@ -1,0 +1,154 @@
+#include "radiosity/stored_transport/importance.h"
+
+#include "radiosity/form_factors/exchange_matrix.h"
+#include "radiosity/linear/conjugate_gradients.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/saving/state.h"
+#include "radiosity/scene/alike_neighbours.h"
+#include "radiosity/stored_transport/transport_system.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace hemilux {
+namespace {
+
+/// Patches of a wall that are off by the same.
+constexpr double err_together = 64;
+
+/// Over the patches, of the weight and its square, times the area.
+struct WeightSums {
+    double first = 0, second = 0;
+};
+
+WeightSums sums_of(const Mesh& mesh, std::span<const double> weight) {
+    WeightSums sums;
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+        sums.first += weight[i] * mesh.patches()[i].area;
+        sums.second += weight[i] * weight[i] * mesh.patches()[i].area;
+    }
+    return sums;
+}
+
+} // namespace
+
+std::vector<Vec3> importance_of(const ExchangeMatrix& factors, std::span<const double> area,
+                                std::span<const Vec3> reflectance, std::span<const double> weight,
+                                const Workers& workers, double tolerance) {
+    std::vector<Vec3> source;
+    for (const double w : weight)
+        source.emplace_back(w);
+    std::vector<Vec3> importance(weight.size(), Vec3(0.0));
+    solve_by_gradients(factors, area, reflectance, source, importance, workers,
+                       {.tolerance = tolerance});
+    return importance;
+}
+
+std::vector<double> importance_of_rays(const Mesh& mesh, std::span<const Vec3> importance,
+                                       std::span<const double> weight) {
+    const auto patches = mesh.patches();
+    const WeightSums sums = sums_of(mesh, weight);
+    const auto through_others = [&](std::uint32_t i) { return importance[i] - weight[i]; };
+    std::vector<double> result;
+    for (std::uint32_t i = 0; i < weight.size(); ++i) {
+        Vec3 sum = through_others(i);
+        double count = 1;
+        for_alike_neighbours(mesh, i, [&](std::uint32_t j) {
+            sum += through_others(j);
+            ++count;
+        });
+        const Vec3 mean = sum / count;
+        const double through = patches[i].area * glm::dot(mean, mean) / (3 * sums.first);
+        const double counts = weight[i] + err_together * through;
+        result.push_back(counts * sums.first / sums.second);
+    }
+    return result;
+}
+
+TargetAim::TargetAim(const Mesh& mesh, const TransportSystem& system,
+                     std::span<const double> weight)
+    : mesh_(mesh), system_(system), weight_(weight), learned_(weight.size()),
+      of_rays_(weight.size()) {
+    if (has_target()) {
+        const WeightSums sums = sums_of(mesh, weight);
+        unit_ = sums.second / sums.first;
+    }
+}
+
+/// What light cannot leave for the target, as far as is known, may yet turn out to.
+void TargetAim::learn(const ExchangeMatrix& factors, const Workers& workers) {
+    constexpr double least = 1e-9;
+    learned_ = importance_of_rays(
+        mesh_, importance_of(factors, system_.area(), system_.reflectance(), weight_, workers),
+        weight_);
+    for (double& each : learned_)
+        each = std::max(each, least);
+}
+
+void TargetAim::begin(const ExchangeMatrix& factors, const Workers& workers) {
+    learn(factors, workers);
+    of_rays_ = learned_;
+}
+
+void TargetAim::step_done(const ExchangeMatrix& factors, std::span<const std::uint32_t> part,
+                          const std::vector<bool>& lit, const Workers& workers) {
+    std::vector<bool> holds_target(part.size()), needed(part.size(), true);
+    bool target_is_lit = false;
+    for (std::size_t i = 0; i < part.size(); ++i)
+        if (weight_[i] > 0) {
+            holds_target[part[i]] = true;
+            target_is_lit = target_is_lit || lit[i];
+        }
+    bool more_needed = needed_.empty();
+    unneeded_ = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        needed[i] = !target_is_lit || holds_target[part[i]];
+        unneeded_ += lit[i] && !needed[i];
+        more_needed = more_needed || (needed[i] && !needed_[i]);
+    }
+    needed_ = std::move(needed);
+    if (more_needed)
+        learn(factors, workers);
+    for (std::size_t i = 0; i < part.size(); ++i)
+        of_rays_[i] = needed_[i] ? learned_[i] : 0;
+}
+
+double TargetAim::counts_alone(std::uint32_t patch) const {
+    const double through = of_rays_[patch] * unit_ - weight_[patch];
+    return weight_[patch] + std::max(through, 0.0) / err_together;
+}
+
+/// Of the weights: a state belongs to its target.
+std::uint64_t TargetAim::hash() const {
+    std::uint64_t hash = 0;
+    for (const double each : weight_)
+        hash = hash_words({hash, std::bit_cast<std::uint64_t>(each)});
+    return hash;
+}
+
+void TargetAim::save(StateWriter& state) const {
+    if (!has_target())
+        return;
+    state.add(hash());
+    state.add(std::span<const double>(learned_));
+    state.add(std::uint64_t{!needed_.empty()});
+    for (const bool each : needed_)
+        state.add(std::uint64_t{each});
+    state.add(std::uint64_t{unneeded_});
+}
+
+void TargetAim::load(StateReader& state) {
+    if (!has_target())
+        return;
+    if (state.whole() != hash())
+        throw StateError("what the run was for is not what it is for this time");
+    state.get(std::span(learned_), bounds::non_negative);
+    needed_.resize(state.flag() ? learned_.size() : 0);
+    of_rays_ = learned_;
+    for (std::size_t i = 0; i < needed_.size(); ++i)
+        if (!(needed_[i] = state.flag()))
+            of_rays_[i] = 0;
+    unneeded_ = state.whole_up_to(learned_.size());
+}
+
+} // namespace hemilux
