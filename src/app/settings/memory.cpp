@@ -79,7 +79,11 @@ double bytes_of(const Method& method, const SolveOptions& options, double patche
             growth * patches * static_cast<double>(Hemisphere(options.depth).vertices().size());
     else if (method.work.densities)
         bytes += bytes_per_leaf * patches * static_cast<double>(leaves(options.depth));
-    if (method.work.pairs && method.work.linear_systems)
+    const bool by_hemicubes = options.factors.kind == FactorKind::hemicube;
+    if (method.work.pairs && method.work.linear_systems && by_hemicubes)
+        bytes += bytes_per_factor * patches *
+                 std::min(patches, 3.0 * std::pow(options.factors.hemicube_edge, 2));
+    else if (method.work.pairs && method.work.linear_systems)
         bytes += batches * bytes_per_factor * patches * std::min(patches, options.rays);
     else if (method.work.pairs)
         bytes += bytes_per_factor * patches * std::min(patches, options.rays);
