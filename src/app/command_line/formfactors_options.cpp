@@ -41,7 +41,9 @@ Command add_formfactors_command(Arguments& program, FormFactorSettings& settings
         .group("Method");
     add_factor_options(
         command, settings.options.factors, "Method",
-        "without chance where nothing can stand between two patches; up to 2000 patches");
+        {"rays; exact: as --exact; hemicube: by a hemicube over each patch, N pixels along its "
+         "edge, and no --rays [rays; N 64]",
+         "without chance where nothing can stand between two patches; up to 2000 patches"});
     add_random_options(command, settings.options);
     add_parsed(command, "-o,--output", "FILE",
                "i,j,F of the factors above 0 .csv, dense NumPy array .npy; repeatable",

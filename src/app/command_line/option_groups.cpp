@@ -111,17 +111,15 @@ void add_division_options(Command command, SolveOptions& options) {
 }
 
 void add_factor_options(Command command, FactorOptions& factors, const std::string& group,
-                        const std::string& exact_help) {
-    const Option kind = add_parsed(
-        command, "--factors", "rays|exact|hemicube[:N]",
-        "form factors: rays; exact: as --exact; hemicube: a hemicube over each patch, N pixels "
-        "along its edge [rays; N 64]",
-        "rays, exact, hemicube or hemicube:N with an even N from 2 to 1024", factors_from,
-        [&factors](const FactorOptions& value) { factors = value; });
+                        const FactorHelp& help) {
+    const Option kind =
+        add_parsed(command, "--factors", "rays|exact|hemicube[:N]", help.factors,
+                   "rays, exact, hemicube or hemicube:N with an even N from 2 to 1024",
+                   factors_from, [&factors](const FactorOptions& value) { factors = value; });
     kind.group(group);
     command
         .add_action(
-            "--exact", [&factors] { factors.kind = FactorKind::exact; }, exact_help)
+            "--exact", [&factors] { factors.kind = FactorKind::exact; }, help.exact)
         .group(group)
         .excludes(kind);
 }

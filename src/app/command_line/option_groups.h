@@ -14,9 +14,12 @@ Option add_scene_options(Command command, SceneSettings& scene);
 void add_memory_option(Command command, SceneSettings& scene);
 /// --depth and --threshold: how hemispheres are divided.
 void add_division_options(Command command, SolveOptions& options);
-/// --factors, and --exact as a name of `--factors exact` with a help of its own.
+struct FactorHelp {
+    std::string factors, exact;
+};
+/// --factors, and --exact, which is `--factors exact`.
 void add_factor_options(Command command, FactorOptions& factors, const std::string& group,
-                        const std::string& exact_help);
+                        const FactorHelp& help);
 /// --seed and --threads.
 void add_random_options(Command command, SolveOptions& options);
 /// --camera and --size.

@@ -282,7 +282,9 @@ void add_own_options(Command command, SolveOptions& options) {
     const std::string group = "Of one method";
     add_factor_options(
         command, options.factors, group,
-        "matrix: factors without chance where patches see each other fully; for small scenes");
+        {"matrix, progressive: form factors by rays; exact: as --exact; hemicube: by a hemicube "
+         "over each patch, N pixels along its edge [rays; N 64]",
+         "matrix: factors without chance where patches see each other fully; for small scenes"});
     for (const Method* const method : methods())
         for (const MethodFlag& flag : method->flags)
             command.add_flag(std::string(flag.name), flag.value(options), std::string(flag.help))
