@@ -69,6 +69,7 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
         static_cast<double>(solution.rays_energy + solution.rays_density) / seconds_solver;
     statistics.bytes_density = solution.bytes_density;
     statistics.bytes_transport = solution.bytes_transport;
+    statistics.links = solution.links;
     if (solution.bytes_density > 0)
         statistics.bytes_density_paper =
             statistics.patches * Hemisphere::cells_up_to(settings.options.depth);

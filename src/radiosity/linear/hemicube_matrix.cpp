@@ -37,8 +37,9 @@ class HemicubeMatrix final : public Solver {
         if (input_.monitor.interrupted)
             return false;
         input_.monitor.phase = "solving";
-        const std::vector<Vec3> incident = arriving_light(
-            factors.matrix(), input_.mesh, solution_.radiosity, input_.needs.colours, workers);
+        const std::vector<Vec3> incident =
+            arriving_light([&](auto x, auto y) { factors.matrix().multiply(x, y, workers); },
+                           input_.mesh, solution_.radiosity, input_.needs.colours);
         if (input_.monitor.interrupted)
             return false;
         check_solved(factors.matrix(), incident, workers);

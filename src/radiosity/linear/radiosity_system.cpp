@@ -1,14 +1,12 @@
 #include "radiosity/linear/radiosity_system.h"
 
-#include "radiosity/form_factors/sampled_form_factors.h"
 #include "radiosity/linear/gmres.h"
 #include "radiosity/scene/mesh.h"
 
 namespace hemilux {
 
-std::vector<Vec3> arriving_light(const SparseMatrix& f, const Mesh& mesh,
-                                 std::span<const Vec3> radiosity, bool colours,
-                                 const Workers& workers) {
+std::vector<Vec3> arriving_light(const FormFactorProduct& multiply, const Mesh& mesh,
+                                 std::span<const Vec3> radiosity, bool colours) {
     const std::size_t n = radiosity.size();
     std::vector<double> emission(n), rho(n), first(n), x(n), arriving(n);
     std::vector<Vec3> incident(n);
@@ -19,19 +17,19 @@ std::vector<Vec3> arriving_light(const SparseMatrix& f, const Mesh& mesh,
             rho[i] = mesh.material(i).reflectance[c];
             x[i] = radiosity[i][c] - emission[i];
         }
-        f.multiply(emission, first, workers);
+        multiply(emission, first);
         for (std::size_t i = 0; i < n; ++i)
             first[i] *= rho[i];
         gmres(
             [&](const std::vector<double>& b, std::vector<double>& y) {
-                f.multiply(b, y, workers);
+                multiply(b, y);
                 for (std::size_t i = 0; i < n; ++i)
                     y[i] = b[i] - rho[i] * y[i];
             },
             first, x);
         for (std::size_t i = 0; i < n; ++i)
             x[i] += emission[i];
-        f.multiply(x, arriving, workers);
+        multiply(x, arriving);
         for (std::uint32_t i = 0; i < n; ++i)
             incident[i][c] = arriving[i];
     }

@@ -145,7 +145,8 @@ class MatrixSolver final : public Solver {
                         std::vector<Vec3>& radiosity) {
         const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
         std::vector<Vec3> incident =
-            arriving_light(f, input_.mesh, radiosity, input_.needs.colours, workers_);
+            arriving_light([&](auto x, auto y) { f.multiply(x, y, workers_); }, input_.mesh,
+                           radiosity, input_.needs.colours);
         const EnergyBalance energy = close(factors, losses, f, incident);
         for (std::uint32_t i = 0; i < incident.size(); ++i) {
             const Material& material = input_.mesh.material(i);

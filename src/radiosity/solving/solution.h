@@ -62,6 +62,7 @@ struct Solution {
     /// Patches from which `stored-transport` traces no more rays at random, as none of those that
     /// were traced has found a path to them from an emitter.
     std::size_t unlit = 0;
+    std::size_t links = 0; ///< that `hierarchical` gathers over
     std::uint32_t steps = 0;
     std::uint64_t rays_energy = 0;
     std::uint64_t rays_density = 0;
