@@ -254,6 +254,7 @@ class HierarchicalSolver final : public Solver {
         }
         if (!(all_lost > 0))
             return weights;
+        const double usual = (all_lost + 1) / (all_rays + 2); // not all: a far lamp is met by none
         for (std::uint32_t i = 0; i < n; ++i) {
             double mean = 0, squares = 0;
             for (const std::vector<double>& sum : sums)
@@ -261,8 +262,7 @@ class HierarchicalSolver final : public Solver {
             for (const std::vector<double>& sum : sums)
                 squares += (sum[i] - mean) * (sum[i] - mean);
             const double of_sum = squares / (batches - 1), rays = loss_rays(i);
-            const double share =
-                (rays * batches * lost[i] + all_lost / all_rays) / (rays * batches + 1);
+            const double share = (rays * batches * lost[i] + usual) / (rays * batches + 1);
             const double of_loss = share * (1 - share) / rays;
             weights[i] = of_sum + of_loss > 0 ? of_loss / (of_sum + of_loss) : 0;
         }
