@@ -59,10 +59,29 @@ TEST_CASE("formfactors --exact needs no chance in a convex room") {
     CHECK(place.read("a.csv") == place.read("b.csv"));
 }
 
+TEST_CASE("formfactors by hemicubes has rows that sum to 1 and is asked for by its pixels") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux("formfactors room.obj --factors hemicube:20 -o a.csv");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("24 patches, 28.8 k rays"));
+    CHECK_THAT(outcome.err, Contains("the error of hemicube factors is not estimated"));
+    for (const double sum : row_sums(place.read("a.csv"), 24))
+        CHECK(sum == Approx(1).epsilon(1e-12));
+    CHECK(place.hemilux("formfactors room.obj --factors hemicube -q -o b.csv").err.empty());
+    CHECK(place.hemilux("formfactors room.obj --factors hemicube:64 --seed 5 -q -o c.csv").code ==
+          0);
+    CHECK(place.read("b.csv") == place.read("c.csv"));
+    CHECK(place.read("a.csv") != place.read("b.csv"));
+    CHECK(place.hemilux("formfactors room.obj --factors exact -o d.csv").code == 0);
+    CHECK(place.hemilux("formfactors room.obj --exact -o e.csv").code == 0);
+    CHECK(place.read("d.csv") == place.read("e.csv"));
+}
+
 TEST_CASE("formfactors gives the same bytes whatever the threads") {
     const Workplace place;
     place.write_room();
-    for (const char* exact : {"", " --exact"}) {
+    for (const char* exact : {"", " --exact", " --factors hemicube:14"}) {
         const std::string command = "formfactors room.obj --rays 64" + std::string(exact);
         CHECK(place.hemilux(command + " -t 1 -o a.npy").code == 0);
         CHECK(place.hemilux(command + " -t 3 -o b.npy").code == 0);
@@ -81,6 +100,11 @@ TEST_CASE("formfactors says what is wrong with what it is asked") {
     fails(1, "room.obj -o a.csv --rays 1000", "a power of two");
     fails(1, "room.obj -o a.csv --rays 0", "a power of two");
     fails(1, "room.obj -o a.csv -o ./a.csv", "named twice");
+    for (const char* factors : {"hemicube:0", "hemicube:15", "hemicube:5000", "hemicube:many",
+                                "hemicube:", "hemicube:-4", "exact:64", "cubes"})
+        fails(1, "room.obj -o a.csv --factors " + std::string(factors),
+              "an even N from 2 to 1024, not '" + std::string(factors) + "'");
+    fails(1, "room.obj -o a.csv --exact --factors hemicube", "--exact");
     fails(1, "room.obj -o a.npy --max-edge .015", "up to 20 000 patches");
     fails(1, "room.obj -o a.csv --exact --max-edge .05", "up to 2 000 patches");
     fails(2, "none.obj -o a.csv", "none.obj");

@@ -26,6 +26,7 @@ const std::vector<std::string> rooms{
     "radiosity/saving",
     "radiosity/form_factors",
     "radiosity/linear",
+    "radiosity/hierarchy",
     "radiosity/hemisphere",
     "radiosity/plain",
     "radiosity/shooting",

@@ -202,6 +202,29 @@ TEST_CASE("what a method alone can do is asked of that method alone") {
     CHECK_FALSE(place.has("b.json"));
 }
 
+TEST_CASE("with hemicubes the summary says that their error is not estimated") {
+    const Workplace place;
+    place.write_room();
+    for (const std::string method : {"matrix", "progressive"}) {
+        const auto outcome = place.hemilux("solve room.obj --factors hemicube:16 --method " +
+                                           method + " -o a.csv -o a.json");
+        REQUIRE(outcome.code == 0);
+        CHECK_THAT(outcome.err, Contains("estimated error unknown"));
+        CHECK_THAT(outcome.err, Contains("the error of hemicube factors is not estimated"));
+        CHECK_THAT(place.read("a.csv"), Contains(",nan,nan,nan\n"));
+        CHECK_THAT(place.read("a.json"), Contains("\"estimated_error\": null"));
+    }
+    const auto refused = [&](const std::string& arguments, const std::string& message) {
+        const auto outcome = place.hemilux("solve room.obj -o b.json " + arguments);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains(message));
+    };
+    refused("--factors hemicube", "--factors hemicube is for --method matrix or progressive");
+    refused("--method progressive --factors exact", "--exact is for --method matrix");
+    refused("--method matrix --factors hemicube:31", "an even N from 2 to 1024");
+    CHECK_FALSE(place.has("b.json"));
+}
+
 TEST_CASE("stored transport solves, or hemisphere where one of its own options is given") {
     const Workplace place;
     place.write_room();

@@ -50,6 +50,7 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
   "bytes_density": 40000,
   "bytes_density_paper": 82824,
   "bytes_transport": 0,
+  "links": 0,
   "bytes_peak": 1048576,
   "estimated_error": null,
   "estimated_error_uncertainty": null,

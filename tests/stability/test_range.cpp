@@ -69,7 +69,7 @@ Solution solved(const Model& model, const Method& method, double rays = 64) {
 
 Solution exact(const Model& model) {
     SolveOptions options;
-    options.exact = true;
+    options.factors.kind = FactorKind::exact;
     return test::solve(model, *find_method("matrix"), options, test::steps(2));
 }
 

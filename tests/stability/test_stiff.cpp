@@ -14,7 +14,7 @@ namespace {
 /// Without chance: in a convex room all factors are known.
 Solution exact_solution(const Model& model) {
     SolveOptions options;
-    options.exact = true;
+    options.factors.kind = FactorKind::exact;
     return test::solve(model, *find_method("matrix"), options, test::steps(1));
 }
 

@@ -13,6 +13,7 @@ namespace {
 constexpr const char* examples = R"(Examples:
   hemilux formfactors room.obj -o factors.csv
   hemilux formfactors room.obj --exact -o factors.npy -o factors.csv
+  hemilux formfactors room.obj --factors hemicube:256 -o factors.csv
 )";
 
 std::optional<std::string> matrix_path(const std::string& path) {
@@ -38,10 +39,11 @@ Command add_formfactors_command(Arguments& program, FormFactorSettings& settings
                "a power of two from 1 to 1048576", power_of_two,
                [&settings](std::uint32_t rays) { settings.rays = rays; })
         .group("Method");
-    command
-        .add_flag("--exact", settings.options.exact,
-                  "without chance where nothing can stand between two patches; up to 2000 patches")
-        .group("Method");
+    add_factor_options(
+        command, settings.options.factors, "Method",
+        {"rays; exact: as --exact; hemicube: by a hemicube over each patch, N pixels along its "
+         "edge, and no --rays [rays; N 64]",
+         "without chance where nothing can stand between two patches; up to 2000 patches"});
     add_random_options(command, settings.options);
     add_parsed(command, "-o,--output", "FILE",
                "i,j,F of the factors above 0 .csv, dense NumPy array .npy; repeatable",

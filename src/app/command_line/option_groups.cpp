@@ -4,6 +4,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/memory.h"
 #include "app/settings/names.h"
+#include "radiosity/form_factors/hemicube.h"
 
 #include <algorithm>
 #include <limits>
@@ -28,6 +29,22 @@ std::optional<Camera> camera_from(const std::string& text) {
     } catch (const std::invalid_argument&) {
         return std::nullopt;
     }
+}
+
+/// rays, exact, hemicube or hemicube:N.
+std::optional<FactorOptions> factors_from(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const auto found = std::ranges::find(factor_names, text.substr(0, colon));
+    if (found == factor_names.end())
+        return std::nullopt;
+    FactorOptions factors{.kind = static_cast<FactorKind>(found - factor_names.begin())};
+    if (colon == std::string::npos)
+        return factors;
+    const std::optional<std::uint64_t> edge = parse_whole(text.substr(colon + 1));
+    if (factors.kind != FactorKind::hemicube || !edge || !Hemicube::is_edge(*edge))
+        return std::nullopt;
+    factors.hemicube_edge = static_cast<std::uint32_t>(*edge);
+    return factors;
 }
 
 void choose_sides(SceneSettings& scene, Sides sides) {
@@ -91,6 +108,20 @@ void add_division_options(Command command, SolveOptions& options) {
     add_number(command, "--threshold", "X", options.threshold, non_negative,
                "divide a triangle whose mean density is above X [0]")
         .group("Method");
+}
+
+void add_factor_options(Command command, FactorOptions& factors, const std::string& group,
+                        const FactorHelp& help) {
+    const Option kind =
+        add_parsed(command, "--factors", "rays|exact|hemicube[:N]", help.factors,
+                   "rays, exact, hemicube or hemicube:N with an even N from 2 to 1024",
+                   factors_from, [&factors](const FactorOptions& value) { factors = value; });
+    kind.group(group);
+    command
+        .add_action(
+            "--exact", [&factors] { factors.kind = FactorKind::exact; }, help.exact)
+        .group(group)
+        .excludes(kind);
 }
 
 void add_random_options(Command command, SolveOptions& options) {

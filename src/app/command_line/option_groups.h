@@ -14,6 +14,12 @@ Option add_scene_options(Command command, SceneSettings& scene);
 void add_memory_option(Command command, SceneSettings& scene);
 /// Adds --depth and --threshold: how hemispheres are divided.
 void add_division_options(Command command, SolveOptions& options);
+struct FactorHelp {
+    std::string factors, exact;
+};
+/// Adds --factors, and --exact, which is `--factors exact`.
+void add_factor_options(Command command, FactorOptions& factors, const std::string& group,
+                        const FactorHelp& help);
 /// Adds --seed and --threads.
 void add_random_options(Command command, SolveOptions& options);
 /// Adds --camera and --size.

@@ -309,12 +309,18 @@ void add_budget_options(Command command, CompareSettings& settings) {
         .group(group);
 }
 
-/// --exact of `matrix` and so on.
+/// --factors of `matrix` and so on.
 void add_own_options(Command command, SolveOptions& options) {
+    const std::string group = "Of one method";
+    add_factor_options(
+        command, options.factors, group,
+        {"matrix, progressive: form factors by rays; exact: as --exact; hemicube: by a hemicube "
+         "over each patch, N pixels along its edge [rays; N 64]",
+         "matrix: factors without chance where patches see each other fully; for small scenes"});
     for (const Method* const method : methods())
         for (const MethodFlag& flag : method->flags)
             command.add_flag(std::string(flag.name), flag.value(options), std::string(flag.help))
-                .group("Of one method");
+                .group(group);
 }
 
 void add_reference_options(Command command, CompareSettings& settings) {

@@ -40,6 +40,8 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
     const Method& method = method_of(Role::reference);
     SolveOptions options = settings.options;
     options.literal = false;
+    if (options.factors.kind == FactorKind::hemicube)
+        options.factors = {};
     options.seed = hash_words({options.seed, 0x7265666572656e63u});
     const SolverInput input{mesh, tracer, options, monitor, needs};
     Progress progress(monitor, share_of(stop, method), wants_bar(settings));
@@ -139,6 +141,8 @@ int run_comparison(const CompareSettings& settings, std::vector<std::uint32_t>& 
     std::vector<const Method*> methods;
     for (const MethodVariant& variant : settings.variants)
         methods.push_back(variant.method);
+    if (settings.options.factors.kind == FactorKind::hemicube) // the reference has none
+        check_own_options(settings.options, methods);
     if (settings.reference.empty())
         methods.push_back(&method_of(Role::reference));
     check_own_options(settings.options, methods);

@@ -1,6 +1,7 @@
 #include "app/commands/formfactors.h"
 
 #include "app/loading/load_geometry.h"
+#include "app/running/run_notes.h"
 #include "app/running/signals.h"
 #include "app/running/write_report.h"
 #include "app/settings/exit_code.h"
@@ -12,6 +13,7 @@
 #include "io/results/factor_table.h"
 #include "io/results/npy.h"
 #include "radiosity/form_factors/exact_form_factors.h"
+#include "radiosity/form_factors/hemicube.h"
 #include "radiosity/form_factors/matrix_quality.h"
 
 #include <algorithm>
@@ -43,25 +45,52 @@ void log_quality(Verbosity verbosity, const MatrixQuality& quality) {
                    quality.reciprocity_mean, quality.reciprocity_most));
 }
 
-/// The matrix, or nothing where the user interrupted.
-std::optional<SparseMatrix> compute(const FormFactorSettings& settings, const Mesh& mesh,
-                                    SampledFormFactors& samples, const Workers& workers,
+struct Factors {
+    SparseMatrix matrix;
+    MatrixQuality quality;
+};
+
+void log_rays(Verbosity verbosity, std::size_t patches, std::uint64_t rays) {
+    log_line(verbosity, Verbosity::normal,
+             counted(patches, "patch", "patches") + ", " + short_count(static_cast<double>(rays)) +
+                 " rays");
+}
+
+/// Nothing where the user interrupted.
+std::optional<Factors> by_hemicubes(const FormFactorSettings& settings, const Mesh& mesh,
+                                    const Tracer& tracer, const Workers& workers,
                                     Monitor& monitor) {
+    const Hemicube cube(settings.options.factors.hemicube_edge);
+    const HemicubeFormFactors factors(cube, mesh, tracer, workers, monitor);
+    if (monitor.interrupted)
+        return std::nullopt;
+    log_rays(settings.verbosity, mesh.patches().size(), factors.rays());
+    log_line(settings.verbosity, Verbosity::normal, hemicube_note);
+    return Factors{factors.matrix(), assess_matrix(factors.matrix(), mesh, factors.lost())};
+}
+
+/// Nothing where the user interrupted.
+std::optional<Factors> by_rays(const FormFactorSettings& settings, const Mesh& mesh,
+                               const Tracer& tracer, const Workers& workers, Monitor& monitor) {
+    SampledFormFactors samples(mesh, tracer, {}, settings.options.seed);
     const std::uint64_t traced = samples.trace_up_to(settings.rays, workers, monitor);
     if (monitor.interrupted)
         return std::nullopt;
-    log_line(settings.verbosity, Verbosity::normal,
-             counted(mesh.patches().size(), "patch", "patches") + ", " +
-                 short_count(static_cast<double>(traced)) + " rays");
-    if (!settings.options.exact)
-        return samples.matrix();
+    log_rays(settings.verbosity, mesh.patches().size(), traced);
+    if (settings.options.factors.kind == FactorKind::rays) {
+        SparseMatrix matrix = samples.matrix();
+        const MatrixQuality quality = assess_matrix(matrix, mesh, samples);
+        return Factors{std::move(matrix), quality};
+    }
     const ExactFormFactors exact(mesh, workers, monitor);
     if (monitor.interrupted)
         return std::nullopt;
     log_line(settings.verbosity, Verbosity::normal,
              counted(exact.exact_pairs(), "pair", "pairs") + " by contour integration, " +
                  grouped(exact.sampled_pairs()) + " by rays");
-    return exact.matrix(samples);
+    SparseMatrix matrix = exact.matrix(samples);
+    const MatrixQuality quality = assess_matrix(matrix, mesh, samples);
+    return Factors{std::move(matrix), quality};
 }
 
 } // namespace
@@ -75,20 +104,21 @@ int formfactors(const FormFactorSettings& settings) {
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted);
     const Workers workers(settings.options.threads);
-    SampledFormFactors samples(mesh, bvh, {}, settings.options.seed);
-    const auto matrix = compute(settings, mesh, samples, workers, monitor);
-    if (!matrix) {
+    const auto factors = settings.options.factors.kind == FactorKind::hemicube
+                             ? by_hemicubes(settings, mesh, bvh, workers, monitor)
+                             : by_rays(settings, mesh, bvh, workers, monitor);
+    if (!factors) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();
     }
-    log_quality(settings.verbosity, assess_matrix(*matrix, mesh, samples));
+    log_quality(settings.verbosity, factors->quality);
     WriteReport report;
     for (const std::string& path : settings.outputs)
         report.attempt(path, [&] {
             if (is_dense(path))
-                write_npy(path, *matrix, &monitor.interrupted);
+                write_npy(path, factors->matrix, &monitor.interrupted);
             else
-                write_factor_table(path, *matrix, &monitor.interrupted);
+                write_factor_table(path, factors->matrix, &monitor.interrupted);
         });
     report.log(settings.verbosity);
     return report.exit_code(monitor.interrupted);

@@ -7,7 +7,7 @@ namespace hemilux {
 
 struct FormFactorSettings {
     SceneSettings scene;
-    SolveOptions options;      ///< seed, threads, exact
+    SolveOptions options;      ///< seed, threads, factors
     std::uint32_t rays = 4096; ///< per patch; a power of two
     std::vector<std::string> outputs;
     Verbosity verbosity = Verbosity::normal;

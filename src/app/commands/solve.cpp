@@ -47,7 +47,8 @@ StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
     }
     if (!stop.steps && !stop.seconds && !stop.error)
         stop.steps = StopRule::default_steps;
-    if (!stop.steps && !stop.seconds && !stop.rays)
+    const bool by_hemicubes = settings.options.factors.kind == FactorKind::hemicube;
+    if (!stop.steps && !stop.seconds && !stop.rays && !by_hemicubes) // which end by themselves
         stop.rays = default_max_rays(patches);
     return stop;
 }
@@ -69,6 +70,7 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
         static_cast<double>(solution.rays_energy + solution.rays_density) / seconds_solver;
     statistics.bytes_density = solution.bytes_density;
     statistics.bytes_transport = solution.bytes_transport;
+    statistics.links = solution.links;
     if (solution.bytes_density > 0)
         statistics.bytes_density_paper =
             statistics.patches * Hemisphere::cells_up_to(settings.options.depth);
@@ -101,6 +103,14 @@ double seconds_of_stages(const Statistics& s) {
     const auto known = [](double seconds) { return std::isfinite(seconds) ? seconds : 0; };
     return known(s.seconds_read) + known(s.seconds_bvh) + s.seconds_divide +
            known(s.seconds_density) + known(s.seconds_solve) + known(s.seconds_division_error);
+}
+
+/// Hemicubes look from all patches whatever the scene needs, and there is one pass.
+Method method_as_run(const SolveSettings& settings) {
+    Method method = *settings.method;
+    if (settings.options.factors.kind == FactorKind::hemicube)
+        method.work.pairs = method.work.passes = false;
+    return method;
 }
 
 /// The last words; returns the exit code. `seconds_before`: of the run that this one goes on with.
@@ -281,7 +291,7 @@ void SolveRun::take_steps() {
     }
     Checkpointer checkpointer(settings_, mesh(), *solver_);
     StepPictures step_pictures(settings_, mesh(), tracer(), monitor_.interrupted);
-    notes_.emplace(stop);
+    notes_.emplace(stop, settings_.options.factors.kind);
     const auto after_step = [&](const StepRecord& record, const Solution& solution) {
         notes_->step_done(record);
         rows_.push_back({std::string(settings_.method->name), 0, record, std::nullopt});
@@ -320,10 +330,13 @@ void SolveRun::estimate_errors() {
     if (divided_.linear)
         solution_ = &linear_.emplace(with_slopes(*solution_, divided_));
     fill(statistics_, settings_, mesh(), *solution_, seconds_solver_);
-    add_division_error(statistics_, settings_, mesh(), tracer(), *solution_, divided_,
-                       monitor_.interrupted);
+    if (settings_.options.factors.kind == FactorKind::hemicube) // its error would be taken for it
+        statistics_.error_sampling = statistics_.estimated_error;
+    else
+        add_division_error(statistics_, settings_, mesh(), tracer(), *solution_, divided_,
+                           monitor_.interrupted);
     if (!settings_.plain) // which leaves out nothing
-        statistics_.left_out = left_out(prepared_->needs, *settings_.method, *solution_);
+        statistics_.left_out = left_out(prepared_->needs, method_as_run(settings_), *solution_);
     statistics_.bytes_peak = peak_memory_bytes();
 }
 

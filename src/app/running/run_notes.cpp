@@ -28,6 +28,8 @@ void RunNotes::step_done(const StepRecord& record) {
 
 std::vector<std::string> RunNotes::texts(double error, bool interrupted) const {
     std::vector<std::string> notes;
+    if (factors_ == FactorKind::hemicube)
+        return {hemicube_note};
     const bool known = std::isfinite(error);
     if (!known && steps_ > 1)
         notes.push_back(

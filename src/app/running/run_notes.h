@@ -9,9 +9,15 @@
 
 namespace hemilux {
 
+/// Of factors by hemicubes.
+inline constexpr const char* hemicube_note =
+    "the error of hemicube factors is not estimated: what lies between pixels, and that the centre "
+    "stands for the patch, is not random; another N, or --factors rays, shows how large it is";
+
 class RunNotes {
   public:
-    explicit RunNotes(const StopRule& stop) : stop_(stop) {}
+    explicit RunNotes(const StopRule& stop, FactorKind factors = FactorKind::rays)
+        : stop_(stop), factors_(factors) {}
 
     void step_done(const StepRecord& record);
 
@@ -21,6 +27,7 @@ class RunNotes {
 
   private:
     StopRule stop_;
+    FactorKind factors_;
     double least_ = 0;                  ///< estimated error so far; 0: none is known
     double before_jump_ = 0, jump_ = 0; ///< the largest jump: from, to
     std::uint64_t rays_ = 0;

@@ -27,6 +27,8 @@ constexpr double bytes_per_solution = 225;
 /// Of a matrix of form factors: index, value, and the counts that they come from, with room to
 /// grow.
 constexpr double bytes_per_factor = 32;
+/// Of `hierarchical`: a link with its factors in all batches, and about so many of a patch.
+constexpr double bytes_per_link = 100, links_per_patch = 150;
 /// Independent matrices that `matrix` keeps to know its error.
 constexpr double batches = 8;
 /// What `stored-transport` may use for its rays where --memory says nothing: a scene of a million
@@ -79,8 +81,14 @@ double bytes_of(const Method& method, const SolveOptions& options, double patche
             growth * patches * static_cast<double>(Hemisphere(options.depth).vertices().size());
     else if (method.work.densities)
         bytes += bytes_per_leaf * patches * static_cast<double>(leaves(options.depth));
-    if (method.work.pairs && method.work.linear_systems)
+    const bool by_hemicubes = options.factors.kind == FactorKind::hemicube;
+    if (method.work.pairs && method.work.linear_systems && by_hemicubes)
+        bytes += bytes_per_factor * patches *
+                 std::min(patches, 3.0 * std::pow(options.factors.hemicube_edge, 2));
+    else if (method.work.pairs && method.work.linear_systems)
         bytes += batches * bytes_per_factor * patches * std::min(patches, options.rays);
+    else if (method.work.linear_systems)
+        bytes += bytes_per_link * patches * std::min(patches, links_per_patch);
     else if (method.work.pairs)
         bytes += bytes_per_factor * patches * std::min(patches, options.rays);
     return bytes + bytes_of_volleys;

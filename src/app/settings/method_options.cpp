@@ -17,7 +17,33 @@ std::string methods_with_a_page() {
     return names;
 }
 
+namespace {
+
+std::string name_of(FactorKind kind) {
+    return kind == FactorKind::exact
+               ? "--exact"
+               : "--factors " + std::string(factor_names.at(static_cast<std::size_t>(kind)));
+}
+
+bool takes(const Method& method, FactorKind kind) {
+    return std::ranges::find(method.factors, kind) != method.factors.end();
+}
+
+void check_factors(FactorKind kind, std::span<const Method* const> chosen) {
+    if (kind == FactorKind::rays ||
+        std::ranges::any_of(chosen, [kind](const Method* method) { return takes(*method, kind); }))
+        return;
+    std::string names;
+    for (const Method* const method : methods())
+        if (takes(*method, kind))
+            names += (names.empty() ? "" : " or ") + std::string(method->name);
+    throw UsageError(name_of(kind) + " is for --method " + names);
+}
+
+} // namespace
+
 void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen) {
+    check_factors(options.factors.kind, chosen);
     SolveOptions given = options;
     for (const Method* const method : methods())
         for (const MethodFlag& flag : method->flags)
@@ -48,7 +74,7 @@ void check_plain(const SolveSettings& settings, std::size_t patches) {
 }
 
 void check_exact(const SolveOptions& options, std::size_t patches) {
-    if (options.exact && patches > most_patches_for_exact_factors)
+    if (options.factors.kind == FactorKind::exact && patches > most_patches_for_exact_factors)
         throw UsageError("--exact is for up to " + grouped(most_patches_for_exact_factors) +
                          " patches, not " + grouped(patches) +
                          "; leave it out and take more --rays");

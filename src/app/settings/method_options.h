@@ -8,7 +8,8 @@
 
 namespace hemilux {
 
-/// Throws UsageError where an option was given whose method (Method::flags) is not among these.
+/// Throws UsageError where an option was given whose method (Method::flags, Method::factors) is not
+/// among these.
 void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen);
 
 /// The names of the methods that --plain may choose, with commas between them.
@@ -20,7 +21,7 @@ void check_plain(const SolveSettings& settings);
 /// Throws UsageError if the page takes fewer patches than the scene has.
 void check_plain(const SolveSettings& settings, std::size_t patches);
 
-/// Throws UsageError if --exact would take too long.
+/// Throws UsageError if exact factors would take too long.
 void check_exact(const SolveOptions& options, std::size_t patches);
 
 } // namespace hemilux

@@ -32,6 +32,9 @@ struct SceneSettings {
 /// The values of --guide, in the order of Guide.
 inline constexpr std::array<const char*, 3> guide_names = {"density", "visible", "learned"};
 
+/// As --factors names them, in the order of FactorKind.
+inline constexpr std::array<const char*, 3> factor_names = {"rays", "exact", "hemicube"};
+
 /// How much is said on stderr.
 enum class Verbosity { quiet, normal, verbose };
 

@@ -38,6 +38,7 @@ Json to_object(const Statistics& s) {
                    {"bytes_density", s.bytes_density},
                    {"bytes_density_paper", s.bytes_density_paper},
                    {"bytes_transport", s.bytes_transport},
+                   {"links", s.links},
                    {"bytes_peak", s.bytes_peak},
                    {"estimated_error", s.estimated_error},
                    {"estimated_error_uncertainty", s.estimated_error_uncertainty},

@@ -36,6 +36,7 @@ struct Statistics {
     double rays_per_second = unknown;
     std::uint64_t bytes_density = 0;       ///< measured
     std::uint64_t bytes_transport = 0;     ///< of the rays that `stored-transport` keeps
+    std::uint64_t links = 0;               ///< that `hierarchical` gathers over
     std::uint64_t bytes_density_paper = 0; ///< 4 (4^(n+1) - 1) / 3 per patch (paper section 6)
     std::uint64_t bytes_peak = 0;          ///< of the process
     /// The relative error of the light on the surfaces where patches are divided as the light asks

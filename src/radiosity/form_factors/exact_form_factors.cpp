@@ -155,6 +155,13 @@ SparseMatrix ExactFormFactors::matrix(const SampledFormFactors& samples) const {
     return result;
 }
 
+std::optional<double> ExactFormFactors::factor(std::uint32_t i, std::uint32_t j) const {
+    const auto found = std::ranges::lower_bound(rows_[i], j, {}, &Entry::patch);
+    if (found == rows_[i].end() || found->patch != j)
+        return 0.0;
+    return found->factor >= 0 ? std::optional(found->factor) : std::nullopt;
+}
+
 std::uint64_t ExactFormFactors::exact_pairs() const {
     std::uint64_t count = 0;
     for (const std::vector<Entry>& row : rows_)

@@ -6,6 +6,7 @@
 #include "radiosity/form_factors/sampled_form_factors.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,8 @@ class ExactFormFactors {
     /// must have been made without emitters.
     [[nodiscard]] SparseMatrix matrix(const SampledFormFactors& sampled) const;
 
+    /// F_ij where it is known without sampling; 0 where the two do not face each other.
+    [[nodiscard]] std::optional<double> factor(std::uint32_t i, std::uint32_t j) const;
     /// Pairs that face each other.
     [[nodiscard]] std::uint64_t exact_pairs() const;
     [[nodiscard]] std::uint64_t sampled_pairs() const;

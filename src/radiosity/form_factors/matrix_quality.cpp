@@ -19,7 +19,7 @@ double entry(const SparseMatrix& matrix, std::uint32_t i, std::uint32_t j) {
                : 0.0;
 }
 
-void assess_rows(const SparseMatrix& matrix, const SampledFormFactors& samples,
+void assess_rows(const SparseMatrix& matrix, std::span<const EscapeFraction> lost,
                  MatrixQuality& quality) {
     const auto rows = static_cast<std::uint32_t>(matrix.rows());
     for (std::uint32_t i = 0; i < rows; ++i) {
@@ -33,11 +33,11 @@ void assess_rows(const SparseMatrix& matrix, const SampledFormFactors& samples,
             quality.most = std::max(quality.most, f);
             ++quality.entries;
         }
-        const EscapeFraction lost = samples.lost(i);
-        const double closure = std::abs(sum - 1 + lost.escaped + lost.absorbed);
+        const double elsewhere = lost[i].escaped + lost[i].absorbed;
+        const double closure = std::abs(sum - 1 + elsewhere);
         quality.closure_mean += closure / rows;
         quality.closure_most = std::max(quality.closure_most, closure);
-        quality.lost_mean += (lost.escaped + lost.absorbed) / rows;
+        quality.lost_mean += elsewhere / rows;
     }
 }
 
@@ -61,11 +61,19 @@ void assess_pairs(const SparseMatrix& matrix, const Mesh& mesh, MatrixQuality& q
 } // namespace
 
 MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
-                            const SampledFormFactors& samples) {
+                            std::span<const EscapeFraction> lost) {
     MatrixQuality quality;
-    assess_rows(matrix, samples, quality);
+    assess_rows(matrix, lost, quality);
     assess_pairs(matrix, mesh, quality);
     return quality;
+}
+
+MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
+                            const SampledFormFactors& samples) {
+    std::vector<EscapeFraction> lost;
+    for (std::uint32_t i = 0; i < matrix.rows(); ++i)
+        lost.push_back(samples.lost(i));
+    return assess_matrix(matrix, mesh, lost);
 }
 
 } // namespace hemilux

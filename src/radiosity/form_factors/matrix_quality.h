@@ -4,6 +4,7 @@
 #include "radiosity/form_factors/sampled_form_factors.h"
 
 #include <cstdint>
+#include <span>
 
 namespace hemilux {
 
@@ -19,6 +20,9 @@ struct MatrixQuality {
     double reciprocity_most = 0;
 };
 
+/// `lost`: by row.
+[[nodiscard]] MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
+                                          std::span<const EscapeFraction> lost);
 /// `samples` tell how much of each row is lost.
 [[nodiscard]] MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
                                           const SampledFormFactors& samples);

@@ -65,6 +65,8 @@ ProgressivePass::ProgressivePass(const SolverInput& input)
     const ReflectingArea reflecting(input.mesh);
     reflecting_area_ = reflecting.area;
     mean_reflectance_ = reflecting.mean_reflectance;
+    if (input.options.factors.kind == FactorKind::hemicube)
+        hemicube_.emplace(input.options.factors.hemicube_edge);
 }
 
 void ProgressivePass::begin(double rays_per_light) {
@@ -118,11 +120,9 @@ void ProgressivePass::shoot(std::uint32_t step) {
     }
     check_finite(input_.mesh, shooter, shot, "the radiosity to be shot", step);
     rank(shooter);
-    factors_.look(shooter, shot, rays_per_light_,
-                  hash_words({input_.options.seed, shots_, shooter}));
+    const ShotShares shares = look(shooter, shot);
     if (input_.monitor.interrupted)
         return;
-    const ShotShares shares = balance_.settle(factors_.sum(), look_for_losses(shooter, shot));
     receive(shot, shot_variance, shares);
     note_power_variance(shot, shares);
     const Vec3 power = shot * input_.mesh.patches()[shooter].area;
@@ -130,6 +130,23 @@ void ProgressivePass::shoot(std::uint32_t step) {
     absorbed_ += shares.lost.absorbed * power;
     by_chance_ += shares.by_chance * power;
     ++shots_;
+}
+
+/// For the factors of the shot. Void if interrupted.
+ShotShares ProgressivePass::look(std::uint32_t shooter, const Vec3& shot) {
+    if (hemicube_) {
+        const EscapeFraction lost = factors_.look(*hemicube_, shooter);
+        if (input_.monitor.interrupted)
+            return {};
+        points_ += hemicube_->pixels();
+        rays_ += hemicube_->pixels();
+        return {.lost = lost};
+    }
+    factors_.look(shooter, shot, rays_per_light_,
+                  hash_words({input_.options.seed, shots_, shooter}));
+    if (input_.monitor.interrupted)
+        return {};
+    return balance_.settle(factors_.sum(), look_for_losses(shooter, shot));
 }
 
 /// In the order of the patches, whatever thread has looked.

@@ -17,6 +17,7 @@
 #include "radiosity/solving/solver.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -50,6 +51,7 @@ class ProgressivePass {
         Vec3 gain{0.0}; ///< what all reflections add to light where this is, relative to it
     };
 
+    [[nodiscard]] ShotShares look(std::uint32_t shooter, const Vec3& shot);
     void rank(std::uint32_t patch);
     [[nodiscard]] double unshot_power(std::uint32_t patch) const;
     [[nodiscard]] ShotRays look_for_losses(std::uint32_t shooter, const Vec3& shot);
@@ -73,6 +75,7 @@ class ProgressivePass {
     CompensatedSum<Vec3> absorbed_, escaped_, by_chance_; ///< power, local units
     ShotBalance balance_;
     ShotFactors factors_;
+    std::optional<Hemicube> hemicube_; ///< that shows the factors, where they are not sampled
     double rays_per_light_ = 0;
     std::vector<std::uint64_t> hits_;
     std::uint64_t points_ = 0, rays_ = 0, shots_ = 0;

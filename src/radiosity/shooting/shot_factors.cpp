@@ -43,6 +43,21 @@ void ShotFactors::look(std::uint32_t shooter, const Vec3& shot, double rays_per_
         });
 }
 
+EscapeFraction ShotFactors::look(const Hemicube& cube, std::uint32_t shooter) {
+    shooter_ = shooter;
+    const HemicubeRow row = hemicube_row(cube, input_.mesh, input_.tracer, shooter, workers_,
+                                         input_.monitor.interrupted);
+    input_.monitor.rays += cube.pixels();
+    const auto patches = input_.mesh.patches();
+    std::ranges::fill(sights_, Sight{});
+    for (const HemicubeRow::Entry& entry : row.entries) {
+        Sight& sight = sights_[entry.patch];
+        sight.factor = entry.factor * patches[shooter].area / patches[entry.patch].area;
+        sight.hits = entry.pixels;
+    }
+    return row.lost;
+}
+
 /// No factor to the shooter is more than the ratio of the areas, as no more arrives than is shot;
 /// and all factors of a patch sum up to 1 at most. Where the guesses sum up to S > 1, because
 /// patches stand in front of each other, a receiver sees the shooter with a probability of about 1

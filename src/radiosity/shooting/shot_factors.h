@@ -1,7 +1,9 @@
 #pragma once
 // The form factors of all patches to one that shoots, for progressive radiosity: found anew for
-// each shot, the more exactly the more light they carry (pair_factor.h).
+// each shot, the more exactly the more light they carry (pair_factor.h), or by the shooter's
+// hemicube (hemicube.h).
 
+#include "radiosity/form_factors/hemicube.h"
 #include "radiosity/form_factors/pair_factor.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/shooting/shot_balance.h"
@@ -30,6 +32,11 @@ class ShotFactors {
     /// rays of a receiver that the shot gives as much light as the mean patch reflects; the others
     /// get them in proportion. Void if interrupted.
     void look(std::uint32_t shooter, const Vec3& shot, double rays_per_light, std::uint64_t seed);
+
+    /// The same as the shooter's hemicube shows it (Cohen, Chen, Wallace and Greenberg 1988):
+    /// F_is = F_si A_s / A_i, for all patches, with the pixels that show i as hits. Returns what of
+    /// the shot is lost; the rest arrives. Void if interrupted.
+    EscapeFraction look(const Hemicube& cube, std::uint32_t shooter);
 
     /// The factors of the last shot, by receiver.
     [[nodiscard]] std::span<const Sight> sights() const { return sights_; }

@@ -4,12 +4,14 @@
 // the system B = E + rho F B solved to a residual of 1e-12. Several independent batches of the
 // factors give several solutions; their mean is the result, their spread its standard error. Each
 // step doubles the rays; the run ends when the estimated error is small enough (.002 unless asked
-// otherwise). With --exact, factors between patches that see each other fully are without chance,
-// by contour integration (exact_form_factors.h); rays are used for the other pairs alone.
+// otherwise). With --factors exact, factors between patches that see each other fully are without
+// chance, by contour integration (exact_form_factors.h); rays are used for the other pairs alone.
+// With --factors hemicube a hemicube over each patch gives its factors (hemicube.h); that is one
+// step, and its error is not estimated (linear/hemicube_matrix.h).
 //
 // Consistent: a solution depends on its factors in a non-linear way, so its bias falls as one over
 // the rays, well below its error. Good up to some ten thousand patches: memory is 8 bytes per pair
-// of patches that see each other and batch. --exact is for small scenes: its time grows as
+// of patches that see each other and batch. Exact factors are for small scenes: their time grows as
 // patches^2 faces.
 
 #include "geometry/compensated_sum.h"
@@ -17,7 +19,8 @@
 #include "radiosity/form_factors/sampled_form_factors.h"
 #include "radiosity/linear/emitter_losses.h"
 #include "radiosity/linear/energy_ledger.h"
-#include "radiosity/linear/gmres.h"
+#include "radiosity/linear/hemicube_matrix.h"
+#include "radiosity/linear/radiosity_system.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/alike_neighbours.h"
@@ -61,7 +64,7 @@ class MatrixSolver final : public Solver {
         check_input(input);
         const auto patches = input.mesh.patches();
         std::vector<std::uint32_t> emitters;
-        if (input.options.exact)
+        if (input.options.factors.kind == FactorKind::exact)
             exact_.emplace(input.mesh, workers_, input.monitor);
         else
             emitters = few_emitters(input.mesh);
@@ -137,43 +140,15 @@ class MatrixSolver final : public Solver {
         return std::bit_ceil(static_cast<std::uint32_t>(std::ceil(asked)));
     }
 
-    /// B = E + R, R = rho F (E + R), for one batch, channel by channel, from the last solution
-    /// on. The residual is that of reflected light: beside a tiny lamp's emission all of it could
-    /// be too small to count.
+    /// For one batch, from its last solution on.
     EnergyBalance solve(const SampledFormFactors& factors, std::span<const EmitterLoss> losses,
                         std::vector<Vec3>& radiosity) {
         const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
-        const std::size_t n = radiosity.size();
-        std::vector<double> emission(n), rho(n), first(n), x(n), arriving(n);
-        std::vector<Vec3> incident(n);
-        const int channels = input_.needs.colours ? 3 : 1;
-        for (int c = 0; c < channels; ++c) {
-            for (std::uint32_t i = 0; i < n; ++i) {
-                emission[i] = input_.mesh.material(i).emission[c];
-                rho[i] = input_.mesh.material(i).reflectance[c];
-                x[i] = radiosity[i][c] - emission[i];
-            }
-            f.multiply(emission, first, workers_);
-            for (std::size_t i = 0; i < n; ++i)
-                first[i] *= rho[i];
-            gmres(
-                [&](const std::vector<double>& b, std::vector<double>& y) {
-                    f.multiply(b, y, workers_);
-                    for (std::size_t i = 0; i < n; ++i)
-                        y[i] = b[i] - rho[i] * y[i];
-                },
-                first, x);
-            for (std::size_t i = 0; i < n; ++i)
-                x[i] += emission[i];
-            f.multiply(x, arriving, workers_);
-            for (std::uint32_t i = 0; i < n; ++i)
-                incident[i][c] = arriving[i];
-        }
-        if (channels == 1)
-            for (Vec3& all : incident)
-                all = Vec3(all.r);
+        std::vector<Vec3> incident =
+            arriving_light([&](auto x, auto y) { f.multiply(x, y, workers_); }, input_.mesh,
+                           radiosity, input_.needs.colours);
         const EnergyBalance energy = close(factors, losses, f, incident);
-        for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t i = 0; i < incident.size(); ++i) {
             const Material& material = input_.mesh.material(i);
             radiosity[i] = material.emission + material.reflectance * incident[i];
         }
@@ -305,14 +280,12 @@ class MatrixSolver final : public Solver {
 };
 
 std::unique_ptr<Solver> make_matrix(const SolverInput& input) {
+    if (input.options.factors.kind == FactorKind::hemicube)
+        return make_hemicube_matrix(input);
     return std::make_unique<MatrixSolver>(input);
 }
 
-constexpr std::array<MethodFlag, 1> flags{{
-    {"--exact",
-     "matrix: factors without chance where patches see each other fully; for small scenes",
-     [](SolveOptions& options) -> bool& { return options.exact; }},
-}};
+constexpr std::array factors{FactorKind::exact, FactorKind::hemicube};
 
 } // namespace
 
@@ -327,7 +300,7 @@ const Method matrix_method{
     .strategy = nullptr,
     .work = {.pairs = true, .linear_systems = true, .passes = true},
     .role = Role::reference,
-    .flags = flags,
+    .factors = factors,
 };
 
 } // namespace hemilux

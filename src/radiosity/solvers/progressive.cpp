@@ -17,6 +17,10 @@
 // worth. --one-shot makes a step of each shot and ends with the first pass, --ambient shows what is
 // still unshot, --overshoot shoots ahead (ProgressiveOptions in solver.h).
 //
+// With --factors hemicube the shooter's hemicube shows the form factors to all others at once, one
+// ray a pixel, as Cohen et al. (1988) have them: F_is = F_si A_s / A_i. Another pass would see the
+// same, so the run ends with the first; its error is not random, and is not estimated (hemicube.h).
+//
 // The standard error holds that of each patch, pooled with its neighbours that are like it, that of
 // all light together spread evenly, and what is still unshot (progressive_pass.h).
 //
@@ -35,6 +39,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <vector>
@@ -54,7 +59,8 @@ constexpr double samples_of_error = 9;
 class ProgressiveSolver final : public Solver {
   public:
     explicit ProgressiveSolver(const SolverInput& input)
-        : input_(checked(input)), options_(input.options.progressive), pass_(input) {
+        : input_(checked(input)), options_(input.options.progressive),
+          by_hemicubes_(input.options.factors.kind == FactorKind::hemicube), pass_(input) {
         solution_.may_find_light = input.needs.bounces;
         solution_.error_batches = samples_of_error;
         pass_.begin(rays_per_light());
@@ -94,7 +100,8 @@ class ProgressiveSolver final : public Solver {
         const bool sure = (is_lit(mean_.radiosity) || !solution_.may_find_light) &&
                           std::ranges::all_of(mean_.variance, is_zero) &&
                           std::ranges::all_of(mean_.missing, is_zero);
-        return (passes_ > 0 && (options_.one_shot || sure)) || is_zero(pass_.emitted());
+        return (passes_ > 0 && (options_.one_shot || sure || by_hemicubes_)) ||
+               is_zero(pass_.emitted());
     }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
@@ -142,6 +149,11 @@ class ProgressiveSolver final : public Solver {
     /// Each patch errs for itself, but for the part that is shared: that makes one part of the
     /// error (error_spread.h), however many patches there are.
     void note_errors(const Estimate& estimate) {
+        if (by_hemicubes_) {
+            constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+            solution_.standard_error.assign(estimate.radiosity.size(), Vec3(unknown));
+            return;
+        }
         solution_.standard_error = pooled_over_neighbours(input_.mesh, estimate.variance);
         std::vector<double> of_patch;
         double missing = 0;
@@ -164,6 +176,7 @@ class ProgressiveSolver final : public Solver {
 
     SolverInput input_;
     ProgressiveOptions options_;
+    bool by_hemicubes_; ///< another pass would see the same
     ProgressivePass pass_;
     // All passes before; solution_ is that after the last step.
     Estimate mean_;
@@ -185,6 +198,8 @@ constexpr std::array<MethodFlag, 3> flags{{
      [](SolveOptions& options) -> bool& { return options.progressive.overshoot; }},
 }};
 
+constexpr std::array factors{FactorKind::hemicube};
+
 } // namespace
 
 extern const Method progressive_method;
@@ -198,6 +213,7 @@ const Method progressive_method{
     .strategy = nullptr,
     .work = {.pairs = true},
     .flags = flags,
+    .factors = factors,
 };
 
 } // namespace hemilux

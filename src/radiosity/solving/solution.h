@@ -69,6 +69,7 @@ struct Solution {
     std::size_t unlit = 0;
     /// Lit patches from which it traces no more, as no path leads from them to one that has weight.
     std::size_t unneeded = 0;
+    std::size_t links = 0; ///< that `hierarchical` gathers over
     std::uint32_t steps = 0;
     std::uint64_t rays_energy = 0;
     std::uint64_t rays_density = 0;

@@ -32,6 +32,20 @@ struct ProgressiveOptions {
     bool overshoot = false;
 };
 
+/// How form factors are found.
+enum class FactorKind {
+    rays,    ///< by chance
+    exact,   ///< without chance where patches see each other fully; for small scenes
+    hemicube ///< by the pixels of a hemicube over each patch (Cohen and Greenberg 1985)
+};
+
+struct FactorOptions {
+    FactorKind kind = FactorKind::rays;
+    /// Pixels along an edge of the hemicube's top, even, 2 to 1024. Twice as many: rays and time
+    /// are fourfold; what is smaller than a pixel is missed or counts too much.
+    std::uint32_t hemicube_edge = 64;
+};
+
 /// What `hemisphere` is guided by.
 enum class Guide {
     density, ///< surfaces along a ray, as in the paper
@@ -48,8 +62,7 @@ struct SolveOptions {
     double threshold = 0;
     /// The rules as printed in the paper; biased (docs/decisions.md, D1, D2, D10).
     bool literal = false;
-    /// `matrix`: factors without chance where patches see each other fully. For small scenes.
-    bool exact = false;
+    FactorOptions factors = {}; ///< of those methods that take them (Method::factors)
     ProgressiveOptions progressive = {};
     Guide guide = Guide::density; ///< `hemisphere`; not with `literal`
     std::uint64_t seed = 1;
@@ -146,7 +159,7 @@ struct MethodWork {
 
 /// An option that one method takes and no other: a flag.
 struct MethodFlag {
-    std::string_view name;         ///< as `--exact`
+    std::string_view name;         ///< as `--one-shot`
     std::string_view help;         ///< one line for --help
     bool& (*value)(SolveOptions&); ///< what it sets
 };
@@ -177,6 +190,8 @@ struct Method {
     bool guided = false; ///< --guide changes it
     bool aims = false;   ///< --for changes it
     std::span<const MethodFlag> flags = {};
+    /// Kinds of form factors that it may solve with besides its own.
+    std::span<const FactorKind> factors = {};
     /// Options that make it the one to solve with where --method is not given.
     std::span<const std::string_view> implied_by = {};
     std::string_view former_name = {}; ///< what --method takes too; empty where there is none

@@ -1,0 +1,74 @@
+#pragma once
+// Links of hierarchical radiosity (Hanrahan, Salzman and Aupperle 1991): a node gathers light from
+// another as if this were one patch. Each pair of patches that may see each other is linked once,
+// at some level.
+
+#include "bvh/tracer.h"
+#include "radiosity/hierarchy/patch_tree.h"
+#include "radiosity/sampling/workers.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+struct Monitor;
+
+/// Of nodes: `to` gathers from `from`.
+struct Link {
+    std::uint32_t to, from;
+};
+
+/// About F_to,from if nothing stands between; rather too large than too small.
+[[nodiscard]] double rough_factor(const PatchTree::Node& to, const PatchTree::Node& from);
+
+enum class Refinement { not_needed, done, too_many_links };
+
+class Links {
+  public:
+    /// Between all roots that may see each other. What is referred to outlives this.
+    Links(const Mesh& mesh, const PatchTree& tree);
+
+    /// Divides the links by which more than `most_power` may be reflected, the larger node of each:
+    /// the oracle BF with areas. `light` and `reflectance` are by patch, means of channels; areas
+    /// are local. None is divided where there would be too many links.
+    Refinement refine(std::span<const double> light, std::span<const double> reflectance,
+                      double most_power);
+
+    [[nodiscard]] std::span<const Link> all() const { return links_; }
+    /// Whether all are between patches, so that nodes stand for nothing.
+    [[nodiscard]] bool are_whole() const;
+
+  private:
+    [[nodiscard]] bool may_see(const Link& link) const;
+
+    const Mesh& mesh_;
+    const PatchTree& tree_;
+    std::vector<Link> links_;
+};
+
+/// The factors of all links in one batch.
+class LinkFactors {
+  public:
+    /// F_to,from by `points[l]` random pairs of a point of the one and a patch of the other: the
+    /// closed form of point and polygon times the visibility along a ray. Unbiased for the mean
+    /// over the node. Void if the monitor was interrupted.
+    LinkFactors(const Mesh& mesh, const Tracer& tracer, const PatchTree& tree, const Links& links,
+                std::span<const std::uint32_t> points, std::uint64_t seed, const Workers& workers,
+                Monitor& monitor);
+
+    /// By link.
+    [[nodiscard]] std::span<const double> factors() const { return factors_; }
+    /// y_i = sum_j F_ij x_j: pull, gather, push.
+    void multiply(std::span<const double> x, std::span<double> y) const;
+    [[nodiscard]] std::uint64_t rays() const { return rays_; }
+
+  private:
+    const PatchTree& tree_;
+    const Links& links_;
+    std::vector<double> factors_;
+    std::uint64_t rays_ = 0;
+};
+
+} // namespace hemilux

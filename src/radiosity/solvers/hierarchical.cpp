@@ -1,0 +1,485 @@
+// Hierarchical radiosity (reference 6 of the paper; Hanrahan, Salzman and Aupperle 1991).
+//
+// Light goes over links between nodes of trees over the patches (hierarchy/patch_tree.h): between
+// large ones where little of it is exchanged, down to patches where it is much. A link is divided
+// while the power that the receiver may reflect by it, B F A rho, is more than a share of all
+// that is reflected; the next step allows a sixteenth of that. The factor of a link is the mean of
+// a few pairs of points of its nodes, each with a ray for the visibility (hierarchy/links.h). Light
+// is pulled up the trees, gathered over the links and pushed down again, until the solution with
+// these factors is found (by GMRES in place of repeated gathering).
+//
+// Parameter: --rays, of a patch in the first step; each step has twice as many, shared among the
+// links by the light they may carry, one at least for each, and as many that look for losses where
+// the scene is open. What a row lacks to 1 less these, or has too much, is what the patch exchanges
+// with itself: that closes rows and is right on average, where to scale noisy rows would not be.
+//
+// Eight independent batches of factors give eight solutions; their mean is the result, their spread
+// is one part of its standard error. The other is by how much the last refinement has changed the
+// light, as each about halves what nodes err by: so it is known from the second step on, and rather
+// too large. Links none of whose rays arrived count with the rule of three.
+//
+// Good where many patches exchange little light each: large walls in small patches. Bad where each
+// facet is a plane of its own, as on curved surfaces: all roots are linked with all. Consistent,
+// not unbiased: a solution depends on its factors in a non-linear way, and nodes have one light.
+
+#include "geometry/compensated_sum.h"
+#include "radiosity/form_factors/ray_counts.h"
+#include "radiosity/hierarchy/links.h"
+#include "radiosity/linear/energy_ledger.h"
+#include "radiosity/linear/radiosity_system.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/alike_neighbours.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/solving/check_input.h"
+#include "radiosity/solving/error_spread.h"
+#include "radiosity/solving/solve_error.h"
+#include "radiosity/solving/solver.h"
+#include "radiosity/solving/unseen_sights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace hemilux {
+namespace {
+
+constexpr std::size_t batches = 8;
+/// What a link may bring of all power that is reflected, or emitted as long as that is not known:
+/// in the first step, and how much less in the next.
+constexpr double first_tolerance = 1e-3, finer_tolerance = 1.0 / 16;
+/// Rays per patch at which the run ends whatever the error.
+constexpr double most_rays = 1u << 20;
+/// Of a link in one batch.
+constexpr std::uint32_t most_points = 8192;
+/// Black patches count as if they reflected this: they account for what they absorb.
+constexpr double least_reflectance = .1;
+
+class HierarchicalSolver final : public Solver {
+  public:
+    explicit HierarchicalSolver(const SolverInput& input)
+        : input_((check_input(input), input)), workers_(input.options.threads), tree_(input.mesh),
+          links_(input.mesh, tree_), rays_(std::clamp(input.options.rays, 1.0, most_rays)) {
+        const auto n = static_cast<std::uint32_t>(input.mesh.patches().size());
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const Material& material = input.mesh.material(i);
+            solution_.radiosity.push_back(material.emission);
+            area_.push_back(input.mesh.patches()[i].area);
+            emission_.push_back(material.emission);
+            reflectance_.push_back(material.reflectance);
+            mean_reflectance_.push_back(
+                std::max(mean_of_channels(material.reflectance), least_reflectance));
+        }
+        solution_.standard_error.assign(n, Vec3(unknown));
+        solution_.error_batches = batches;
+        solution_.may_find_light = input.needs.bounces;
+        solution_.hits.resize(n);
+        emitted_ = mean_of_channels(emitted_power(input.mesh));
+        solution_.energy.emitted =
+            input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
+        solution_.energy.unshot = solution_.energy.emitted;
+        guesses_.assign(batches, solution_.radiosity);
+        for (std::uint64_t r = 0; r < batches; ++r)
+            losses_.emplace_back(input.mesh, input.tracer,
+                                 hash_words({input.options.seed, r, 0x6c6f7373u}));
+    }
+
+    bool step() override {
+        SearchForWayOut search(input_);
+        if (emitted_ > 0)
+            refinement_ =
+                links_.refine(means(solution_.radiosity), mean_reflectance_, tolerance_ * power());
+        for (;;) {
+            const std::optional<bool> done = try_step(search);
+            if (done)
+                return *done;
+            rays_ *= 2;
+            search.go_on(traced_, rays_ < most_rays);
+        }
+    }
+
+    [[nodiscard]] bool finished() const override {
+        return rays_ > most_rays || (solution_.steps > 0 && !input_.needs.bounces);
+    }
+    [[nodiscard]] const Solution& solution() const override { return solution_; }
+
+  private:
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    /// Mean of channels, local units.
+    [[nodiscard]] double reflected() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < area_.size(); ++i)
+            sum += area_[i] * mean_of_channels(solution_.radiosity[i] - emission_[i]);
+        return sum;
+    }
+    /// By which links are judged: hardly any of what a sun emits may arrive anywhere.
+    [[nodiscard]] double power() const {
+        const double arrived = reflected();
+        return arrived > 0 ? std::min(arrived, emitted_) : emitted_;
+    }
+
+    [[nodiscard]] static std::vector<double> means(std::span<const Vec3> light) {
+        std::vector<double> result;
+        for (const Vec3& value : light)
+            result.push_back(mean_of_channels(value));
+        return result;
+    }
+
+    /// Whether it was not interrupted; nothing where the rays have seen no way out for the light.
+    [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
+        input_.monitor.phase = "rays";
+        if (!look_for_losses())
+            return false;
+        std::vector<LinkFactors> factors;
+        const std::vector<std::uint32_t> points = share_rays();
+        for (std::uint64_t r = 0; r < batches; ++r) {
+            factors.emplace_back(
+                input_.mesh, input_.tracer, tree_, links_, points,
+                hash_words({input_.options.seed, solution_.steps, std::uint64_t(rays_), r}),
+                workers_, input_.monitor);
+            input_.monitor.step_share = .5 + double(r + 1) / (2 * batches);
+            if (input_.monitor.interrupted)
+                return false;
+            traced_ += factors.back().rays();
+        }
+        input_.monitor.phase = "solving";
+        const std::vector<std::vector<double>> sums = row_sums(factors);
+        const std::vector<double> weights = weights_of_sums(sums);
+        CompensatedSum<Vec3> absorbed, escaped;
+        bool drained = true;
+        for (std::size_t r = 0; r < batches; ++r) {
+            const EnergyBalance energy = solve(factors[r], r, sums[r], weights);
+            absorbed += energy.absorbed;
+            escaped += energy.escaped;
+            drained = drained && search.is_drained(energy);
+            if (input_.monitor.interrupted)
+                return false;
+        }
+        if (!drained) {
+            guesses_.assign(batches, solution_.radiosity);
+            return std::nullopt;
+        }
+        for (const std::vector<Vec3>& guess : guesses_)
+            check_finite(input_.mesh, guess, "the radiosity", solution_.steps + 1);
+        combine(points, factors);
+        const double to_world = input_.mesh.frame().area_to_world(1.0) / double(batches);
+        solution_.energy.absorbed = to_world * absorbed.value();
+        solution_.energy.escaped = to_world * escaped.value();
+        solution_.energy.unshot = Vec3(0.0);
+        solution_.rays_energy = traced_;
+        solution_.links = links_.all().size();
+        ++solution_.steps;
+        rays_ *= 2;
+        tolerance_ *= finer_tolerance;
+        return true;
+    }
+
+    /// Points of each link in a batch: in proportion to what they bring to the error, as far as
+    /// that is known. Nodes that no light has reached yet count with a share of the mean.
+    [[nodiscard]] std::vector<std::uint32_t> share_rays() const {
+        const auto links = links_.all();
+        std::vector<double> light(tree_.nodes().size()), rho(tree_.nodes().size()), weight;
+        tree_.pull(means(solution_.radiosity), light);
+        tree_.pull(mean_reflectance_, rho);
+        double area = 0, sum = 0;
+        for (const double of_patch : area_)
+            area += of_patch;
+        const double usual = emitted_ / area;
+        for (const Link& link : links) {
+            const PatchTree::Node &to = tree_[link.to], &from = tree_[link.from];
+            weight.push_back(rough_factor(to, from) * (light[link.from] + usual) * rho[link.to] *
+                             std::sqrt(to.area));
+            sum += weight.back();
+        }
+        const double all = rays_ * double(area_.size()) / double(batches);
+        std::vector<std::uint32_t> points;
+        for (const double of_link : weight) {
+            const double wanted = sum > 0 ? std::ceil(all * of_link / sum) : 1;
+            points.push_back(
+                static_cast<std::uint32_t>(std::clamp(wanted, 1.0, double(most_points))));
+        }
+        return points;
+    }
+
+    /// False if interrupted.
+    [[nodiscard]] bool look_for_losses() {
+        if (input_.needs.closed)
+            return true;
+        std::vector<std::uint32_t> rays;
+        for (const Vec3& emission : emission_) {
+            const double wanted = std::ceil((emission == Vec3(0.0) ? 1 : 8) * rays_ / batches);
+            rays.push_back(static_cast<std::uint32_t>(std::max(wanted, 1.0)));
+        }
+        traced_ += RayCounts::trace_up_to(losses_, rays, workers_, input_.monitor, .5);
+        return !input_.monitor.interrupted;
+    }
+
+    [[nodiscard]] double loss_rays(std::uint32_t i) const { return losses_[0].rays(i); }
+
+    [[nodiscard]] EscapeFraction lost_by_rays(std::size_t batch, std::uint32_t i) const {
+        const double rays = loss_rays(i);
+        if (!(rays > 0))
+            return {};
+        return {losses_[batch].escaped(i) / rays, losses_[batch].absorbed(i) / rays};
+    }
+
+    /// By batch and patch.
+    [[nodiscard]] std::vector<std::vector<double>>
+    row_sums(std::span<const LinkFactors> factors) const {
+        const std::vector<double> ones(area_.size(), 1.0);
+        std::vector<std::vector<double>> sums(batches, ones);
+        for (std::size_t r = 0; r < batches; ++r)
+            factors[r].multiply(ones, sums[r]);
+        return sums;
+    }
+
+    /// What a row sums to is known twice: by its factors and as what its rays did not lose. The
+    /// share of the former in the mean of both, by patch, each weighted by the inverse of its
+    /// variance over all batches. 0 where no ray of any patch was lost.
+    [[nodiscard]] std::vector<double>
+    weights_of_sums(std::span<const std::vector<double>> sums) const {
+        const std::size_t n = area_.size();
+        std::vector<double> lost(n), weights(n);
+        double all_lost = 0, all_rays = 0;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            for (std::size_t r = 0; r < batches; ++r) {
+                const EscapeFraction by_rays = lost_by_rays(r, i);
+                lost[i] += (by_rays.escaped + by_rays.absorbed) / batches;
+            }
+            all_lost += lost[i] * loss_rays(i);
+            all_rays += loss_rays(i);
+        }
+        if (!(all_lost > 0))
+            return weights;
+        const double usual = (all_lost + 1) / (all_rays + 2); // not all: a far lamp is met by none
+        for (std::uint32_t i = 0; i < n; ++i) {
+            double mean = 0, squares = 0;
+            for (const std::vector<double>& sum : sums)
+                mean += sum[i] / batches;
+            for (const std::vector<double>& sum : sums)
+                squares += (sum[i] - mean) * (sum[i] - mean);
+            const double of_sum = squares / (batches - 1), rays = loss_rays(i);
+            const double share = (rays * batches * lost[i] + usual) / (rays * batches + 1);
+            const double of_loss = share * (1 - share) / rays;
+            weights[i] = of_sum + of_loss > 0 ? of_loss / (of_sum + of_loss) : 0;
+        }
+        return weights;
+    }
+
+    /// One batch, from its last solution on.
+    EnergyBalance solve(const LinkFactors& factors, std::size_t batch, std::span<const double> sums,
+                        std::span<const double> weights) {
+        const std::size_t n = area_.size();
+        std::vector<double> self(n), rays(n);
+        std::vector<EscapeFraction> lost(n);
+        const double usual = usual_escape();
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const EscapeFraction by_rays = lost_by_rays(batch, i);
+            const double share = by_rays.escaped + by_rays.absorbed;
+            const double due =
+                std::clamp(weights[i] * sums[i] + (1 - weights[i]) * (1 - share), 0.0, 1.0);
+            self[i] = due - sums[i];
+            const double missing = 1 - due;
+            const double escaping = share > 0 ? by_rays.escaped / share : usual;
+            lost[i] = {missing * escaping, missing * (1 - escaping)};
+            if (input_.needs.closed)
+                lost[i] = {};
+            rays[i] = loss_rays(i);
+        }
+        std::vector<Vec3>& radiosity = guesses_[batch];
+        std::vector<Vec3> incident = arriving_light(
+            [&](auto x, auto y) {
+                factors.multiply(x, y);
+                for (std::size_t i = 0; i < n; ++i)
+                    y[i] += self[i] * x[i];
+            },
+            input_.mesh, radiosity, input_.needs.colours);
+        const EnergyBalance energy = close_energy(
+            {area_, emission_, reflectance_, lost, rays, input_.needs.closed}, incident);
+        for (std::size_t i = 0; i < n; ++i)
+            radiosity[i] = emission_[i] + reflectance_[i] * incident[i];
+        return energy;
+    }
+
+    /// Of all rays that were lost, those that left the scene.
+    [[nodiscard]] double usual_escape() const {
+        double escaped = 0, all = 0;
+        for (std::size_t r = 0; r < batches; ++r)
+            for (std::uint32_t i = 0; i < area_.size(); ++i) {
+                escaped += losses_[r].escaped(i);
+                all += double(losses_[r].escaped(i)) + double(losses_[r].absorbed(i));
+            }
+        return all > 0 ? escaped / all : 1;
+    }
+
+    void combine(std::span<const std::uint32_t> points, std::span<const LinkFactors> factors) {
+        const std::size_t n = area_.size();
+        const std::vector<Vec3> before = solution_.radiosity;
+        std::vector<Vec3> variance(n);
+        std::vector<double> products(batches * batches);
+        std::array<Vec3, batches> off{};
+        for (std::size_t i = 0; i < n; ++i) {
+            Vec3 mean(0.0), squares(0.0);
+            for (const auto& batch : guesses_)
+                mean += batch[i] / double(batches);
+            for (std::size_t r = 0; r < batches; ++r) {
+                off[r] = guesses_[r][i] - mean;
+                squares += off[r] * off[r];
+            }
+            for (std::size_t r = 0; r < batches; ++r)
+                for (std::size_t t = 0; t < batches; ++t)
+                    products[r * batches + t] += area_[i] * glm::dot(off[r], off[t]);
+            solution_.radiosity[i] = mean;
+            variance[i] = squares / double(batches * (batches - 1));
+        }
+        note_hits(points);
+        note_errors(before, variance, unseen_light(points, factors));
+        solution_.effective_freedom =
+            believed_freedom(solution_.effective_freedom, effective_freedom(products, batches));
+    }
+
+    /// Of a patch: points of all links by which it gathers.
+    void note_hits(std::span<const std::uint32_t> points) {
+        std::vector<double> by_node(tree_.nodes().size()), by_patch(area_.size());
+        for (std::size_t l = 0; l < points.size(); ++l)
+            by_node[links_.all()[l].to] += double(points[l]) * batches;
+        tree_.push(by_node, by_patch);
+        for (std::size_t i = 0; i < by_patch.size(); ++i)
+            solution_.hits[i] = static_cast<std::uint64_t>(by_patch[i]);
+    }
+
+    /// Squares by patch [(W/m2)^2 arriving] of what links may bring of which no ray arrived: up to
+    /// three of them might have.
+    [[nodiscard]] std::vector<Vec3> unseen_light(std::span<const std::uint32_t> points,
+                                                 std::span<const LinkFactors> factors) const {
+        const std::size_t nodes = tree_.nodes().size(), n = area_.size();
+        std::vector<Vec3> result(n);
+        std::vector<double> light(n), by_node(nodes), squares(nodes), by_patch(n);
+        for (int c = 0; c < 3; ++c) {
+            for (std::size_t i = 0; i < n; ++i)
+                light[i] = solution_.radiosity[i][c];
+            tree_.pull(light, by_node);
+            std::ranges::fill(squares, 0.0);
+            for (std::size_t l = 0; l < points.size(); ++l) {
+                const Link& link = links_.all()[l];
+                const bool seen = std::ranges::any_of(
+                    factors, [l](const LinkFactors& f) { return f.factors()[l] > 0; });
+                const double share =
+                    std::min(1.0, rule_of_three / (double(points[l]) * double(batches)));
+                const double most =
+                    share * rough_factor(tree_[link.to], tree_[link.from]) * by_node[link.from];
+                if (!seen)
+                    squares[link.to] += most * most;
+            }
+            tree_.push(squares, by_patch);
+            for (std::size_t i = 0; i < n; ++i)
+                result[i][c] = by_patch[i];
+        }
+        return result;
+    }
+
+    /// As long as hardly any light was lost: the share of all that a few rays stand for that were
+    /// not lost and might have been.
+    [[nodiscard]] double unseen_loss() const {
+        double leaving = 0, emitted = 0, lost = 0, rays = 0;
+        for (std::uint32_t i = 0; i < area_.size() && !input_.needs.closed; ++i) {
+            if (solution_.radiosity[i] == Vec3(0.0))
+                continue;
+            leaving += area_[i] * mean_of_channels(solution_.radiosity[i]);
+            emitted += area_[i] * mean_of_channels(emission_[i]);
+            rays += loss_rays(i) * batches;
+            for (const RayCounts& counts : losses_)
+                lost += double(counts.escaped(i)) + double(counts.absorbed(i));
+        }
+        return emitted > 0 && rays > 0 ? rule_of_three / (1 + lost) * leaving / (rays * emitted)
+                                       : 0;
+    }
+
+    /// Squares by patch of 1.5 times what the refinement has changed: there, and on the whole
+    /// surface, as some patches change little by chance. Without a refinement what the last one has
+    /// changed stands; between patches alone nothing does.
+    void note_changes(std::span<const Vec3> before) {
+        if (changes_.empty() || links_.are_whole())
+            changes_.assign(before.size(), Vec3(0.0));
+        if (solution_.steps == 0)
+            return;
+        if (refinement_ != Refinement::done)
+            return;
+        is_measured_ = true;
+        for (const std::uint32_t root : tree_.roots()) {
+            const PatchTree::Node& node = tree_[root];
+            Vec3 of_root(0.0);
+            for (std::uint32_t k = node.begin; k < node.end; ++k) {
+                const std::uint32_t i = tree_.order()[k];
+                const Vec3 change = 1.5 * (solution_.radiosity[i] - before[i]);
+                changes_[i] = change * change;
+                of_root += area_[i] * changes_[i];
+            }
+            for (std::uint32_t k = node.begin; k < node.end && node.area > 0; ++k)
+                changes_[tree_.order()[k]] =
+                    .5 * (changes_[tree_.order()[k]] + of_root / node.area);
+        }
+    }
+
+    void note_errors(std::span<const Vec3> before, std::span<const Vec3> variance,
+                     std::span<const Vec3> unseen) {
+        solution_.variance = solution_.unseen = 0;
+        solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
+        const double loss = unseen_loss();
+        note_changes(before);
+        const bool known = solution_.steps > 0
+                               ? is_measured_ || links_.are_whole() || !(reflected() > 0)
+                               : !input_.needs.bounces;
+        for (std::size_t i = 0; i < variance.size(); ++i) {
+            const Vec3 level = loss * (solution_.radiosity[i] - emission_[i]);
+            const Vec3 more =
+                changes_[i] + level * level + reflectance_[i] * reflectance_[i] * unseen[i];
+            *solution_.variance += area_[i] * glm::dot(variance[i], Vec3(1.0));
+            solution_.unseen += area_[i] * glm::dot(more, Vec3(1.0));
+            solution_.standard_error[i] =
+                known ? glm::sqrt(solution_.standard_error[i] + more) : Vec3(unknown);
+        }
+        if (!known)
+            solution_.variance = unknown;
+    }
+
+    SolverInput input_;
+    Workers workers_;
+    PatchTree tree_;
+    Links links_;
+    std::vector<RayCounts> losses_; ///< rays of each batch that may be lost
+    std::vector<double> area_, mean_reflectance_;
+    std::vector<Vec3> emission_, reflectance_;
+    double emitted_ = 0;                             ///< power, mean of channels, local units
+    std::vector<std::vector<Vec3>> guesses_;         ///< solution of each batch
+    std::vector<Vec3> changes_;                      ///< squares, by the last refinement
+    Refinement refinement_ = Refinement::not_needed; ///< in this step
+    bool is_measured_ = false;                       ///< a refinement has shown how much it changes
+    double tolerance_ = first_tolerance;
+    double rays_; ///< per patch, of the next step
+    std::uint64_t traced_ = 0;
+    Solution solution_;
+};
+
+std::unique_ptr<Solver> make_hierarchical(const SolverInput& input) {
+    return std::make_unique<HierarchicalSolver>(input);
+}
+
+} // namespace
+
+extern const Method hierarchical_method;
+const Method hierarchical_method{
+    .name = "hierarchical",
+    .summary = "links between large and small parts of surfaces (Hanrahan et al. 1991)",
+    .has_literal = false,
+    .unbiased = false,
+    .default_stop = {.steps = {}, .seconds = {}, .error = .05},
+    .make = make_hierarchical,
+    .strategy = nullptr,
+    .work = {.linear_systems = true, .passes = true},
+};
+
+} // namespace hemilux
