@@ -33,7 +33,8 @@ std::string errors_text(const Statistics& s) {
     if (!s.target.empty()) {
         error += ", of the light on ";
         for (std::size_t i = 0; i < s.target.size(); ++i)
-            error += (i > 0 ? " and " : "") + s.target[i];
+            error +=
+                (i > 0 ? " and " : "") + (s.target[i] == "camera" ? "the picture" : s.target[i]);
         return error + "; elsewhere it is rough: " + percent(s.estimated_error_elsewhere);
     }
     if (!std::isfinite(s.error_division))

@@ -135,11 +135,11 @@ void Division::measure(const Solution& light, double goal) {
         due, [&](std::uint32_t i) { return (left_out += most(i)) > negligible_share * goal; });
     due.erase(due.begin(), first);
     std::ranges::sort(due);
-    const auto known =
-        std::ranges::stable_partition(due, [&](std::uint32_t i) { return times_[i] == 0; });
+    const auto known = std::stable_partition(due.begin(), due.end(),
+                                             [&](std::uint32_t i) { return times_[i] == 0; });
     fresh_ = fresh_squares_ = 0;
-    measure(light, {due.begin(), known.begin()}, 1, rows_at_first);
-    measure(light, known, 1, rows_again);
+    measure(light, {due.begin(), known}, 1, rows_at_first);
+    measure(light, {known, due.end()}, 1, rows_again);
     // Those that were chosen for what was measured there are not a fair sample of all; these are.
     std::vector<std::uint32_t> some;
     for (std::uint32_t i = 0; i < is_due_.size(); ++i)
