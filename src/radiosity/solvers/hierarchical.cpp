@@ -381,21 +381,32 @@ class HierarchicalSolver final : public Solver {
         return result;
     }
 
-    /// As long as hardly any light was lost: the share of all that a few rays stand for that were
-    /// not lost and might have been.
-    [[nodiscard]] double unseen_loss() const {
-        double leaving = 0, emitted = 0, lost = 0, rays = 0;
+    /// The share of all light that is in doubt as rays that were lost are counted: the standard
+    /// deviation of their number, which is Poisson distributed where a patch loses few and
+    /// scatters less where it loses many well-distributed ones, and, as long as hardly any were
+    /// lost, the few that might have been.
+    [[nodiscard]] double uncertain_loss() const {
+        double leaving = 0, emitted = 0, all_lost = 0, all_rays = 0, variance = 0;
         for (std::uint32_t i = 0; i < area_.size() && !input_.needs.closed; ++i) {
-            if (solution_.radiosity[i] == Vec3(0.0))
+            const double power = area_[i] * mean_of_channels(solution_.radiosity[i]);
+            if (!(power > 0))
                 continue;
-            leaving += area_[i] * mean_of_channels(solution_.radiosity[i]);
-            emitted += area_[i] * mean_of_channels(emission_[i]);
-            rays += loss_rays(i) * batches;
+            double lost = 0;
             for (const RayCounts& counts : losses_)
                 lost += double(counts.escaped(i)) + double(counts.absorbed(i));
+            const double rays = loss_rays(i) * batches;
+            const double of_batch = std::min(lost, rays - lost) / batches;
+            variance +=
+                power * power / (rays * rays) * batches * std::min(of_batch, std::sqrt(of_batch));
+            leaving += power;
+            emitted += area_[i] * mean_of_channels(emission_[i]);
+            all_lost += lost;
+            all_rays += rays;
         }
-        return emitted > 0 && rays > 0 ? rule_of_three / (1 + lost) * leaving / (rays * emitted)
-                                       : 0;
+        if (!(emitted > 0) || !(all_rays > 0))
+            return 0;
+        const double unseen = rule_of_three / (1 + all_lost) * leaving / all_rays;
+        return std::hypot(unseen, std::sqrt(variance)) / emitted;
     }
 
     /// Squares by patch of 1.5 times what the refinement has changed: there, and on the whole
@@ -428,7 +439,7 @@ class HierarchicalSolver final : public Solver {
                      std::span<const Vec3> unseen) {
         solution_.variance = solution_.unseen = 0;
         solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
-        const double loss = unseen_loss();
+        const double loss = uncertain_loss();
         note_changes(before);
         const bool known = solution_.steps > 0
                                ? is_measured_ || links_.are_whole() || !(reflected() > 0)
