@@ -31,6 +31,7 @@
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/solving/batch_mean.h"
 #include "radiosity/solving/check_input.h"
 #include "radiosity/solving/error_spread.h"
 #include "radiosity/solving/solve_error.h"
@@ -38,10 +39,10 @@
 #include "radiosity/solving/unseen_sights.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -316,29 +317,13 @@ class HierarchicalSolver final : public Solver {
     }
 
     void combine(std::span<const std::uint32_t> points, std::span<const LinkFactors> factors) {
-        const std::size_t n = area_.size();
         const std::vector<Vec3> before = solution_.radiosity;
-        std::vector<Vec3> variance(n);
-        std::vector<double> products(batches * batches);
-        std::array<Vec3, batches> off{};
-        for (std::size_t i = 0; i < n; ++i) {
-            Vec3 mean(0.0), squares(0.0);
-            for (const auto& batch : guesses_)
-                mean += batch[i] / double(batches);
-            for (std::size_t r = 0; r < batches; ++r) {
-                off[r] = guesses_[r][i] - mean;
-                squares += off[r] * off[r];
-            }
-            for (std::size_t r = 0; r < batches; ++r)
-                for (std::size_t t = 0; t < batches; ++t)
-                    products[r * batches + t] += area_[i] * glm::dot(off[r], off[t]);
-            solution_.radiosity[i] = mean;
-            variance[i] = squares / double(batches * (batches - 1));
-        }
+        BatchMean found = mean_of_batches(guesses_, area_);
+        solution_.radiosity = std::move(found.radiosity);
         note_hits(points);
-        note_errors(before, variance, unseen_light(points, factors));
-        solution_.effective_freedom =
-            believed_freedom(solution_.effective_freedom, effective_freedom(products, batches));
+        note_errors(before, found.variance, unseen_light(points, factors));
+        solution_.effective_freedom = believed_freedom(solution_.effective_freedom,
+                                                       effective_freedom(found.products, batches));
     }
 
     /// Of a patch: points of all links by which it gathers.

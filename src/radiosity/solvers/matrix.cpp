@@ -25,6 +25,7 @@
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/solving/batch_mean.h"
 #include "radiosity/solving/check_input.h"
 #include "radiosity/solving/error_spread.h"
 #include "radiosity/solving/solve_error.h"
@@ -35,6 +36,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -183,26 +185,13 @@ class MatrixSolver final : public Solver {
     }
 
     void combine(const Vec3& absorbed_power, const Vec3& escaped_power) {
-        std::vector<Vec3> variance(solution_.radiosity.size());
-        std::vector<double> products(batches * batches);
-        std::array<Vec3, batches> off{};
-        for (std::uint32_t i = 0; i < variance.size(); ++i) {
-            Vec3 mean(0.0), squares(0.0);
-            for (const auto& batch : guesses_)
-                mean += batch[i] / double(batches);
-            for (std::size_t r = 0; r < batches; ++r) {
-                off[r] = guesses_[r][i] - mean;
-                squares += off[r] * off[r];
-            }
-            const double area = input_.mesh.patches()[i].area;
-            for (std::size_t r = 0; r < batches; ++r)
-                for (std::size_t t = 0; t < batches; ++t)
-                    products[r * batches + t] += area * glm::dot(off[r], off[t]);
-            solution_.radiosity[i] = mean;
-            variance[i] = squares / double(batches * (batches - 1));
-            solution_.hits[i] = std::uint64_t{rays_} * batches;
-        }
-        note_errors(variance, products);
+        std::vector<double> area;
+        for (const Patch& patch : input_.mesh.patches())
+            area.push_back(patch.area);
+        BatchMean found = mean_of_batches(guesses_, area);
+        solution_.radiosity = std::move(found.radiosity);
+        solution_.hits.assign(area.size(), std::uint64_t{rays_} * batches);
+        note_errors(found.variance, found.products);
         const double to_world = input_.mesh.frame().area_to_world(1.0);
         solution_.energy.absorbed = to_world * absorbed_power;
         solution_.energy.escaped = to_world * escaped_power;
