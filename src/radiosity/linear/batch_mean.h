@@ -9,9 +9,10 @@
 namespace hemilux {
 
 struct BatchMean {
-    std::vector<Vec3> radiosity;  ///< by patch [W/m2]
-    std::vector<Vec3> variance;   ///< of that mean, by patch and channel [(W/m2)^2]
-    std::vector<double> products; ///< as effective_freedom() takes them, weighted by area
+    std::vector<Vec3> radiosity; ///< by patch [W/m2]
+    std::vector<Vec3> variance;  ///< of that mean, by patch and channel [(W/m2)^2]
+    std::vector<double>
+        products; ///< as effective_freedom() (error_spread.h) takes them, weighted by area
 };
 
 /// `batches[r][i]` is the radiosity of patch i by batch r; `area` is by patch. There are two

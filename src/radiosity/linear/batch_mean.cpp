@@ -1,4 +1,4 @@
-#include "radiosity/solving/batch_mean.h"
+#include "radiosity/linear/batch_mean.h"
 
 namespace hemilux {
 
