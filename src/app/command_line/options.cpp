@@ -129,11 +129,7 @@ void add_methods_option(Command command, std::vector<MethodVariant>& list) {
 
 /// Names of those that --guide changes.
 std::string guided_methods() {
-    std::string names;
-    for (const Method* const method : methods())
-        if (method->guided)
-            names += (names.empty() ? "" : ", ") + std::string(method->name);
-    return names;
+    return names_of_methods([](const Method& method) { return method.guided; });
 }
 
 void add_method_options(Command command, SolveOptions& options) {

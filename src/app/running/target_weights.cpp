@@ -2,6 +2,7 @@
 
 #include "app/running/point_table.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/method_options.h"
 #include "app/settings/names.h"
 #include "io/files/error.h"
 #include "radiosity/sampling/workers.h"
@@ -16,14 +17,6 @@ namespace {
 /// Pixels of the picture that stand for all, along its longer side; and rays from each.
 constexpr double most_pixels = 128;
 constexpr unsigned rays_of_pixel = 16;
-
-std::string methods_that_aim() {
-    std::string names;
-    for (const Method* const method : methods())
-        if (method->aims)
-            names += (names.empty() ? "" : ", ") + std::string(method->name);
-    return names;
-}
 
 std::vector<double> weights_of_camera(const SolveSettings& settings, const Mesh& mesh,
                                       const Tracer& tracer) {
@@ -77,9 +70,10 @@ void check_target(const SolveSettings& settings) {
     if (target.names().empty())
         return;
     if (!settings.method->aims)
-        throw InputError("--for", "--method " + std::string(settings.method->name) +
-                                      " solves for all patches alike; these take a target: " +
-                                      methods_that_aim());
+        throw InputError("--for",
+                         "--method " + std::string(settings.method->name) +
+                             " solves for all patches alike; these take a target: " +
+                             names_of_methods([](const Method& method) { return method.aims; }));
     if (settings.plain)
         throw InputError("--for", "--plain solves for all patches alike; leave one of them out");
     if (settings.divide_auto)

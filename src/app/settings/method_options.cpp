@@ -9,12 +9,17 @@
 
 namespace hemilux {
 
-std::string methods_with_a_page() {
+std::string names_of_methods(const std::function<bool(const Method&)>& belongs,
+                             std::string_view between) {
     std::string names;
     for (const Method* const method : methods())
-        if (method->plain)
-            names += (names.empty() ? "" : ", ") + std::string(method->name);
+        if (belongs(*method))
+            names.append(names.empty() ? "" : between).append(method->name);
     return names;
+}
+
+std::string methods_with_a_page() {
+    return names_of_methods([](const Method& method) { return method.plain != nullptr; });
 }
 
 namespace {
@@ -33,11 +38,9 @@ void check_factors(FactorKind kind, std::span<const Method* const> chosen) {
     if (kind == FactorKind::rays ||
         std::ranges::any_of(chosen, [kind](const Method* method) { return takes(*method, kind); }))
         return;
-    std::string names;
-    for (const Method* const method : methods())
-        if (takes(*method, kind))
-            names += (names.empty() ? "" : " or ") + std::string(method->name);
-    throw UsageError(name_of(kind) + " is for --method " + names);
+    throw UsageError(
+        name_of(kind) + " is for --method " +
+        names_of_methods([kind](const Method& method) { return takes(method, kind); }, " or "));
 }
 
 } // namespace

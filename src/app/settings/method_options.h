@@ -3,14 +3,20 @@
 
 #include "app/settings/settings.h"
 
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace hemilux {
 
 /// Throws UsageError where an option was given whose method (Method::flags, Method::factors) is not
 /// among these.
 void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen);
+
+/// The names of the methods for which `belongs` holds, with `between` between them.
+[[nodiscard]] std::string names_of_methods(const std::function<bool(const Method&)>& belongs,
+                                           std::string_view between = ", ");
 
 /// The names of the methods that --plain may choose, with commas between them.
 [[nodiscard]] std::string methods_with_a_page();
