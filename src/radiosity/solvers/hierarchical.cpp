@@ -368,10 +368,9 @@ class HierarchicalSolver final : public Solver {
 
     /// The share of all light that is in doubt as rays that were lost are counted: the standard
     /// deviation of their number, which is Poisson distributed where a patch loses few and
-    /// scatters less where it loses many well-distributed ones, and, as long as hardly any were
-    /// lost, the few that might have been.
+    /// scatters less where it loses many well-distributed ones, and three that might have been.
     [[nodiscard]] double uncertain_loss() const {
-        double leaving = 0, emitted = 0, all_lost = 0, all_rays = 0, variance = 0;
+        double leaving = 0, emitted = 0, all_rays = 0, variance = 0;
         for (std::uint32_t i = 0; i < area_.size() && !input_.needs.closed; ++i) {
             const double power = area_[i] * mean_of_channels(solution_.radiosity[i]);
             if (!(power > 0))
@@ -385,13 +384,11 @@ class HierarchicalSolver final : public Solver {
                 power * power / (rays * rays) * batches * std::min(of_batch, std::sqrt(of_batch));
             leaving += power;
             emitted += area_[i] * mean_of_channels(emission_[i]);
-            all_lost += lost;
             all_rays += rays;
         }
         if (!(emitted > 0) || !(all_rays > 0))
             return 0;
-        const double unseen = rule_of_three / (1 + all_lost) * leaving / all_rays;
-        return std::hypot(unseen, std::sqrt(variance)) / emitted;
+        return std::hypot(rule_of_three * leaving / all_rays, std::sqrt(variance)) / emitted;
     }
 
     /// Squares by patch of 1.5 times what the refinement has changed: there, and on the whole

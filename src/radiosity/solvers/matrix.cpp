@@ -218,13 +218,13 @@ class MatrixSolver final : public Solver {
         }
     }
 
-    /// The share of all light that a few rays stand for that were not lost and might have been, as
-    /// long as hardly any was: what is emitted is all that is used, and one ray carries its part of
-    /// what leaves all patches.
+    /// The share of all light that three rays stand for which were not lost and might have been:
+    /// what is emitted is all that is used, and one ray carries its part of what leaves all
+    /// patches.
     [[nodiscard]] double unseen_loss() const {
         if (exact_ || input_.needs.closed)
             return 0;
-        double leaving = 0, emitted = 0, lost = 0, rays = 0;
+        double leaving = 0, emitted = 0, rays = 0;
         for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i) {
             if (solution_.radiosity[i] == Vec3(0.0))
                 continue;
@@ -232,10 +232,8 @@ class MatrixSolver final : public Solver {
             leaving += area * mean_of_channels(solution_.radiosity[i]);
             emitted += area * mean_of_channels(input_.mesh.material(i).emission);
             rays += double(rays_) * double(batches);
-            for (const SampledFormFactors& factors : factors_)
-                lost += rays_ * (factors.lost(i).escaped + factors.lost(i).absorbed);
         }
-        return emitted > 0 ? rule_of_three / (1 + lost) * leaving / (rays * emitted) : 0;
+        return emitted > 0 ? rule_of_three * leaving / (rays * emitted) : 0;
     }
 
     /// What dark patches may receive besides; by contour integration nothing is left to chance.

@@ -122,13 +122,14 @@ class Account {
     }
     [[nodiscard]] const PartLedger& ledger(std::uint32_t i) const { return ledgers_[parts_.of[i]]; }
 
-    /// If rays of the part had been lost that were not: less light in all of it, in proportion to
-    /// what else takes light away. The more were lost, the more the batches know of it themselves.
+    /// If three rays of the part more had been lost: less light in all of it, in proportion to what
+    /// else takes light away. The mean of a Poisson distribution lies that far above any count
+    /// besides the multiple of its standard deviation (Garwood 1936).
     [[nodiscard]] Vec3 unseen_loss(std::uint32_t i) const {
         if (result_.system.closed())
             return Vec3(0.0);
         const PartLedger& part = ledger(i);
-        const Vec3 share = rule_of_three / (1 + part.lost) * ratio_or_zero(part.one_ray, part.used);
+        const Vec3 share = rule_of_three * ratio_or_zero(part.one_ray, part.used);
         return share * rho_[i] * incident_[i];
     }
 
