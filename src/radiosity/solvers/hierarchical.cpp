@@ -23,8 +23,8 @@
 // not unbiased: a solution depends on its factors in a non-linear way, and nodes have one light.
 
 #include "geometry/compensated_sum.h"
-#include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/hierarchy/links.h"
+#include "radiosity/hierarchy/lost_rays.h"
 #include "radiosity/linear/batch_mean.h"
 #include "radiosity/linear/energy_ledger.h"
 #include "radiosity/linear/radiosity_system.h"
@@ -62,7 +62,9 @@ class HierarchicalSolver final : public Solver {
   public:
     explicit HierarchicalSolver(const SolverInput& input)
         : input_((check_input(input), input)), workers_(input.options.threads), tree_(input.mesh),
-          links_(input.mesh, tree_), rays_(std::clamp(input.options.rays, 1.0, most_rays)) {
+          links_(input.mesh, tree_),
+          lost_rays_(input.mesh, input.tracer, input.options.seed, batches),
+          rays_(std::clamp(input.options.rays, 1.0, most_rays)) {
         const auto n = static_cast<std::uint32_t>(input.mesh.patches().size());
         for (std::uint32_t i = 0; i < n; ++i) {
             const Material& material = input.mesh.material(i);
@@ -82,9 +84,6 @@ class HierarchicalSolver final : public Solver {
             input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
         solution_.energy.unshot = solution_.energy.emitted;
         guesses_.assign(batches, solution_.radiosity);
-        for (std::uint64_t r = 0; r < batches; ++r)
-            losses_.emplace_back(input.mesh, input.tracer,
-                                 hash_words({input.options.seed, r, 0x6c6f7373u}));
     }
 
     bool step() override {
@@ -132,7 +131,9 @@ class HierarchicalSolver final : public Solver {
     /// Whether it was not interrupted; nothing where the rays have seen no way out for the light.
     [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
         input_.monitor.phase = "rays";
-        if (!look_for_losses())
+        if (!input_.needs.closed)
+            traced_ += lost_rays_.trace_up_to(rays_, emission_, workers_, input_.monitor);
+        if (input_.monitor.interrupted)
             return false;
         std::vector<LinkFactors> factors;
         const std::vector<std::uint32_t> points = share_rays();
@@ -147,12 +148,11 @@ class HierarchicalSolver final : public Solver {
             traced_ += factors.back().rays();
         }
         input_.monitor.phase = "solving";
-        const std::vector<std::vector<double>> sums = row_sums(factors);
-        const std::vector<double> weights = weights_of_sums(sums);
+        const RowClosing closing(lost_rays_, row_sums(factors), input_.needs.closed);
         CompensatedSum<Vec3> absorbed, escaped;
         bool drained = true;
         for (std::size_t r = 0; r < batches; ++r) {
-            const EnergyBalance energy = solve(factors[r], r, sums[r], weights);
+            const EnergyBalance energy = solve(factors[r], r, closing);
             absorbed += energy.absorbed;
             escaped += energy.escaped;
             drained = drained && search.is_drained(energy);
@@ -205,28 +205,6 @@ class HierarchicalSolver final : public Solver {
         return points;
     }
 
-    /// False if interrupted.
-    [[nodiscard]] bool look_for_losses() {
-        if (input_.needs.closed)
-            return true;
-        std::vector<std::uint32_t> rays;
-        for (const Vec3& emission : emission_) {
-            const double wanted = std::ceil((emission == Vec3(0.0) ? 1 : 8) * rays_ / batches);
-            rays.push_back(static_cast<std::uint32_t>(std::max(wanted, 1.0)));
-        }
-        traced_ += RayCounts::trace_up_to(losses_, rays, workers_, input_.monitor, .5);
-        return !input_.monitor.interrupted;
-    }
-
-    [[nodiscard]] double loss_rays(std::uint32_t i) const { return losses_[0].rays(i); }
-
-    [[nodiscard]] EscapeFraction lost_by_rays(std::size_t batch, std::uint32_t i) const {
-        const double rays = loss_rays(i);
-        if (!(rays > 0))
-            return {};
-        return {losses_[batch].escaped(i) / rays, losses_[batch].absorbed(i) / rays};
-    }
-
     /// By batch and patch.
     [[nodiscard]] std::vector<std::vector<double>>
     row_sums(std::span<const LinkFactors> factors) const {
@@ -237,83 +215,23 @@ class HierarchicalSolver final : public Solver {
         return sums;
     }
 
-    /// What a row sums to is known twice: by its factors and as what its rays did not lose. The
-    /// share of the former in the mean of both, by patch, each weighted by the inverse of its
-    /// variance over all batches. 0 where no ray of any patch was lost.
-    [[nodiscard]] std::vector<double>
-    weights_of_sums(std::span<const std::vector<double>> sums) const {
-        const std::size_t n = area_.size();
-        std::vector<double> lost(n), weights(n);
-        double all_lost = 0, all_rays = 0;
-        for (std::uint32_t i = 0; i < n; ++i) {
-            for (std::size_t r = 0; r < batches; ++r) {
-                const EscapeFraction by_rays = lost_by_rays(r, i);
-                lost[i] += (by_rays.escaped + by_rays.absorbed) / batches;
-            }
-            all_lost += lost[i] * loss_rays(i);
-            all_rays += loss_rays(i);
-        }
-        if (!(all_lost > 0))
-            return weights;
-        const double usual = (all_lost + 1) / (all_rays + 2); // not all: a far lamp is met by none
-        for (std::uint32_t i = 0; i < n; ++i) {
-            double mean = 0, squares = 0;
-            for (const std::vector<double>& sum : sums)
-                mean += sum[i] / batches;
-            for (const std::vector<double>& sum : sums)
-                squares += (sum[i] - mean) * (sum[i] - mean);
-            const double of_sum = squares / (batches - 1), rays = loss_rays(i);
-            const double share = (rays * batches * lost[i] + usual) / (rays * batches + 1);
-            const double of_loss = share * (1 - share) / rays;
-            weights[i] = of_sum + of_loss > 0 ? of_loss / (of_sum + of_loss) : 0;
-        }
-        return weights;
-    }
-
-    /// One batch, from its last solution on.
-    EnergyBalance solve(const LinkFactors& factors, std::size_t batch, std::span<const double> sums,
-                        std::span<const double> weights) {
-        const std::size_t n = area_.size();
-        std::vector<double> self(n), rays(n);
-        std::vector<EscapeFraction> lost(n);
-        const double usual = usual_escape();
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const EscapeFraction by_rays = lost_by_rays(batch, i);
-            const double share = by_rays.escaped + by_rays.absorbed;
-            const double due =
-                std::clamp(weights[i] * sums[i] + (1 - weights[i]) * (1 - share), 0.0, 1.0);
-            self[i] = due - sums[i];
-            const double missing = 1 - due;
-            const double escaping = share > 0 ? by_rays.escaped / share : usual;
-            lost[i] = {missing * escaping, missing * (1 - escaping)};
-            if (input_.needs.closed)
-                lost[i] = {};
-            rays[i] = loss_rays(i);
-        }
+    /// Solves one batch, from its last solution on.
+    EnergyBalance solve(const LinkFactors& factors, std::size_t batch, const RowClosing& closing) {
+        const ClosedRows rows = closing.rows(batch);
         std::vector<Vec3>& radiosity = guesses_[batch];
         std::vector<Vec3> incident = arriving_light(
             [&](auto x, auto y) {
                 factors.multiply(x, y);
-                for (std::size_t i = 0; i < n; ++i)
-                    y[i] += self[i] * x[i];
+                for (std::size_t i = 0; i < y.size(); ++i)
+                    y[i] += rows.self[i] * x[i];
             },
             input_.mesh, radiosity, input_.needs.colours);
-        const EnergyBalance energy = close_energy(
-            {area_, emission_, reflectance_, lost, rays, input_.needs.closed}, incident);
-        for (std::size_t i = 0; i < n; ++i)
+        const EnergyBalance energy = close_energy({area_, emission_, reflectance_, rows.lost,
+                                                   lost_rays_.rays_of_batch(), input_.needs.closed},
+                                                  incident);
+        for (std::size_t i = 0; i < radiosity.size(); ++i)
             radiosity[i] = emission_[i] + reflectance_[i] * incident[i];
         return energy;
-    }
-
-    /// Of all rays that were lost, those that left the scene.
-    [[nodiscard]] double usual_escape() const {
-        double escaped = 0, all = 0;
-        for (std::size_t r = 0; r < batches; ++r)
-            for (std::uint32_t i = 0; i < area_.size(); ++i) {
-                escaped += losses_[r].escaped(i);
-                all += double(losses_[r].escaped(i)) + double(losses_[r].absorbed(i));
-            }
-        return all > 0 ? escaped / all : 1;
     }
 
     void combine(std::span<const std::uint32_t> points, std::span<const LinkFactors> factors) {
@@ -366,31 +284,6 @@ class HierarchicalSolver final : public Solver {
         return result;
     }
 
-    /// The share of all light that is in doubt as rays that were lost are counted: the standard
-    /// deviation of their number, which is Poisson distributed where a patch loses few and
-    /// scatters less where it loses many well-distributed ones, and three that might have been.
-    [[nodiscard]] double uncertain_loss() const {
-        double leaving = 0, emitted = 0, all_rays = 0, variance = 0;
-        for (std::uint32_t i = 0; i < area_.size() && !input_.needs.closed; ++i) {
-            const double power = area_[i] * mean_of_channels(solution_.radiosity[i]);
-            if (!(power > 0))
-                continue;
-            double lost = 0;
-            for (const RayCounts& counts : losses_)
-                lost += double(counts.escaped(i)) + double(counts.absorbed(i));
-            const double rays = loss_rays(i) * batches;
-            const double of_batch = std::min(lost, rays - lost) / batches;
-            variance +=
-                power * power / (rays * rays) * batches * std::min(of_batch, std::sqrt(of_batch));
-            leaving += power;
-            emitted += area_[i] * mean_of_channels(emission_[i]);
-            all_rays += rays;
-        }
-        if (!(emitted > 0) || !(all_rays > 0))
-            return 0;
-        return std::hypot(rule_of_three * leaving / all_rays, std::sqrt(variance)) / emitted;
-    }
-
     /// Squares by patch of 1.5 times what the refinement has changed: there, and on the whole
     /// surface, as some patches change little by chance. Without a refinement what the last one has
     /// changed stands; between patches alone nothing does.
@@ -421,7 +314,9 @@ class HierarchicalSolver final : public Solver {
                      std::span<const Vec3> unseen) {
         solution_.variance = solution_.unseen = 0;
         solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
-        const double loss = uncertain_loss();
+        const double loss = input_.needs.closed
+                                ? 0
+                                : lost_rays_.uncertain_light(area_, solution_.radiosity, emission_);
         note_changes(before);
         const bool known = solution_.steps > 0
                                ? is_measured_ || links_.are_whole() || !(reflected() > 0)
@@ -443,7 +338,7 @@ class HierarchicalSolver final : public Solver {
     Workers workers_;
     PatchTree tree_;
     Links links_;
-    std::vector<RayCounts> losses_; ///< rays of each batch that may be lost
+    LostRays lost_rays_;
     std::vector<double> area_, mean_reflectance_;
     std::vector<Vec3> emission_, reflectance_;
     double emitted_ = 0;                             ///< power, mean of channels, local units

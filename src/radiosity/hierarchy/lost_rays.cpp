@@ -1,0 +1,132 @@
+#include "radiosity/hierarchy/lost_rays.h"
+
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/solving/unseen_sights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+double share_lost(const EscapeFraction& lost) { return lost.escaped + lost.absorbed; }
+
+} // namespace
+
+LostRays::LostRays(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed,
+                   std::size_t batches) {
+    for (std::uint64_t r = 0; r < batches; ++r)
+        batches_.emplace_back(mesh, tracer, hash_words({seed, r, 0x6c6f7373u}));
+    rays_.resize(batches_.front().patches());
+}
+
+std::uint64_t LostRays::trace_up_to(double rays, std::span<const Vec3> emission,
+                                    const Workers& workers, Monitor& monitor) {
+    constexpr double for_emitters = 8;
+    std::vector<std::uint32_t> wanted;
+    for (const Vec3& of_patch : emission) {
+        const double times = of_patch == Vec3(0.0) ? 1 : for_emitters;
+        wanted.push_back(
+            static_cast<std::uint32_t>(std::max(std::ceil(times * rays / double(batches())), 1.0)));
+    }
+    const std::uint64_t traced = RayCounts::trace_up_to(batches_, wanted, workers, monitor, .5);
+    for (std::uint32_t i = 0; i < rays_.size(); ++i)
+        rays_[i] = batches_.front().rays(i);
+    return traced;
+}
+
+EscapeFraction LostRays::lost(std::size_t batch, std::size_t patch) const {
+    const auto i = static_cast<std::uint32_t>(patch);
+    if (!(rays_[i] > 0))
+        return {};
+    return {batches_[batch].escaped(i) / rays_[i], batches_[batch].absorbed(i) / rays_[i]};
+}
+
+double LostRays::usual_escape() const {
+    double leaving = 0, all = 0;
+    for (const RayCounts& batch : batches_)
+        for (std::uint32_t i = 0; i < patches(); ++i) {
+            leaving += batch.escaped(i);
+            all += double(batch.escaped(i)) + double(batch.absorbed(i));
+        }
+    return all > 0 ? leaving / all : 1;
+}
+
+double LostRays::uncertain_light(std::span<const double> area, std::span<const Vec3> radiosity,
+                                 std::span<const Vec3> emission) const {
+    const auto n = static_cast<double>(batches());
+    double leaving = 0, emitted = 0, all_rays = 0, variance = 0;
+    for (std::uint32_t i = 0; i < patches(); ++i) {
+        const double power = area[i] * mean_of_channels(radiosity[i]);
+        if (!(power > 0))
+            continue;
+        double lost = 0;
+        for (const RayCounts& batch : batches_)
+            lost += double(batch.escaped(i)) + double(batch.absorbed(i));
+        const double rays = rays_[i] * n, of_batch = std::min(lost, rays - lost) / n;
+        variance += power * power / (rays * rays) * n * std::min(of_batch, std::sqrt(of_batch));
+        leaving += power;
+        emitted += area[i] * mean_of_channels(emission[i]);
+        all_rays += rays;
+    }
+    if (!(emitted > 0) || !(all_rays > 0))
+        return 0;
+    return std::hypot(rule_of_three * leaving / all_rays, std::sqrt(variance)) / emitted;
+}
+
+RowClosing::RowClosing(const LostRays& lost, std::vector<std::vector<double>> sums, bool closed)
+    : lost_(lost), sums_(std::move(sums)), weight_(lost.patches()), closed_(closed) {
+    if (!closed)
+        find_weights();
+}
+
+double RowClosing::variance_of_sum(std::size_t patch) const {
+    const auto n = static_cast<double>(sums_.size());
+    double mean = 0, squares = 0;
+    for (const std::vector<double>& sum : sums_)
+        mean += sum[patch] / n;
+    for (const std::vector<double>& sum : sums_)
+        squares += (sum[patch] - mean) * (sum[patch] - mean);
+    return squares / (n - 1);
+}
+
+void RowClosing::find_weights() {
+    const std::size_t batches = lost_.batches();
+    const std::span<const double> rays = lost_.rays_of_batch();
+    std::vector<double> lost(weight_.size());
+    double all_lost = 0, all_rays = 0;
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        for (std::size_t r = 0; r < batches; ++r)
+            lost[i] += share_lost(lost_.lost(r, i)) / double(batches);
+        all_lost += lost[i] * rays[i];
+        all_rays += rays[i];
+    }
+    if (!(all_lost > 0))
+        return;
+    const double usual = (all_lost + 1) / (all_rays + 2); // not all: a far lamp is met by none
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        const double all = rays[i] * double(batches), share = (all * lost[i] + usual) / (all + 1);
+        const double of_loss = share * (1 - share) / rays[i], of_sum = variance_of_sum(i);
+        weight_[i] = of_sum + of_loss > 0 ? of_loss / (of_sum + of_loss) : 0;
+    }
+}
+
+ClosedRows RowClosing::rows(std::size_t batch) const {
+    const double usual = lost_.usual_escape();
+    ClosedRows rows;
+    for (std::size_t i = 0; i < weight_.size(); ++i) {
+        const EscapeFraction by_rays = lost_.lost(batch, i);
+        const double share = share_lost(by_rays), sum = sums_[batch][i];
+        const double due = std::clamp(std::lerp(1 - share, sum, weight_[i]), 0.0, 1.0);
+        const double escaping = share > 0 ? by_rays.escaped / share : usual;
+        rows.self.push_back(due - sum);
+        rows.lost.push_back(closed_
+                                ? EscapeFraction{}
+                                : EscapeFraction{(1 - due) * escaping, (1 - due) * (1 - escaping)});
+    }
+    return rows;
+}
+
+} // namespace hemilux
