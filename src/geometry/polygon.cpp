@@ -41,4 +41,10 @@ std::array<Polygon, 4> quarters_of(const Polygon& polygon) {
     return {{{{a, ab, o, da}}, {{ab, b, bc, o}}, {{o, bc, c, cd}}, {{da, o, cd, d}}}};
 }
 
+Polygon part_of(const Polygon& polygon, std::size_t parts, std::size_t index) {
+    const std::size_t below = parts / 4; // of each quarter
+    return below == 0 ? polygon
+                      : part_of(quarters_of(polygon)[index / below], below, index % below);
+}
+
 } // namespace hemilux

@@ -37,6 +37,10 @@ struct Polygon {
 /// that are similar to it, the middle one last.
 [[nodiscard]] std::array<Polygon, 4> quarters_of(const Polygon& polygon);
 
+/// One of 1, 4, 16 or more `parts`, which are quarters of quarters; those of one quarter follow
+/// each other.
+[[nodiscard]] Polygon part_of(const Polygon& polygon, std::size_t parts, std::size_t index);
+
 /// The polygon of a facet, by the indices of its corners.
 [[nodiscard]] inline Polygon polygon_of(std::span<const Vec3> vertices,
                                         const std::array<std::uint32_t, 4>& corners) {

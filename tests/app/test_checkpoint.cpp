@@ -79,7 +79,8 @@ TEST_CASE("a resumed run ends with the bytes of one that was not interrupted") {
     const std::string method =
         GENERATE("stored-transport", "hemisphere", "hemisphere --literal",
                  "hemisphere --guide visible", "hemisphere --guide learned", "hemisphere-1997",
-                 "monte-carlo", "progressive-monte-carlo", "stratified");
+                 "hemisphere-1997 --literal --stored-steps 3 --parts 1", "monte-carlo",
+                 "progressive-monte-carlo", "stratified");
     CAPTURE(method);
     const std::string run = "solve room.obj --rays 20 --method " + method;
     REQUIRE(place.hemilux(run + " --steps 6 -o whole.csv --steps-log whole_steps.csv").code == 0);

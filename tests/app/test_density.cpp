@@ -36,6 +36,26 @@ TEST_CASE("density draws the patch that was asked for") {
     CHECK_THAT(place.read("b.svg"), Contains("patch 47 ("));
 }
 
+TEST_CASE("density draws the hemispheres over the parts of a patch") {
+    const Workplace place;
+    place.write_room();
+    const std::string density = "density room.obj --method hemisphere-1997 ";
+    CHECK(place
+              .hemilux(density + "--patch 5 --estimated-steps 0 --rays 90 -o h.svg -o d.png "
+                                 "--size 40x30")
+              .code == 0);
+    CHECK_THAT(place.read("h.svg"), Contains("part 0, 64 triangles") &&
+                                        Contains("over each part of the patch") &&
+                                        Contains(" energy rays"));
+    CHECK(place
+              .hemilux(density + "--patch 5 --stored-steps 0 --estimated-steps 1 --parts 1 -o "
+                                 "one.svg")
+              .code == 0);
+    CHECK_THAT(place.read("one.svg"), Contains("16 triangles") && Contains("from the side"));
+    CHECK(place.hemilux(density + "--patch 5 --part 3 --parts 4 -q -o p.svg").err.empty());
+    CHECK_THAT(place.read("p.svg"), Contains("part 3, 256 triangles"));
+}
+
 TEST_CASE("density gives the same bytes for the same seed, whatever the threads") {
     const Workplace place;
     place.write_room();
@@ -64,6 +84,10 @@ TEST_CASE("density says what is wrong with what it is asked") {
     fails(1, "room.obj -o a.svg --patch -1", "--patch");
     fails(1, "room.obj -o a.png --patch 2", "there is none");
     fails(1, "room.obj -o a.svg --depth 6", "--depth");
+    fails(1, "room.obj -o a.svg --method matrix", "unknown method");
+    fails(1, "room.obj -o a.svg --parts 4 --part 1", "numbered from 0 to 0");
+    fails(1, "room.obj -o a.svg --parts 16", "--parts is for --method hemisphere-1997");
+    fails(1, "room.obj -o a.svg --method hemisphere-1997 --part 4", "numbered from 0 to 3");
     fails(1, "room.obj -o a.svg -o a.svg", "named twice");
     fails(2, "none.obj -o a.svg", "none.obj");
     fails(3, "room.obj -o nowhere/a.svg", "nowhere");

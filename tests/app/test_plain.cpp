@@ -12,7 +12,9 @@ TEST_CASE("solve --plain writes the bytes of the engine") {
     place.write_room();
     for (const std::string options :
          {"hemisphere", "hemisphere --literal", "hemisphere --depth 3 --threshold 1",
-          "hemisphere --sides both", "hemisphere-1997", "monte-carlo", "progressive-monte-carlo"}) {
+          "hemisphere --sides both", "hemisphere-1997",
+          "hemisphere-1997 --literal --stored-steps 1 --estimated-steps 1 --parts 1", "monte-carlo",
+          "progressive-monte-carlo"}) {
         CAPTURE(options);
         const std::string solve = "solve room.obj --rays 16 --steps 3 -q --method " + options;
         REQUIRE(place.hemilux(solve + " -o engine.csv").code == 0);

@@ -1,4 +1,5 @@
 // What `hemilux solve` and `hemilux info` write and say.
+#include "app/check_fails.h"
 #include "app/program.h"
 #include "io/results/tables.h"
 #include "support/catch.h"
@@ -177,6 +178,25 @@ TEST_CASE("a picture after every step shows one view as it gets brighter") {
     CHECK(place.read("p-0001.hdr") != place.read("p-0003.hdr"));
     CHECK(place.read("p-0003.hdr") == place.read("p.hdr"));
     CHECK_THAT(outcome.err, Contains("wrote p-0002.png"));
+}
+
+TEST_CASE("monte-carlo shows a picture each time a patch has shot, until all is shot") {
+    const Workplace place;
+    place.write_room();
+    const std::string run = "solve room.obj --method monte-carlo --rays 4 -q ";
+    REQUIRE(place
+                .hemilux(run + "--one-shot --every-step --no-gather --size 20x15 -o p.png "
+                               "-o shots.csv --stats s.json")
+                .code == 0);
+    CHECK(place.has("p-0001.png"));
+    CHECK(place.has("p-0020.png")); // more than the usual steps of a method
+    CHECK(place.read("p-0001.png") != place.read("p-0020.png"));
+    CHECK_THAT(place.read("s.json"), Contains("\"estimated_error\": null"));
+    REQUIRE(place.hemilux(run + "--steps 1 -o whole.csv").code == 0);
+    CHECK(place.read("shots.csv") == place.read("whole.csv"));
+    test::check_fails(place, 1, run + "--one-shot --plain -o a.csv", "leave out --one-shot");
+    test::check_fails(place, 1, run + "--one-shot --checkpoint a -o a.csv",
+                      "--one-shot does not keep its state");
 }
 
 TEST_CASE("what a method alone can do is asked of that method alone") {

@@ -148,3 +148,18 @@ TEST_CASE("quarters fill a polygon, and those of a triangle are alike") {
         CHECK(glm::length(moment / whole.area() - whole.centre()) < 1e-12);
     }
 }
+
+TEST_CASE("parts are quarters of quarters, those of one quarter side by side") {
+    for (const Polygon& whole : {triangle, kite}) {
+        CHECK(part_of(whole, 1, 0).corner == whole.corner);
+        for (const std::size_t parts : {4u, 16u, 64u}) {
+            const std::size_t below = parts / 4;
+            for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+                Vec3 sum(0.0);
+                for (std::size_t k = 0; k < below; ++k)
+                    sum += part_of(whole, parts, quarter * below + k).area_vector();
+                CHECK(glm::length(sum - quarters_of(whole)[quarter].area_vector()) < 1e-12);
+            }
+        }
+    }
+}

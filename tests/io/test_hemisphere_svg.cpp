@@ -2,6 +2,7 @@
 #include "io/drawings/colour_bar.h"
 #include "io/drawings/density_picture.h"
 #include "io/drawings/hemisphere_svg.h"
+#include "radiosity/hemisphere/density.h"
 #include "radiosity/sampling/workers.h"
 #include "support/catch.h"
 #include "support/scenes.h"
@@ -76,7 +77,13 @@ struct Example {
         map.counts(patch, counts);
     }
     [[nodiscard]] HemisphereDrawing drawing() const {
-        return {hemisphere, "a <patch> & its hemisphere", leaves, counts};
+        HemisphereDrawing result{"a <patch> & its hemisphere", {}, {}};
+        for (const DensityLeaf& leaf : leaves)
+            result.triangles.push_back({hemisphere.cells()[leaf.cell].shape, leaf.density});
+        for (const DensityCount& count : counts)
+            result.counts.push_back(
+                {hemisphere.vertices()[count.vertex], static_cast<double>(count.surfaces)});
+        return result;
     }
 };
 
@@ -211,13 +218,39 @@ TEST_CASE("The drawing is well-formed XML") {
 }
 
 TEST_CASE("A patch that sees nothing has a drawing") {
-    test::Model model(test::open_scene());
-    const Hemisphere hemisphere(2);
-    const std::vector<DensityLeaf> leaves{{0, 0}, {1, 0}, {2, 0}, {3, 0}};
-    const std::vector<DensityCount> counts{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}};
-    const std::string text = hemisphere_svg({hemisphere, "nothing", leaves, counts});
+    const Hemisphere hemisphere(0);
+    HemisphereDrawing drawing{"nothing", {}, {}};
+    for (const Hemisphere::Cell& cell : hemisphere.cells())
+        drawing.triangles.push_back({cell.shape, 0});
+    for (const Vec3& vertex : hemisphere.vertices())
+        drawing.counts.push_back({vertex, 0});
+    const std::string text = hemisphere_svg(drawing);
     CHECK(is_well_formed(text));
     CHECK(text.find("nan") == std::string::npos);
+}
+
+TEST_CASE("The hemispheres of parts stand apart from each other on the patch") {
+    const Example example(1, 0, 7);
+    HemisphereDrawing drawing = example.drawing();
+    const Polygon square{{Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(3, 3, 0), Vec3(0, 3, 0)}};
+    for (std::size_t part = 0; part < 4; ++part)
+        drawing.parts.push_back({part_of(square, 4, part), drawing.triangles});
+    Record record;
+    draw(drawing, record);
+    CHECK(triangles(record, centre_above).size() == 16);
+    const auto drawn = triangles(record, centre_side);
+    double sum = 0;
+    for (const Record::Filled& polygon : drawn) {
+        sum += area(polygon.corners);
+        for (const Vec2& point : polygon.corners)
+            REQUIRE(in_circle(point, centre_side));
+    }
+    // Four domes; each of .4 times the root of its quarter's area over half of the diagonal.
+    const double radius = .4 * 1.5 / (1.5 * std::sqrt(2.0));
+    const double expected =
+        4 * radius * radius * std::numbers::pi / 2 * (1 + std::sin(std::numbers::pi / 9));
+    CHECK(sum / (dome_radius * dome_radius) == Approx(expected).epsilon(.02));
+    CHECK(is_well_formed(hemisphere_svg(drawing)));
 }
 
 TEST_CASE("Heat colours grow darker") {

@@ -1,7 +1,9 @@
 // The technique of 1997: where its vertices move, what it estimates, and how its triangles and rays
 // lie.
 #include "geometry/spherical_triangle.h"
+#include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/hemisphere/subdivision_1997.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/scene/edge_division.h"
 #include "radiosity/shooting/strategy.h"
@@ -12,6 +14,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <vector>
 
 using namespace hemilux;
 using test::Model;
@@ -40,8 +44,10 @@ struct Allocator {
     Hemisphere hemisphere{0};
     std::unique_ptr<Strategy> strategy;
 
-    explicit Allocator(const Model& model, bool literal = false) {
+    explicit Allocator(const Model& model, bool literal = false,
+                       const Subdivision1997Options& numbers = {}) {
         options.literal = literal;
+        options.subdivision_1997 = numbers;
         const SolverInput input{model.mesh, model.bvh, options, monitor};
         strategy = find_method("hemisphere-1997")->strategy(input, hemisphere, Workers(1));
     }
@@ -184,6 +190,269 @@ TEST_CASE("Triangles are small where surfaces are many") {
     // Midpoint division gives .07 to .14 sr.
     CHECK(smallest < .03);
     CHECK(largest > .2);
+}
+
+TEST_CASE("Steps and parts are the user's") {
+    const Model model(test::room_with_block());
+    for (const auto& [n, m, parts] :
+         {Subdivision1997Options{1, 2, 4}, {0, 2, 1}, {3, 0, 16}, {4, 1, 1}, {0, 0, 64}}) {
+        const Allocator allocator(model, false, {n, m, parts});
+        CAPTURE(n, m, parts);
+        for (std::uint32_t step = 0; step < n + m; ++step)
+            CHECK(allocator.allocate(step).cells.size() == parts * (std::size_t{16} << (2 * step)));
+        CHECK(allocator.allocate(n + m).cells.size() == 1);
+        const std::size_t vertices = Hemisphere(static_cast<int>(n)).vertices().size();
+        CHECK(allocator.strategy->density_rays() == parts * vertices * model.mesh.patches().size());
+        CHECK(Subdivision1997::bytes_of_patch({n, m, parts}) == double(13 * parts * vertices));
+    }
+}
+
+TEST_CASE("Numbers that the technique of 1997 cannot have are refused") {
+    const Model model(test::furnace_box(1, .5));
+    for (const Subdivision1997Options& bad : {Subdivision1997Options{6, 0, 1},
+                                              {0, 7, 1},
+                                              {1, 1, 0},
+                                              {1, 1, 2},
+                                              {1, 1, 256},
+                                              {4, 2, 4},
+                                              {5, 2, 1},
+                                              {3, 1, 64}}) {
+        CAPTURE(bad.stored_steps, bad.estimated_steps, bad.parts);
+        CHECK_THROWS_AS(Subdivision1997::check(bad), std::invalid_argument);
+        CHECK_THROWS_AS(Allocator(model, false, bad), std::invalid_argument);
+    }
+    for (const Subdivision1997Options& good :
+         {Subdivision1997Options{5, 1, 1}, {0, 6, 1}, {4, 1, 4}, {2, 1, 64}})
+        CHECK_NOTHROW(Subdivision1997::check(good));
+}
+
+TEST_CASE("As printed, subdivision goes on between the steps") {
+    const Model model(test::room_with_block());
+    const std::size_t hemispheres = 4 * model.mesh.patches().size();
+    const Allocator allocator(model, true);
+    const auto rays_of_step = [&](std::uint64_t step) {
+        static_cast<void>(allocator.allocate(step));
+        return allocator.strategy->density_rays() / hemispheres;
+    };
+    CHECK(rays_of_step(0) == 13);
+    CHECK(rays_of_step(1) == 41);
+    CHECK(rays_of_step(2) == 41); // estimated
+    CHECK(rays_of_step(3) == 41);
+    // A run that is resumed later counts all at once.
+    const Allocator resumed(model, true);
+    static_cast<void>(resumed.allocate(5));
+    CHECK(resumed.strategy->density_rays() == 41 * hemispheres);
+}
+
+TEST_CASE("As printed, rays that count carry energy in the step that finds them") {
+    const Model model(test::room_with_block());
+    const Allocator allocator(model, true);
+    for (const std::uint64_t step : {0u, 1u, 2u}) {
+        const Allocation allocation = allocator.allocate(step);
+        for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
+            const auto own = allocator.strategy->private_cell(5, allocation.cells[k]);
+            const std::uint32_t found = step == 0 ? 3 : step == 2 ? 0 : k % 4 == 3 ? 3 : 2;
+            REQUIRE(own->given == found);
+            // There are as many triangles as rays, or more: one ray by chance.
+            CHECK(allocation.rays(k) * allocator.options.rays == Approx(1 + found));
+            for (std::uint32_t g = 0; g < own->given; ++g)
+                CHECK(std::ranges::any_of(own->shape.vertices(), [&](const Vec3& corner) {
+                    return own->direction[g] == density_direction(corner);
+                }));
+        }
+    }
+}
+
+namespace {
+
+/// Keeps the rays whose nearest facets are asked for.
+class Recorder final : public Tracer {
+  public:
+    explicit Recorder(const Tracer& tracer) : tracer_(tracer) {}
+    [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override {
+        return tracer_.closest(ray);
+    }
+    [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target) const override {
+        return tracer_.occluded(ray, target);
+    }
+    [[nodiscard]] std::uint32_t count(const Ray& ray) const override { return tracer_.count(ray); }
+    void closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const override {
+        recorded.insert(recorded.end(), rays.begin(), rays.end());
+        tracer_.closest_stream(rays, out);
+    }
+    mutable std::vector<Ray> recorded;
+
+  private:
+    const Tracer& tracer_;
+};
+
+/// A room whose surfaces absorb all, so that each step is one bounce.
+Scene black_room() {
+    Scene scene = test::room_with_block();
+    for (Material& material : scene.materials)
+        material.reflectance = Vec3(0.0);
+    return scene;
+}
+
+bool is_on(const Polygon& part, const Vec3& point) {
+    const auto& c = part.corner;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3 edge = c[(i + 1) % 4] - c[i];
+        if (glm::dot(glm::cross(edge, point - c[i]), part.normal()) < 0)
+            return false;
+    }
+    return true;
+}
+
+/// The rays of a step from one patch.
+struct StepRays {
+    std::uint32_t patch;
+    std::vector<Ray> rays;
+    [[nodiscard]] std::size_t into(const Frame& frame, const PrivateCell& cell) const {
+        return static_cast<std::size_t>(std::ranges::count_if(rays, [&](const Ray& ray) {
+            return is_on(cell.origins, ray.origin) &&
+                   cell.shape.contains(frame.to_local(ray.direction));
+        }));
+    }
+};
+
+std::vector<StepRays> rays_of_step(const Model& model, const SolveOptions& options,
+                                   std::uint32_t step) {
+    const Recorder recorder(model.bvh);
+    Monitor monitor;
+    const SolverInput input{model.mesh, recorder, options, monitor};
+    const auto solver = find_method("hemisphere-1997")->make(input);
+    for (std::uint32_t k = 0; k <= step; ++k) {
+        if (k > 0) // the first step has the pilot's rays before its own
+            recorder.recorded.clear();
+        REQUIRE(solver->step());
+    }
+    std::vector<StepRays> result;
+    for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i) {
+        if (!(model.mesh.material(i).emission.x > 0))
+            continue;
+        result.push_back({i, {}});
+        for (const Ray& ray : recorder.recorded)
+            if (ray.from == model.mesh.patches()[i].facet)
+                result.back().rays.push_back(ray);
+    }
+    REQUIRE_FALSE(result.empty());
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("End to end, every private cell gets its equal number of rays") {
+    const Model model(black_room());
+    for (const auto& numbers : {Subdivision1997Options{}, {1, 2, 1}, {3, 0, 4}}) {
+        SolveOptions options;
+        options.rays = 40;
+        options.threads = 1;
+        options.subdivision_1997 = numbers;
+        const Allocator allocator(model, false, numbers);
+        for (const std::uint32_t step : {1u, 2u}) {
+            const Allocation allocation = allocator.allocate(step);
+            const auto cells = static_cast<double>(allocation.cells.size());
+            for (const StepRays& from : rays_of_step(model, options, step)) {
+                const Frame frame = model.mesh.hemisphere_frame(from.patch);
+                const double expected = double(from.rays.size()) / cells;
+                std::size_t sum = 0;
+                double worst = 0;
+                for (const std::uint16_t cell : allocation.cells) {
+                    const auto own = allocator.strategy->private_cell(from.patch, cell);
+                    const std::size_t rays = from.into(frame, *own);
+                    worst = std::max(worst, std::abs(double(rays) - expected));
+                    sum += rays;
+                }
+                CAPTURE(step, expected);
+                CHECK(from.rays.size() > 100);
+                CHECK(sum == from.rays.size());
+                CHECK(worst < 1 + 1 / cells); // rounded up or down
+            }
+        }
+    }
+}
+
+TEST_CASE("End to end, as printed: rays by chance and rays that count") {
+    const Model model(black_room());
+    SolveOptions options;
+    options.rays = 700;
+    options.threads = 1;
+    options.literal = true;
+    const Allocator allocator(model, true);
+    for (const std::uint32_t step : {1u, 2u}) {
+        const Allocation allocation = allocator.allocate(step);
+        const std::size_t cells = allocation.cells.size();
+        const auto by_chance =
+            static_cast<std::size_t>(std::max(1.0, std::round(options.rays / double(cells))));
+        for (const StepRays& from : rays_of_step(model, options, step)) {
+            const Frame frame = model.mesh.hemisphere_frame(from.patch);
+            std::size_t expected = 0;
+            for (const std::uint16_t cell : allocation.cells) {
+                const auto own = allocator.strategy->private_cell(from.patch, cell);
+                expected += by_chance + own->given;
+                CHECK(from.into(frame, *own) >= by_chance);
+                for (std::uint32_t g = 0; g < own->given; ++g)
+                    CHECK(std::ranges::any_of(from.rays, [&](const Ray& ray) {
+                        return ray.origin == own->origins.centre() &&
+                               ray.direction == frame.to_world(own->direction[g]);
+                    }));
+            }
+            CAPTURE(step);
+            CHECK(from.rays.size() == expected);
+        }
+    }
+}
+
+TEST_CASE("Guided steps are unbiased whatever the numbers, as printed they are not", "[slow]") {
+    const Model model(test::room_with_block());
+    const Solution exact = test::reference(model, .004);
+    struct Case {
+        Subdivision1997Options numbers;
+        bool literal;
+    };
+    for (const auto& [numbers, literal] : {Case{{2, 1, 4}, false},
+                                           {{1, 1, 1}, false},
+                                           {{0, 1, 16}, false},
+                                           {{3, 0, 1}, false},
+                                           {{1, 0, 1}, true}}) {
+        SolveOptions options;
+        options.literal = literal;
+        options.subdivision_1997 = numbers;
+        constexpr int runs = 24;
+        const std::uint32_t guided = numbers.stored_steps + numbers.estimated_steps;
+        const std::size_t patches = model.mesh.patches().size();
+        std::vector<Vec3> sum(patches, Vec3(0.0)), squares(patches, Vec3(0.0));
+        for (int run = 0; run < runs; ++run) {
+            options.seed = 500 + static_cast<std::uint64_t>(run);
+            const Solution s =
+                test::solve(model, *find_method("hemisphere-1997"), options, test::steps(guided));
+            for (std::size_t i = 0; i < patches; ++i) {
+                const Vec3 off = s.radiosity[i] - exact.radiosity[i];
+                sum[i] += off;
+                squares[i] += off * off;
+            }
+        }
+        double z_sum = 0, z_squares = 0, count = 0;
+        for (std::size_t i = 0; i < patches; ++i)
+            for (int c = 0; c < 3; ++c) {
+                const double mean = sum[i][c] / runs;
+                const double variance = (squares[i][c] / runs - mean * mean) / (runs - 1) +
+                                        std::pow(exact.standard_error[i][c], 2);
+                if (!(variance > 0))
+                    continue;
+                const double z = mean / std::sqrt(variance);
+                z_sum += z, z_squares += z * z, ++count;
+            }
+        CAPTURE(literal, numbers.stored_steps, numbers.parts, z_sum / count);
+        CHECK(count > 200);
+        if (literal) {
+            CHECK(std::sqrt(z_squares / count) > 5);
+        } else {
+            CHECK(std::abs(z_sum / count) < .25);
+            CHECK(std::sqrt(z_squares / count) == Approx(1).margin(.15));
+        }
+    }
 }
 
 TEST_CASE("As printed, power goes by solid angle and every triangle gets a ray") {

@@ -1,5 +1,6 @@
 // Every method on scenes whose solution is known in closed form, patch by patch: a mean would not
 // see a broken direction law. Scenes where a method is added inherit all of this.
+#include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "support/catch.h"
 #include "support/scenes.h"
@@ -39,7 +40,7 @@ SolveOptions with_seed(std::uint64_t seed, double rays = 64) {
 Solution solve(const Model& model, const Method& method, SolveOptions options, std::uint32_t n) {
     if (method.name == "progressive") {
         options.rays *= 16;
-        options.progressive.one_shot = true;
+        options.one_shot = true;
         return test::solve(model, method, options, test::steps(1'000'000));
     }
     const std::uint32_t doublings = method.name == "matrix" ? 2 : 4;
@@ -244,17 +245,79 @@ TEST_CASE("A step shoots about the rays that were asked for") {
 }
 
 TEST_CASE("Each role is one method's, and each flag sets an option of its own") {
-    for (const Role role : {Role::standard, Role::reference, Role::baseline, Role::paper})
+    for (const Role role :
+         {Role::standard, Role::reference, Role::baseline, Role::paper, Role::forerunner})
         CHECK(std::ranges::count(methods(), role, [](const Method* m) { return m->role; }) == 1);
     SolveOptions options;
     std::vector<std::string_view> names;
     for (const Method* const method : methods())
         for (const MethodFlag& flag : method->flags) {
             CAPTURE(flag.name);
-            CHECK_FALSE(flag.value(options));
+            const bool is_known = std::ranges::count(names, flag.name) > 0; // of another method
+            CHECK(is_known == (method->name == "progressive" && flag.name == "--one-shot"));
+            CHECK(flag.value(options) == is_known);
             flag.value(options) = true;
-            CHECK(std::ranges::count(names, flag.name) == 0);
             names.push_back(flag.name);
         }
-    CHECK(names.size() == 3);
+    CHECK(names.size() == 4);
+}
+
+TEST_CASE("Each number of a method is one of its choices and has a place of its own") {
+    SolveOptions options;
+    std::vector<const std::uint32_t*> places;
+    for (const Method* const method : methods())
+        for (const MethodNumber& number : method->numbers) {
+            CAPTURE(number.name);
+            std::uint32_t& value = number.value(options);
+            CHECK(std::ranges::count(number.choices, value) == 1);
+            CHECK(std::ranges::is_sorted(number.choices));
+            CHECK(std::ranges::count(places, &value) == 0);
+            places.push_back(&value);
+        }
+    CHECK(places.size() == 3);
+}
+
+TEST_CASE("monte-carlo shot by shot: brighter with each, and in the end its first step") {
+    const Model model(test::room_with_block());
+    const Method& method = *find_method("monte-carlo");
+    SolveOptions options = with_seed(5, 20);
+    const Solution whole = test::solve(model, method, options, test::steps(1));
+    options.one_shot = true;
+    Monitor monitor;
+    const SolverInput input{model.mesh, model.bvh, options, monitor};
+    const auto solver = method.make(input);
+    const std::size_t patches = model.mesh.patches().size();
+    std::vector<Vec3> before(patches, Vec3(0.0));
+    double unshot_before = 2 * mean_of_channels(solver->solution().energy.emitted);
+    std::uint32_t shots = 0;
+    while (!solver->finished()) {
+        REQUIRE(solver->step());
+        const Solution& s = solver->solution();
+        CHECK(s.steps == ++shots);
+        for (std::size_t i = 0; i < patches; ++i)
+            for (int c = 0; c < 3; ++c)
+                if (!(s.radiosity[i][c] >= before[i][c] &&
+                      s.radiosity[i][c] >= model.mesh.material(std::uint32_t(i)).emission[c]))
+                    FAIL("patch " << i << " gets darker");
+        before = s.radiosity;
+        CHECK(std::isnan(s.standard_error[0].x));
+        if (shots == 1) { // the brightest has shot
+            const double unshot = mean_of_channels(s.energy.unshot);
+            CHECK(unshot < unshot_before);
+            CHECK(s.rays_energy < whole.rays_energy);
+        }
+    }
+    CHECK(shots > patches / 2);
+    const Solution& end = solver->solution();
+    CHECK(test::same_bits(end.radiosity, whole.radiosity));
+    CHECK(end.hits == whole.hits);
+    CHECK(end.rays_energy == whole.rays_energy);
+    CHECK(end.energy.absorbed == whole.energy.absorbed);
+    CHECK(end.energy.unshot == whole.energy.unshot);
+    REQUIRE(solver->step()); // there is nothing left
+    CHECK(test::same_bits(solver->solution().radiosity, whole.radiosity));
+    monitor.interrupted = true;
+    const auto other = method.make(input);
+    CHECK_FALSE(other->step());
+    CHECK(other->solution().steps == 0);
 }

@@ -99,6 +99,14 @@ TEST_CASE("Sections 3.2, 3.3 and 4 on a page have the engine's bits") {
                    literal ? 1 : 5);
         check_same(Model(test::open_scene()), of_1997, with_rays(20, literal), 4);
     }
+    for (const Subdivision1997Options& numbers :
+         {Subdivision1997Options{1, 2, 1}, {3, 0, 4}, {0, 2, 16}, {0, 0, 64}, {1, 1, 64}})
+        for (const bool literal : {false, true}) {
+            SolveOptions options = with_rays(30, literal);
+            options.subdivision_1997 = numbers;
+            CAPTURE(numbers.stored_steps, numbers.estimated_steps, numbers.parts);
+            check_same(Model(test::furnace_l_shape(.5)), of_1997, options, 4);
+        }
     check_same(Model(test::sphere(1, 1, .5, 1)), of_1997, with_rays(300), 4);
     check_same(Model(example("room_1002")), of_1997, with_rays(6), 4);
 }

@@ -22,7 +22,7 @@ SolveOptions coarse(double rays = 64) {
 Solution to_the_end(const Model& model, const ProgressiveOptions& chosen,
                     SolveOptions options = coarse(), std::uint32_t* steps = nullptr) {
     options.progressive = chosen;
-    options.progressive.one_shot = true;
+    options.one_shot = true;
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor};
     const auto solver = find_method("progressive")->make(input);
@@ -104,7 +104,7 @@ TEST_CASE("Progressive radiosity shoots the brightest patch first, one at a time
     const Model model(test::cube_with_lit_floor(3, .5)); // the first nine patches emit
     Monitor monitor;
     SolveOptions options = coarse();
-    options.progressive.one_shot = true;
+    options.one_shot = true;
     const SolverInput input{model.mesh, model.bvh, options, monitor};
     const auto solver = find_method("progressive")->make(input);
     double before = 0;
@@ -132,7 +132,8 @@ TEST_CASE("The ambient term makes early solutions better and is gone at the end"
     const Solution end = to_the_end(model, {}, options);
     const auto early = [&](bool ambient) {
         SolveOptions chosen = options;
-        chosen.progressive = {.one_shot = true, .ambient = ambient, .overshoot = false};
+        chosen.one_shot = true;
+        chosen.progressive.ambient = ambient;
         Monitor monitor;
         const SolverInput input{model.mesh, model.bvh, chosen, monitor};
         const auto solver = find_method("progressive")->make(input);
@@ -141,10 +142,8 @@ TEST_CASE("The ambient term makes early solutions better and is gone at the end"
         return solver->solution();
     };
     CHECK(error(model, early(true), end) < .7 * error(model, early(false), end));
-    CHECK(
-        error(model,
-              to_the_end(model, {.one_shot = false, .ambient = true, .overshoot = false}, options),
-              end) < 1e-4);
+    CHECK(error(model, to_the_end(model, {.ambient = true, .overshoot = false}, options), end) <
+          1e-4);
 }
 
 TEST_CASE("Overshooting gives the same solution with fewer shots in a bright room") {
@@ -153,7 +152,7 @@ TEST_CASE("Overshooting gives the same solution with fewer shots in a bright roo
         m.reflectance = glm::mix(m.reflectance, Vec3(.95), .7);
     const Model model(scene);
     std::uint32_t plain_steps = 0, steps = 0;
-    ProgressiveOptions chosen{.one_shot = true, .ambient = false, .overshoot = false};
+    ProgressiveOptions chosen{.ambient = false, .overshoot = false};
     const Solution plain = to_the_end(model, chosen, coarse(1024), &plain_steps);
     chosen.overshoot = true;
     const Solution s = to_the_end(model, chosen, coarse(1024), &steps);

@@ -203,7 +203,7 @@ TEST_CASE("Progressive radiosity leaves hardly anything unshot in the end") {
         const Model model(open ? open_room(.9) : closed_room(.9));
         SolveOptions options;
         options.rays = 16;
-        options.progressive.one_shot = false;
+        options.one_shot = false;
         const Solution s = test::solve(model, *find_method("progressive"), options,
                                        {.steps = {}, .seconds = {}, .error = .1});
         CAPTURE(open, s.steps, share(s.energy.unshot, s.energy.emitted));

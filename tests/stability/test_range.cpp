@@ -55,7 +55,7 @@ Solution solved(const Model& model, const Method& method, double rays = 64) {
     options.rays = rays;
     options.threads = 1;
     const bool one_shot = method.name == "progressive"; // until the first pass has ended
-    options.progressive.one_shot = one_shot;
+    options.one_shot = one_shot;
     const Needs needs = find_needs(model.mesh);
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor, needs};

@@ -110,6 +110,30 @@ void add_division_options(Command command, SolveOptions& options) {
         .group("Method");
 }
 
+void add_own_numbers(Command command, std::span<const Method* const> methods,
+                     SolveOptions& options) {
+    for (const Method* const method : methods)
+        for (const MethodNumber& number : method->numbers) {
+            std::string expected;
+            for (const std::uint32_t choice : number.choices)
+                expected += (expected.empty()                  ? ""
+                             : choice == number.choices.back() ? " or "
+                                                               : ", ") +
+                            std::to_string(choice);
+            const auto parse = [choices = number.choices](const std::string& text) {
+                const std::optional<std::uint64_t> value = parse_whole(text);
+                return value && std::ranges::find(choices, *value) != choices.end() ? value
+                                                                                    : std::nullopt;
+            };
+            add_parsed(command, std::string(number.name), "N", std::string(number.help), expected,
+                       parse,
+                       [&target = number.value(options)](std::uint64_t value) {
+                           target = static_cast<std::uint32_t>(value);
+                       })
+                .group(own_group);
+        }
+}
+
 void add_factor_options(Command command, FactorOptions& factors, const std::string& group,
                         const FactorHelp& help) {
     const Option kind =

@@ -4,9 +4,12 @@
 #include "app/command_line/arguments.h"
 #include "app/settings/settings.h"
 
+#include <span>
+
 namespace hemilux {
 
 inline constexpr const char* output_group = "Outputs";
+inline constexpr const char* own_group = "Of one method"; ///< or of few
 
 /// Adds SCENE and the options that change it; returns --max-edge.
 Option add_scene_options(Command command, SceneSettings& scene);
@@ -14,6 +17,9 @@ Option add_scene_options(Command command, SceneSettings& scene);
 void add_memory_option(Command command, SceneSettings& scene);
 /// Adds --depth and --threshold: how hemispheres are divided.
 void add_division_options(Command command, SolveOptions& options);
+/// Adds the options of these methods that are whole numbers (Method::numbers).
+void add_own_numbers(Command command, std::span<const Method* const> methods,
+                     SolveOptions& options);
 struct FactorHelp {
     std::string factors, exact;
 };

@@ -307,16 +307,21 @@ void add_budget_options(Command command, CompareSettings& settings) {
 
 /// --factors of `matrix` and so on.
 void add_own_options(Command command, SolveOptions& options) {
-    const std::string group = "Of one method";
     add_factor_options(
-        command, options.factors, group,
+        command, options.factors, own_group,
         {"matrix, progressive: form factors by rays; exact: as --exact; hemicube: by a hemicube "
          "over each patch, N pixels along its edge [rays; N 64]",
          "matrix: factors without chance where patches see each other fully; for small scenes"});
+    add_own_numbers(command, methods(), options);
+    std::vector<std::string_view> added;
     for (const Method* const method : methods())
-        for (const MethodFlag& flag : method->flags)
+        for (const MethodFlag& flag : method->flags) {
+            if (std::ranges::find(added, flag.name) != added.end())
+                continue; // several methods take it
             command.add_flag(std::string(flag.name), flag.value(options), std::string(flag.help))
-                .group(group);
+                .group(own_group);
+            added.push_back(flag.name);
+        }
 }
 
 void add_reference_options(Command command, CompareSettings& settings) {

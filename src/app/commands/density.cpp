@@ -1,21 +1,18 @@
 #include "app/commands/density.h"
 
+#include "app/commands/divided_hemispheres.h"
 #include "app/loading/load_geometry.h"
 #include "app/running/signals.h"
 #include "app/running/write_report.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
+#include "app/settings/method_options.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
 #include "app/terminal/log.h"
 #include "bvh/wide/wide_bvh.h"
 #include "io/drawings/density_picture.h"
-#include "io/drawings/hemisphere_svg.h"
 #include "io/files/atomic_file.h"
-#include "radiosity/hemisphere/density.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
-#include "radiosity/shooting/strategy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,30 +27,28 @@ struct Preprocessed {
     const DensitySettings& settings;
     const Mesh& mesh;
     const Tracer& tracer;
-    const Hemisphere& hemisphere;
-    const DensityMap& map;
+    const DividedHemispheres& hemispheres;
     Monitor& monitor;
 };
 
 /// Of each patch's densities, weighted by the power of their triangles: D_average of the paper, and
-/// the standard deviation.
+/// the standard deviation. Parts of a patch count alike.
 struct PatchDensities {
     std::vector<double> mean, spread;
 };
 
 PatchDensities summarise(const Preprocessed& made) {
     PatchDensities result;
-    std::vector<DensityLeaf> leaves;
+    const std::size_t parts = made.hemispheres.parts();
     for (std::uint32_t i = 0; i < made.mesh.patches().size(); ++i) {
-        made.map.leaves(i, leaves);
         double mean = 0, square = 0;
-        for (const DensityLeaf& leaf : leaves) {
-            const double share =
-                made.hemisphere.cells()[leaf.cell].projected_solid_angle / std::numbers::pi;
-            const double d = leaf.density;
-            mean += share * d;
-            square += share * d * d;
-        }
+        for (std::size_t part = 0; part < parts; ++part)
+            for (const DrawnTriangle& triangle : made.hemispheres.triangles(i, part)) {
+                const double share = std::max(triangle.shape.projected_solid_angle(), 0.0) /
+                                     (std::numbers::pi * double(parts));
+                mean += share * triangle.density;
+                square += share * triangle.density * triangle.density;
+            }
         result.mean.push_back(mean);
         result.spread.push_back(std::sqrt(std::max(0.0, square - mean * mean)));
     }
@@ -72,47 +67,43 @@ std::uint32_t patch_to_draw(const Preprocessed& made, const PatchDensities& dens
     return patch;
 }
 
-/// Directions of energy rays as the paper's method allocates them, in the hemisphere's frame.
-std::vector<Vec3> energy_rays(const Preprocessed& made, std::uint32_t patch) {
-    const SolveOptions& options = made.settings.options;
-    const SolverInput input{made.mesh, made.tracer, options, made.monitor};
-    const auto strategy =
-        method_of(Role::paper).strategy(input, made.hemisphere, Workers(options.threads));
-    AllocatedCells memory;
-    const Allocation allocation = strategy->allocate(patch, memory);
-    Rng rng(hash_words({options.seed, patch}));
-    std::vector<Vec3> rays;
-    double due = rng.uniform(); // whole numbers of rays by systematic rounding
-    for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
-        due += allocation.rays(k) * made.settings.rays;
-        for (; due >= 1; due -= 1)
-            rays.push_back(made.hemisphere.cells()[allocation.cells[k]].shape.sample_rejection(
-                [&] { return rng.uniform(); }));
-    }
-    return rays;
-}
-
 std::string title_of(const Preprocessed& made, std::uint32_t patch, double mean,
                      std::size_t triangles) {
     const Scene& scene = made.mesh.scene();
     const Facet& facet = scene.facets[made.mesh.patches()[patch].facet];
     return formatted("patch %u (", patch) + scene.materials[facet.material].name + ", " +
-           scene.groups[facet.group] + "): " + counted(triangles, "triangle", "triangles") +
-           formatted(", mean density %.3g", mean);
+           scene.groups[facet.group] + "): " +
+           (made.hemispheres.parts() > 1 ? formatted("part %u, ", made.settings.part) : "") +
+           counted(triangles, "triangle", "triangles") + formatted(", mean density %.3g", mean);
+}
+
+/// Where the patch has several, each over its part.
+std::vector<HemisphereDrawing::Part> parts_of(const Preprocessed& made, std::uint32_t patch) {
+    const std::size_t parts = made.hemispheres.parts();
+    std::vector<HemisphereDrawing::Part> result;
+    const Frame frame = made.mesh.hemisphere_frame(patch);
+    const Patch& whole = made.mesh.patches()[patch];
+    for (std::size_t part = 0; parts > 1 && part < parts; ++part) {
+        Polygon outline = part_of(whole.shape, parts, part);
+        for (Vec3& corner : outline.corner)
+            corner = frame.to_local(corner - whole.centre);
+        result.push_back({outline, made.hemispheres.triangles(patch, part)});
+    }
+    return result;
 }
 
 void write_hemisphere(const Preprocessed& made, const PatchDensities& densities,
                       std::uint32_t patch, const std::string& path) {
-    std::vector<DensityLeaf> leaves;
-    made.map.leaves(patch, leaves);
-    std::vector<DensityCount> counts;
-    made.map.counts(patch, counts);
-    const std::vector<Vec3> rays =
-        made.settings.rays > 0 ? energy_rays(made, patch) : std::vector<Vec3>{};
-    write_atomically(path,
-                     hemisphere_svg({made.hemisphere,
-                                     title_of(made, patch, densities.mean[patch], leaves.size()),
-                                     leaves, counts, rays}));
+    const std::size_t part = made.settings.part;
+    const std::uint32_t rays = made.settings.rays;
+    HemisphereDrawing drawing{{},
+                              made.hemispheres.triangles(patch, part),
+                              made.hemispheres.counted(patch, part),
+                              rays > 0 ? made.hemispheres.rays(patch, part, rays)
+                                       : std::vector<Vec3>{},
+                              parts_of(made, patch)};
+    drawing.title = title_of(made, patch, densities.mean[patch], drawing.triangles.size());
+    write_atomically(path, hemisphere_svg(drawing));
 }
 
 void write_picture(const Preprocessed& made, const PatchDensities& densities,
@@ -139,6 +130,12 @@ void check(const DensitySettings& settings) {
     const bool draws = std::ranges::any_of(settings.outputs, is_svg);
     if (!draws && (settings.patch || settings.rays > 0))
         throw UsageError("--patch and --rays are for .svg outputs, and there is none");
+    check_own_options(settings.options, {&settings.method, 1});
+    const bool has_parts = settings.method == &method_of(Role::forerunner);
+    const std::uint32_t parts = has_parts ? settings.options.subdivision_1997.parts : 1;
+    if (settings.part >= parts)
+        throw UsageError(formatted("--part: there is no part %u; they are numbered from 0 to %u",
+                                   settings.part, parts - 1));
 }
 
 void check_patch(const DensitySettings& settings, const Mesh& mesh) {
@@ -152,8 +149,8 @@ void log_summary(const Preprocessed& made, const PatchDensities& densities) {
     const auto [least, most] = std::ranges::minmax(densities.mean);
     log_line(made.settings.verbosity, Verbosity::normal,
              counted(densities.mean.size(), "patch", "patches") + ", " +
-                 short_count(static_cast<double>(made.map.rays())) + " density rays, " +
-                 byte_size(made.map.bytes()) +
+                 short_count(static_cast<double>(made.hemispheres.density_rays())) +
+                 " density rays, " + byte_size(made.hemispheres.bytes()) +
                  formatted("; mean density of a patch %.3g to %.3g", least, most));
 }
 
@@ -169,14 +166,12 @@ int density(const DensitySettings& settings) {
     check_patch(settings, mesh);
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted);
-    const Hemisphere hemisphere(settings.options.depth);
-    const DensityMap map(mesh, bvh, hemisphere, settings.options.threshold,
-                         Workers(settings.options.threads), monitor);
+    const auto hemispheres = divide_hemispheres(settings, mesh, bvh, monitor);
     if (monitor.interrupted) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();
     }
-    const Preprocessed made{settings, mesh, bvh, hemisphere, map, monitor};
+    const Preprocessed made{settings, mesh, bvh, *hemispheres, monitor};
     const PatchDensities densities = summarise(made);
     log_summary(made, densities);
     std::optional<std::uint32_t> patch;

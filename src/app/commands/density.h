@@ -1,5 +1,5 @@
 #pragma once
-// hemilux density: what preprocessing found (paper section 5a), as drawings.
+// hemilux density: what preprocessing found (paper section 5a, or 4), as drawings.
 
 #include "app/settings/settings.h"
 
@@ -7,9 +7,11 @@ namespace hemilux {
 
 struct DensitySettings {
     SceneSettings scene;
-    SolveOptions options;               ///< depth, threshold, seed, threads
-    std::optional<std::uint32_t> patch; ///< whose hemisphere; empty: the largest spread
-    std::uint32_t rays = 0;             ///< energy rays to show in it
+    const Method* method = &method_of(Role::paper); ///< whose hemispheres; or the forerunner's
+    SolveOptions options;                           ///< how they are divided, seed, threads
+    std::optional<std::uint32_t> patch;             ///< whose hemisphere; empty: the largest spread
+    std::uint32_t part = 0;                         ///< of the patch: whose is shown from above
+    std::uint32_t rays = 0;                         ///< energy rays to show in it
     ViewSettings view;
     std::vector<std::string> outputs; ///< .svg: a hemisphere; .png: mean densities
     Verbosity verbosity = Verbosity::normal;

@@ -44,9 +44,11 @@ StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
     if (!stop.steps && !stop.seconds && !stop.error) {
         stop = settings.method->default_stop;
         stop.rays = settings.stop.rays;
+        if (settings.options.one_shot) // it ends by itself, whatever the number of shots
+            stop.steps.reset();
+        else if (!stop.steps && !stop.seconds && !stop.error)
+            stop.steps = StopRule::default_steps;
     }
-    if (!stop.steps && !stop.seconds && !stop.error)
-        stop.steps = StopRule::default_steps;
     const bool by_hemicubes = settings.options.factors.kind == FactorKind::hemicube;
     if (!stop.steps && !stop.seconds && !stop.rays && !by_hemicubes) // which end by themselves
         stop.rays = default_max_rays(patches);

@@ -35,6 +35,9 @@ Options options_of(const SolveSettings& settings) {
                        {"--seed", std::to_string(o.seed)},
                        {"--literal", yes_or_no(o.literal)},
                        {"--keep-all", yes_or_no(o.keep_all)}};
+    SolveOptions given = o;
+    for (const MethodNumber& number : settings.method->numbers)
+        options.emplace_back(number.name, std::to_string(number.value(given)));
     for (const std::string& name : settings.target.names())
         options.emplace_back("--for " + name, "yes");
     return options;
@@ -72,6 +75,8 @@ void check_checkpoint_options(const SolveSettings& settings) {
         throw UsageError("--checkpoint and --resume: --method " +
                          std::string(settings.method->name) +
                          " does not keep its state; these do: " + resumable_methods());
+    if (settings.options.one_shot)
+        throw UsageError("--checkpoint and --resume: a run with --one-shot does not keep its state");
     if (!asked.resumed.empty() && settings.every_step &&
         !(settings.view.camera && settings.view.exposure))
         throw UsageError("--every-step after --resume needs --camera and --exposure, which the "

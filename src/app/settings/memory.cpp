@@ -2,6 +2,7 @@
 
 #include "app/settings/text.h"
 #include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/hemisphere/subdivision_1997.h"
 #include "radiosity/scene/coplanar_overlaps.h"
 
 #include <algorithm>
@@ -76,7 +77,9 @@ std::size_t leaves(int depth) {
 /// The methods that keep all pairs keep no more of them than rays were shot.
 double bytes_of(const Method& method, const SolveOptions& options, double patches) {
     double bytes = bytes_per_solution * patches;
-    if (method.work.densities && options.guide == Guide::density)
+    if (method.role == Role::forerunner)
+        bytes += patches * Subdivision1997::bytes_of_patch(options.subdivision_1997);
+    else if (method.work.densities && options.guide == Guide::density)
         bytes +=
             growth * patches * static_cast<double>(Hemisphere(options.depth).vertices().size());
     else if (method.work.densities)

@@ -5,6 +5,7 @@
 #include "radiosity/form_factors/exact_form_factors.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 
 namespace hemilux {
@@ -43,16 +44,37 @@ void check_factors(FactorKind kind, std::span<const Method* const> chosen) {
         names_of_methods([kind](const Method& method) { return takes(method, kind); }, " or "));
 }
 
+/// Flags or numbers that were given are taken by a method that was chosen.
+template <auto own>
+void check_taken(SolveOptions options, std::span<const Method* const> chosen) {
+    SolveOptions usual;
+    for (const Method* const method : methods())
+        for (const auto& option : method->*own) {
+            const auto takes = [&option](const Method& other) {
+                return std::ranges::find(other.*own, option.name, [](const auto& its) {
+                           return its.name;
+                       }) != (other.*own).end();
+            };
+            if (option.value(options) != option.value(usual) &&
+                std::ranges::none_of(chosen, [&](const Method* one) { return takes(*one); }))
+                throw UsageError(std::string(option.name) + " is for --method " +
+                                 names_of_methods(takes, " or "));
+        }
+}
+
 } // namespace
 
 void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen) {
     check_factors(options.factors.kind, chosen);
-    SolveOptions given = options;
-    for (const Method* const method : methods())
-        for (const MethodFlag& flag : method->flags)
-            if (flag.value(given) && std::ranges::find(chosen, method) == chosen.end())
-                throw UsageError(std::string(flag.name) + " is for --method " +
-                                 std::string(method->name));
+    check_taken<&Method::flags>(options, chosen);
+    check_taken<&Method::numbers>(options, chosen);
+    for (const Method* const method : chosen)
+        try {
+            if (method->check)
+                method->check(options);
+        } catch (const std::invalid_argument& error) {
+            throw UsageError(error.what());
+        }
 }
 
 void check_plain(const SolveSettings& settings) {
@@ -64,6 +86,8 @@ void check_plain(const SolveSettings& settings) {
     if (settings.options.guide != Guide::density)
         throw UsageError("--plain is guided by densities alone; leave out --guide " +
                          std::string(guide_names.at(std::size_t(settings.options.guide))));
+    if (settings.options.one_shot)
+        throw UsageError("--plain shows whole solutions; leave out --one-shot");
     if (!settings.checkpoint.path.empty() || !settings.checkpoint.resumed.empty())
         throw UsageError("--plain keeps no state; leave out --checkpoint and --resume");
 }

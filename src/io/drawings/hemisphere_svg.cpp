@@ -21,9 +21,10 @@ constexpr double text_size = 14, title_size = 17;
 struct DomeView {
     Vec2 centre;
     Vec3 right, up, toward; ///< the last to the viewer
+    double radius = dome_radius;
 
     [[nodiscard]] Vec2 place(const Vec3& d) const {
-        return centre + dome_radius * Vec2(glm::dot(d, right), -glm::dot(d, up));
+        return centre + radius * Vec2(glm::dot(d, right), -glm::dot(d, up));
     }
     [[nodiscard]] bool sees(const Vec3& d) const {
         constexpr double rounding = 1e-12;
@@ -47,12 +48,15 @@ void append_arc(const Vec3& a, const Vec3& b, int steps, std::vector<Vec3>& poin
         points.push_back(glm::normalize(glm::mix(a, b, double(i) / steps)));
 }
 
-std::vector<Vec3> outline_of(const Hemisphere::Cell& cell) {
-    const int steps = std::max(4, 24 >> cell.level);
-    const auto& v = cell.shape.vertices();
+std::vector<Vec3> outline_of(const SphericalTriangle& triangle) {
+    constexpr double steps_per_radian = 48 / std::numbers::pi;
+    const auto& v = triangle.vertices();
     std::vector<Vec3> outline;
-    for (std::size_t i = 0; i < 3; ++i)
-        append_arc(v[i], v[(i + 1) % 3], steps, outline);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 &a = v[i], &b = v[(i + 1) % 3];
+        const double angle = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+        append_arc(a, b, std::max(4, static_cast<int>(steps_per_radian * angle)), outline);
+    }
     return outline;
 }
 
@@ -96,15 +100,14 @@ void draw_dot(const Vec2& at, double radius, Colour colour, Canvas& canvas) {
     canvas.polygon(corners, colour, 1);
 }
 
-void draw_triangles(const HemisphereDrawing& drawing, const DomeView& view, double most,
+void draw_triangles(std::span<const DrawnTriangle> triangles, const DomeView& view, double most,
                     Canvas& canvas) {
     std::vector<std::vector<Vec2>> edges;
-    for (const DensityLeaf& leaf : drawing.leaves) {
-        const Hemisphere::Cell& cell = drawing.hemisphere.cells()[leaf.cell];
-        std::vector<Vec2> points = placed(seen_part(outline_of(cell), view), view);
+    for (const DrawnTriangle& triangle : triangles) {
+        std::vector<Vec2> points = placed(seen_part(outline_of(triangle.shape), view), view);
         if (points.size() < 3)
             continue;
-        canvas.polygon(points, heat_colour(most > 0 ? double(leaf.density) / most : 0), 1);
+        canvas.polygon(points, heat_colour(most > 0 ? triangle.density / most : 0), 1);
         points.push_back(points.front());
         edges.push_back(std::move(points));
     }
@@ -112,20 +115,54 @@ void draw_triangles(const HemisphereDrawing& drawing, const DomeView& view, doub
         canvas.line(edge, {.colour = edge_ink, .width = 0.8});
 }
 
+/// The patch as large as a dome, and on each part of it a dome that leaves some of the part free;
+/// the nearest are drawn last.
+void draw_parts(std::span<const HemisphereDrawing::Part> parts, const DomeView& view, double most,
+                Canvas& canvas) {
+    Vec3 centre(0.0);
+    double area = 0, reach = 0;
+    for (const auto& part : parts) {
+        centre += part.outline.area() * part.outline.centre();
+        area += part.outline.area();
+    }
+    centre /= area;
+    for (const auto& part : parts)
+        for (const Vec3& corner : part.outline.corner)
+            reach = std::max(reach, glm::length(corner - centre));
+    std::vector<const HemisphereDrawing::Part*> order;
+    for (const auto& part : parts)
+        order.push_back(&part);
+    std::ranges::stable_sort(order, {}, [&view](const auto* part) {
+        return glm::dot(part->outline.centre(), view.toward);
+    });
+    for (const auto* part : order) {
+        std::vector<Vec3> corners;
+        for (const Vec3& corner : part->outline.corner)
+            corners.push_back((corner - centre) / reach);
+        corners.push_back(corners.front());
+        canvas.line(placed(corners, view), {.colour = ink, .width = 1.2});
+    }
+    for (const auto* part : order) {
+        DomeView dome = view;
+        dome.centre = view.place((part->outline.centre() - centre) / reach);
+        dome.radius = 0.4 * dome_radius * std::sqrt(part->outline.area()) / reach;
+        draw_triangles(part->triangles, dome, most, canvas);
+    }
+}
+
 void draw_counts(const HemisphereDrawing& drawing, const DomeView& view, bool labels,
                  Canvas& canvas) {
     const double radius = drawing.counts.size() > most_labels ? 1.2 : 2.6;
-    for (const DensityCount& count : drawing.counts) {
-        const Vec3& d = drawing.hemisphere.vertices()[count.vertex];
-        if (view.sees(d))
-            draw_dot(view.place(d), radius, ink, canvas);
+    for (const CountedDirection& count : drawing.counts) {
+        if (view.sees(count.direction))
+            draw_dot(view.place(count.direction), radius, ink, canvas);
     }
     if (!labels || drawing.counts.size() > most_labels)
         return;
     constexpr double size = 11, digit = 6.2;
-    for (const DensityCount& count : drawing.counts) {
-        const std::string text = std::to_string(count.surfaces);
-        const Vec2 at = view.place(drawing.hemisphere.vertices()[count.vertex]) + Vec2(5, -4);
+    for (const CountedDirection& count : drawing.counts) {
+        const std::string text = std::to_string(static_cast<int>(count.surfaces));
+        const Vec2 at = view.place(count.direction) + Vec2(5, -4);
         fill_box(canvas, at + Vec2(-1, -9), at + Vec2(digit * double(text.size()) + 1, 1), white,
                  0.75);
         canvas.text(at, text, {.size = size, .colour = ink});
@@ -145,7 +182,8 @@ void draw_captions(const HemisphereDrawing& drawing, Canvas& canvas) {
     const TextStyle middle{.anchor = Anchor::middle, .size = text_size, .colour = ink};
     canvas.text({40, 30}, drawing.title, {.size = title_size, .colour = ink});
     canvas.text({centre_above.x, 68}, "from above", middle);
-    canvas.text({centre_side.x, 68}, "from the side", middle);
+    canvas.text({centre_side.x, 68},
+                drawing.parts.empty() ? "from the side" : "over each part of the patch", middle);
     std::string legend = "dots: density rays, with the surfaces counted";
     if (drawing.counts.size() > most_labels)
         legend = "dots: density rays";
@@ -158,15 +196,24 @@ void draw_captions(const HemisphereDrawing& drawing, Canvas& canvas) {
 
 void draw(const HemisphereDrawing& drawing, Canvas& canvas) {
     double most = 0;
-    for (const DensityLeaf& leaf : drawing.leaves)
-        most = std::max(most, double(leaf.density));
+    const auto look_at = [&most](std::span<const DrawnTriangle> triangles) {
+        for (const DrawnTriangle& triangle : triangles)
+            most = std::max(most, triangle.density);
+    };
+    look_at(drawing.triangles);
+    for (const auto& part : drawing.parts)
+        look_at(part.triangles);
     draw_captions(drawing, canvas);
     const DomeView above = from_above(), side = from_side();
-    draw_triangles(drawing, above, most, canvas);
+    draw_triangles(drawing.triangles, above, most, canvas);
     draw_rays(drawing.rays, above, canvas);
     draw_counts(drawing, above, true, canvas);
-    draw_triangles(drawing, side, most, canvas);
-    draw_counts(drawing, side, false, canvas);
+    if (drawing.parts.empty()) {
+        draw_triangles(drawing.triangles, side, most, canvas);
+        draw_counts(drawing, side, false, canvas);
+    } else {
+        draw_parts(drawing.parts, side, most, canvas);
+    }
     draw_colour_bar({{440, 732}, {840, 746}, most, "density, surfaces per ray"}, canvas);
 }
 

@@ -1,21 +1,38 @@
 #pragma once
-// The divided hemisphere of a patch, as the paper draws it (figures 4 to 7): its spherical
-// triangles in parallel projection, from above and from the side, coloured by density.
+// The divided hemisphere of a patch, as the paper draws it (figures 2 and 4 to 7): its spherical
+// triangles in parallel projection, from above and from the side, coloured by density. Where a
+// patch has several hemispheres (figure 3), one of them is shown from above and all of them, each
+// over its part of the patch, from the side.
 
+#include "geometry/polygon.h"
+#include "geometry/spherical_triangle.h"
 #include "io/drawings/canvas.h"
-#include "radiosity/hemisphere/density.h"
+#include "radiosity/scene/edge_division.h"
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace hemilux {
 
+struct DrawnTriangle {
+    SphericalTriangle shape;
+    double density; ///< surfaces per ray
+};
+
+/// All directions are unit vectors, z being the patch's normal.
 struct HemisphereDrawing {
-    const Hemisphere& hemisphere;
     std::string title;
-    std::span<const DensityLeaf> leaves;
-    std::span<const DensityCount> counts; ///< at the triangles' vertices; shown as dots
-    std::span<const Vec3> rays = {};      ///< energy rays to show: unit, z is the patch's normal
+    std::vector<DrawnTriangle> triangles;
+    std::vector<CountedDirection> counts; ///< shown as dots
+    std::vector<Vec3> rays = {};          ///< energy rays to show
+
+    /// A part of the patch, in the patch's frame, of any size.
+    struct Part {
+        Polygon outline;
+        std::vector<DrawnTriangle> triangles;
+    };
+    std::vector<Part> parts = {}; ///< where there are several
 };
 
 /// Where the two views are [pixels]; seen from above the dome fills its circle.

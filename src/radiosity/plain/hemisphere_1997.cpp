@@ -1,14 +1,16 @@
 // The technique of 1997 on one page (paper section 4; Jolivet and Plemenos, GraphiCon 1997).
 //
-// A patch is divided, in thought, into 2 x 2 parts with a hemisphere over the centre of each. In n
-// steps all spherical triangles are divided into four at new directions on their edges, nearer to
-// the end where more surfaces were counted, and are stored; in m further steps they are divided by
+// A patch is divided, in thought, into parts with a hemisphere over the centre of each. In n steps
+// all spherical triangles are divided into four at new directions on their edges, nearer to the end
+// where more surfaces were counted, and are stored; in m further steps they are divided by
 // estimated counts, and nothing is stored. Every triangle gets the same number of rays; its energy
-// goes by its area. Plain progressive refinement follows, and is also the pilot of step.h.
+// goes by its area. Plain progressive refinement follows, and is also the pilot of step.h. n, m and
+// the number of parts are the user's (solver.h).
 //
 // With --literal (`printed_`) the rules are those of the print; beside each stands the corrected
-// one (docs/decisions.md, D1, D2, D4, D10 and D34).
+// one (docs/decisions.md, D1, D2, D4, D10, D34 and D61).
 
+#include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/plain/step.h"
@@ -18,11 +20,10 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <vector>
 
 namespace hemilux::plain {
 namespace {
-
-constexpr int n = 2, m = 1; // the paper names no values
 
 using Triangle = std::array<Direction, 3>;
 
@@ -44,12 +45,13 @@ Triangle child_of(const Triangle& abc, std::size_t child) {
 class Hemisphere1997 final : public StepSolver {
   public:
     explicit Hemisphere1997(const SolverInput& input)
-        : StepSolver(input, !input.options.literal), printed_(input.options.literal), tree_(n) {
-        const std::size_t patches = input.mesh.patches().size();
-        for (std::uint32_t i = 0; i < patches && !input.monitor.interrupted; ++i)
-            for (const Polygon& part : quarters_of(input.mesh.patches()[i].shape))
-                count(i, part.centre());
-        mean_.solution.bytes_density = stored_.bytes();
+        : StepSolver(input, !input.options.literal), printed_(input.options.literal),
+          n(static_cast<int>(input.options.subdivision_1997.stored_steps)),
+          m(static_cast<int>(input.options.subdivision_1997.estimated_steps)),
+          parts_(input.options.subdivision_1997.parts), tree_(n),
+          stored_(input.mesh.patches().size() * parts_) {
+        if (!printed_)
+            divide_to(n);
     }
 
   private:
@@ -60,38 +62,62 @@ class Hemisphere1997 final : public StepSolver {
                         : std::max(tr.projected_solid_angle() / pi, 0.0);
     }
 
+    /// Divides the triangles of all patches until they are of this level, and counts.
+    void divide_to(int level) {
+        for (; divided_ < std::min(level, n); ++divided_)
+            for (std::size_t h = 0; h < stored_.size() && !input_.monitor.interrupted; ++h)
+                divide_all(divided_ + 1, h);
+        mean_.solution.bytes_density = 0;
+        for (const StoredDirections& stored : stored_)
+            mean_.solution.bytes_density += stored.bytes();
+    }
+
     /// Which triangles share a direction is as in the regular subdivision, whose vertices are
     /// numbered in the order in which its triangles need them.
-    void count(std::uint32_t patch, const Vec3& centre) {
-        const std::size_t first = stored_.size();
-        const auto store = [&](const Vec3& v) { stored_.add(v, count_surfaces(patch, centre, v)); };
-        for (std::size_t v = 0; v < Hemisphere(0).vertices().size(); ++v)
+    void divide_all(int level, std::size_t hemisphere) {
+        const auto patch = static_cast<std::uint32_t>(hemisphere / parts_);
+        const Vec3 centre =
+            part_of(input_.mesh.patches()[patch].shape, parts_, hemisphere % parts_).centre();
+        StoredDirections& stored = stored_[hemisphere];
+        const auto store = [&](const Vec3& v) { stored.add(v, count_surfaces(patch, centre, v)); };
+        for (std::size_t v = 0; level == 0 && v < Hemisphere(0).vertices().size(); ++v)
             store(tree_.vertices()[v]);
-        for (const Hemisphere::Cell& tr : tree_.cells()) {
-            const auto corner = [&](std::size_t k) { return stored_.at(first + tr.vertex[k % 3]); };
-            for (std::size_t edge = 0; tr.level < n && edge < 3; ++edge)
-                if (first + tr.midpoint[edge] == stored_.size())
-                    store(divide(corner(edge), corner(edge + 1)).to);
-        }
+        for (const Hemisphere::Cell& tr : tree_.cells())
+            for (std::size_t edge = 0; tr.level == level - 1 && edge < 3; ++edge)
+                if (tr.midpoint[edge] == stored.size())
+                    store(divide(stored.at(tr.vertex[edge]), stored.at(tr.vertex[(edge + 1) % 3]))
+                              .to);
     }
 
     [[nodiscard]] Triangle triangle(std::size_t hemisphere, int level, std::size_t index) const {
         if (level > n)
             return child_of(triangle(hemisphere, level - 1, index / 4), index % 4);
         const auto& v = tree_.cells()[Hemisphere::cells_up_to(level - 1) + index].vertex;
-        const std::size_t first = hemisphere * tree_.vertices().size();
-        return {stored_.at(first + v[0]), stored_.at(first + v[1]), stored_.at(first + v[2])};
+        const StoredDirections& stored = stored_[hemisphere];
+        return {stored.at(v[0]), stored.at(v[1]), stored.at(v[2])};
+    }
+
+    /// As printed: the directions that were counted in the step that this level is of. A child at a
+    /// corner of its parent has two of them, the middle one three.
+    [[nodiscard]] std::vector<Vec3> counted(const Triangle& abc, int level,
+                                            std::size_t index) const {
+        std::vector<Vec3> directions;
+        for (std::size_t corner = 0; printed_ && level <= n && corner < 3; ++corner)
+            if (level == 1 || index % 4 != corner)
+                directions.push_back(density_direction(abc[corner].to));
+        return directions;
     }
 
     /// For each patch, each triangle and each direction: shoots a ray; bounce after bounce.
     bool compute_radiosity(std::uint64_t step, double Phi_mean, Step& result) override {
+        divide_to(step < std::uint64_t(n) ? static_cast<int>(step) + 1 : n);
         const double least = printed_ ? 1e-4 * result.power_unshot() : 0; // or it never ends
         for (std::uint64_t bounce = 0; result.power_unshot() > least; ++bounce) {
             const std::uint64_t stream = hash_words({input_.options.seed, step, bounce});
             for (const Due& due : result.due(stream, Phi_mean)) {
                 if (input_.monitor.interrupted)
                     return false;
-                if (step < n + m)
+                if (step < std::uint64_t(n + m))
                     shoot(due, static_cast<int>(step) + 1, result);
                 else
                     shoot_plainly(due,
@@ -106,9 +132,8 @@ class Hemisphere1997 final : public StepSolver {
     /// Through the triangles of a level over each part.
     void shoot(const Due& due, int level, Step& result) const {
         const Patch& patch = input_.mesh.patches()[due.patch];
-        const auto parts = quarters_of(patch.shape);
         const Frame frame = input_.mesh.hemisphere_frame(due.patch);
-        const std::size_t of_part = std::size_t{4} << (2 * level), all = 4 * of_part;
+        const std::size_t of_part = std::size_t{4} << (2 * level), all = parts_ * of_part;
         const double N_hemi = printed_ ? input_.options.rays : due.rays();
         const double N_tr = N_hemi / double(all);
         double from = due.begin;
@@ -116,30 +141,38 @@ class Hemisphere1997 final : public StepSolver {
         for (std::size_t k = 0; k < all; ++k) {
             const double share = double(k + 1) / double(all);
             const double to = k + 1 < all ? due.begin + N_hemi * share : due.end;
-            const Rays rays =
-                printed_ ? rays_rounded(std::max(N_tr, 1.0)) : rays_on_line(N_tr, from, to);
+            const std::size_t index = k % of_part;
+            Rays rays = printed_ ? rays_rounded(std::max(N_tr, 1.0)) : rays_on_line(N_tr, from, to);
             from = to;
             if (rays.number == 0)
                 continue;
-            const Triangle abc = triangle(4 * due.patch + k / of_part, level, k % of_part);
+            const Triangle abc = triangle(parts_ * due.patch + k / of_part, level, index);
+            const std::vector<Vec3> known = counted(abc, level, index);
+            rays.number += known.size();
+            rays.divisor += double(known.size());
             const SphericalTriangle tr(abc[0].to, abc[1].to, abc[2].to);
-            const Polygon& part = parts[k / of_part];
+            const Polygon part = part_of(patch.shape, parts_, k / of_part);
             const PolygonSampler points(part);
             const Vec3 Phi_ray = // Phi_tr / N_tr, Phi_tr = Phi_patch A_part / A_patch A_tr / A_hemi
                 1 / rays.divisor * (part.area() / patch.area * area(tr)) * result.unshot[due.patch];
-            for (std::uint64_t left = rays.number; left > 0; --left, ++number) {
+            for (std::uint64_t i = 0; i < rays.number; ++i, ++number) {
                 RayNumbers random(due.key, number);
                 Rng in_triangle(hash_words({due.key & 0xffffffff, due.key >> 32, number}));
                 const Vec3 start = printed_ ? part.centre() : points.sample(random.start());
-                const Vec3 direction = tr.sample_rejection([&] { return in_triangle.uniform(); });
+                const Vec3 direction =
+                    i < known.size() ? known[i]
+                                     : tr.sample_rejection([&] { return in_triangle.uniform(); });
                 result.shoot(patch, start, frame.to_world(direction), Phi_ray);
             }
         }
     }
 
     bool printed_;
+    int n, m; ///< steps whose triangles are stored, and estimated
+    std::size_t parts_;
     Hemisphere tree_;
-    StoredDirections stored_; ///< by patch, part and vertex of the tree
+    int divided_ = -1;                     ///< the last level that is stored
+    std::vector<StoredDirections> stored_; ///< by patch and part; in each by vertex of the tree
 };
 
 } // namespace

@@ -296,7 +296,7 @@ void Bounces::schedule(std::size_t sender, const WorkItem& item, const Allocatio
         // Below one ray per cell, the ray that is shot carries the power of those that are not.
         const double sharing = expected >= 1 ? high - low : expected;
         if (here > 0)
-            groups.push_back({patch, cell, ray_number(first - before),
+            groups.push_back({patch, cell, ray_number(low - before), ray_number(first - before),
                               static_cast<std::uint32_t>(here), 1 / sharing});
     });
 }
@@ -310,7 +310,7 @@ void Bounces::schedule_as_printed(std::uint32_t patch, const WorkItem& item,
         const double first = std::max(before, item.from);
         const double here = std::min(before + rays, item.to) - first;
         if (here > 0)
-            groups.push_back({patch, allocation.cells[k], ray_number(first),
+            groups.push_back({patch, allocation.cells[k], ray_number(before), ray_number(first),
                               static_cast<std::uint32_t>(here), 1 / rays});
         before += rays;
     }

@@ -62,7 +62,7 @@ void GroupedRays::list_group(RayGroup& group, std::uint32_t rays) {
 void GroupedRays::list_private(RayGroup& group, std::uint32_t rays, const PrivateCell& own) {
     add_to_batch(group, rays, whole_hemisphere, own.power);
     runs_.push_back({group.patch, rays, static_cast<std::uint32_t>(own_.size())});
-    own_.push_back(own);
+    own_.push_back({own, group.cell_first});
 }
 
 void GroupedRays::add_to_batch(RayGroup& group, std::uint32_t rays, std::uint16_t cell,
@@ -93,16 +93,19 @@ void GroupedRays::fill(const Run& run, std::size_t first) {
                 ray.origin = source_.mesh.patches()[run.patch].centre;
 }
 
-void GroupedRays::fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
+void GroupedRays::fill_private(const OwnCell& own, const PatchStart& start, std::size_t first,
                                std::span<Ray> rays) {
+    const PrivateCell& cell = own.cell;
     const PolygonSampler part(cell.origins);
     for (std::size_t k = first; Ray & ray : rays) {
         Rng rng(hash_words({batch_.key_low[k], batch_.key_high[k], batch_.number[k]}));
         ray.from = start.facet;
         ray.origin =
             source_.literal ? cell.origins.centre() : part.sample({batch_.u[k], batch_.v[k]});
-        ray.direction =
-            start.frame.to_world(cell.shape.sample_rejection([&] { return rng.uniform(); }));
+        const std::uint32_t of_cell = batch_.number[k] - own.first;
+        ray.direction = start.frame.to_world(
+            of_cell < cell.given ? cell.direction[of_cell]
+                                 : cell.shape.sample_rejection([&] { return rng.uniform(); }));
         ++k;
     }
 }

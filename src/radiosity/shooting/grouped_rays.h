@@ -18,7 +18,8 @@ class Mesh;
 struct RayGroup {
     std::uint32_t patch;
     std::uint16_t cell;
-    std::uint32_t first; ///< its first ray's number among all those of the patch
+    std::uint32_t cell_first; ///< the number of the cell's first ray among all those of the patch
+    std::uint32_t first;      ///< that of the group's
     std::uint32_t rays;
     /// Phi_ray / Phi_patch; until the rays are drawn Phi_ray / Phi_tr.
     double ray_power;
@@ -51,12 +52,16 @@ class GroupedRays {
         std::uint32_t patch, rays;
         std::uint32_t own; ///< the private cell's place in own_, else none
     };
+    struct OwnCell {
+        PrivateCell cell;
+        std::uint32_t first; ///< the number of its first ray
+    };
     void list();
     void list_group(RayGroup& group, std::uint32_t rays);
     void list_private(RayGroup& group, std::uint32_t rays, const PrivateCell& own);
     void add_to_batch(RayGroup& group, std::uint32_t rays, std::uint16_t cell, double power);
     void fill(const Run& run, std::size_t first);
-    void fill_private(const PrivateCell& cell, const PatchStart& start, std::size_t first,
+    void fill_private(const OwnCell& own, const PatchStart& start, std::size_t first,
                       std::span<Ray> rays);
 
     RaySource source_;
@@ -68,7 +73,7 @@ class GroupedRays {
     std::uint32_t listed_ = none; ///< the patch of that
     std::uint64_t key_ = 0;       ///< of that patch's random numbers
     std::vector<Run> runs_;
-    std::vector<PrivateCell> own_;
+    std::vector<OwnCell> own_;
     DirectionBatch batch_;
     std::optional<PatchStart> start_; ///< memory of one
 };

@@ -41,6 +41,7 @@ bool ShootingSolver::solve_once(const StepTask& task, StepResult& result) {
     if (!bounces.shoot(task, result))
         return false;
     strategy.end_step();
+    mean_.solution.rays_density = strategy.density_rays();
     return true;
 }
 

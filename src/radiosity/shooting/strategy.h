@@ -9,6 +9,7 @@
 #include "radiosity/solving/solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -63,6 +64,9 @@ struct PrivateCell {
     double power; ///< its share of the patch's
     SphericalTriangle shape;
     Polygon origins; ///< the part of the patch where its rays start
+    /// So many of its rays, the first ones, go in given directions and not by chance.
+    std::uint32_t given = 0;
+    std::array<Vec3, 3> direction{};
 };
 
 class Strategy {
@@ -111,6 +115,7 @@ class Strategy {
     virtual void save(StateWriter&) const {}
     virtual void load(StateReader&) {}
 
+    /// So far: a strategy may look between the steps too.
     [[nodiscard]] virtual std::uint64_t density_rays() const { return 0; }
     /// How many more density rays there would be if all triangles were divided.
     [[nodiscard]] virtual std::uint64_t density_rays_spared() const { return 0; }

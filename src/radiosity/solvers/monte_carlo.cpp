@@ -8,9 +8,12 @@
 // by chance, which keeps the estimate unbiased and ends the step by itself: a patch with a third of
 // a ray shoots a whole one in a third of all cases.
 //
-// Each step is such a solution from emission on; the result is their mean (stepwise.h).
+// Each step is such a solution from emission on; the result is their mean (stepwise.h). With
+// --one-shot a step is one shot instead, so that a picture can be shown each time a patch has shot
+// what it held, as the paper has it. The run then ends with this one solution, that of the first
+// step: its error is unknown.
 //
-// Parameter: --rays, the mean number of rays per patch and step.
+// Parameter: --rays, the mean number of rays per patch and solution.
 // Good as a yardstick: nothing but rays. Bad where small patches matter, whose error is that of
 // counting few hits, and with many threads: a shot depends on the one before, so only the rays of
 // one patch are traced at once. Costs one ray after the other and no memory to speak of.
@@ -23,7 +26,10 @@
 #include "radiosity/shooting/stepwise.h"
 #include "radiosity/solving/solve_error.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace hemilux {
@@ -36,53 +42,57 @@ constexpr std::size_t rays_per_volley = 2048 * rays_per_stream;
 /// Fewer than this are traced sooner than other threads would be started.
 constexpr std::size_t rays_for_one_thread = 2048;
 
-class MonteCarloSolver final : public StepwiseSolver {
+/// One solution of all bounces, shot by shot. `result` comes with the emission as radiosity and
+/// gets what the shots have brought.
+class Shots {
   public:
-    explicit MonteCarloSolver(const SolverInput& input) : StepwiseSolver(input, true) {}
-
-  private:
-    [[nodiscard]] bool steps_are_alike() const override { return true; }
-    bool solve_once(const StepTask& task, StepResult& result) override {
-        const auto patches = static_cast<std::uint32_t>(input_.mesh.patches().size());
-        std::vector<CompensatedSum<Vec3>> unshot(patches), received(patches);
-        std::vector<std::uint32_t> receivers; // of some of a shot's rays, ray by ray
-        LargestFirst order(patches);
-        for (std::uint32_t i = 0; i < patches; ++i) {
-            unshot[i] += result.radiosity[i] * input_.mesh.patches()[i].area;
-            order.set(i, mean_of_channels(unshot[i].value()));
+    Shots(const SolverInput& input, const StepTask& task, StepResult& result)
+        : input_(input), task_(task), result_(result), unshot_(result.radiosity.size()),
+          received_(unshot_.size()), order_(unshot_.size()) {
+        for (std::uint32_t i = 0; i < unshot_.size(); ++i) {
+            unshot_[i] += result.radiosity[i] * input_.mesh.patches()[i].area;
+            order_.set(i, mean_of_channels(unshot_[i].value()));
         }
-        for (std::uint64_t shots = 0; order.largest() > 0; ++shots) {
+    }
+
+    [[nodiscard]] bool done() const { return !(order_.largest() > 0); }
+
+    /// Of the patch that holds most. False when interrupted.
+    bool shoot_next() {
+        if (input_.monitor.interrupted)
+            return false;
+        const auto shooter = static_cast<std::uint32_t>(order_.index_of_largest());
+        const Vec3 power = std::exchange(unshot_[shooter], {}).value();
+        order_.set(shooter, 0);
+        check_finite(input_.mesh, shooter, power, "the power to be shot", task_.number);
+        check_bounces(input_.mesh, shots_ / unshot_.size(), task_.number);
+        result_.shot += mean_of_channels(power);
+        const Shot shot = aim(shooter, power);
+        for (std::size_t first = 0; first < shot.rays; first += rays_per_volley) {
+            shoot(shot, first);
             if (input_.monitor.interrupted)
                 return false;
-            const auto shooter = static_cast<std::uint32_t>(order.index_of_largest());
-            const Vec3 power = std::exchange(unshot[shooter], {}).value();
-            order.set(shooter, 0);
-            check_finite(input_.mesh, shooter, power, "the power to be shot", task.number);
-            check_bounces(input_.mesh, shots / patches, task.number);
-            result.shot += mean_of_channels(power);
-            const Shot shot = aim(shooter, power, task.ray_power,
-                                  hash_words({input_.options.seed, task.stream, shots}));
-            for (std::size_t first = 0; first < shot.rays; first += rays_per_volley) {
-                shoot(shot, first, task.workers, receivers);
-                if (input_.monitor.interrupted)
-                    return false;
-                for (const std::uint32_t i : receivers)
-                    if (i < patches) {
-                        received[i] += shot.each;
-                        unshot[i] += input_.mesh.material(i).reflectance * shot.each;
-                        order.set(i, mean_of_channels(unshot[i].value()));
-                        ++result.hits[i];
-                    } else {
-                        (i == escaped ? result.escaped : result.absorbed) += shot.each;
-                    }
-                count(receivers.size(), result);
-            }
-            result.sent += double(shot.rays) * shot.each;
+            receive(shot);
         }
-        reflect(received, result);
+        result_.sent += double(shot.rays) * shot.each;
+        ++shots_;
         return true;
     }
 
+    /// Radiosity from all power that each patch has received so far.
+    void reflect() {
+        result_.absorbed = absorbed_on_backs_;
+        for (std::uint32_t i = 0; i < received_.size(); ++i) {
+            const Material& material = input_.mesh.material(i);
+            const Vec3 power = received_[i].value();
+            const double area = input_.mesh.patches()[i].area;
+            result_.absorbed += (1.0 - material.reflectance) * power;
+            if (area > 0)
+                result_.radiosity[i] = material.emission + material.reflectance * power / area;
+        }
+    }
+
+  private:
     struct Shot {
         std::uint32_t shooter;
         std::size_t rays;
@@ -90,9 +100,9 @@ class MonteCarloSolver final : public StepwiseSolver {
         std::uint64_t stream;
     };
 
-    [[nodiscard]] static Shot aim(std::uint32_t shooter, const Vec3& power, double ray_power,
-                                  std::uint64_t stream) {
-        const double expected = mean_of_channels(power) / ray_power;
+    [[nodiscard]] Shot aim(std::uint32_t shooter, const Vec3& power) const {
+        const std::uint64_t stream = hash_words({input_.options.seed, task_.stream, shots_});
+        const double expected = mean_of_channels(power) / task_.ray_power;
         const double n = std::floor(expected + Rng(stream).uniform());
         // Below one ray, the ray that is shot carries the power of those that are not.
         return {shooter, static_cast<std::size_t>(n), power / (expected >= 1 ? n : expected),
@@ -100,11 +110,10 @@ class MonteCarloSolver final : public StepwiseSolver {
     }
 
     /// Some of the shot's rays, from `first` on.
-    void shoot(const Shot& shot, std::size_t first, const Workers& all,
-               std::vector<std::uint32_t>& receivers) const {
+    void shoot(const Shot& shot, std::size_t first) {
         const std::size_t rays = std::min(shot.rays - first, rays_per_volley);
-        receivers.resize(rays);
-        const Workers workers = rays < rays_for_one_thread ? Workers(1) : all;
+        receivers_.resize(rays);
+        const Workers workers = rays < rays_for_one_thread ? Workers(1) : task_.workers;
         workers.for_chunks(rays, rays_per_stream, [&](std::size_t begin, std::size_t end) {
             if (input_.monitor.interrupted)
                 return;
@@ -117,34 +126,118 @@ class MonteCarloSolver final : public StepwiseSolver {
             for (std::size_t k = begin; k < end; ++k)
                 drawn.push_back(cosine_ray(from, origins, frame, rng));
             find_receivers(drawn, input_.mesh, input_.tracer, hits);
-            std::ranges::copy(hits, receivers.begin() + static_cast<std::ptrdiff_t>(begin));
+            std::ranges::copy(hits, receivers_.begin() + static_cast<std::ptrdiff_t>(begin));
         });
     }
 
-    /// Radiosity from all power that each patch received.
-    void reflect(const std::vector<CompensatedSum<Vec3>>& received, StepResult& result) const {
-        for (std::uint32_t i = 0; i < received.size(); ++i) {
-            const Vec3& reflectance = input_.mesh.material(i).reflectance;
-            const Vec3 power = received[i].value();
-            const double area = input_.mesh.patches()[i].area;
-            result.absorbed += (1.0 - reflectance) * power;
-            if (area > 0)
-                result.radiosity[i] += reflectance * power / area;
-        }
+    void receive(const Shot& shot) {
+        for (const std::uint32_t i : receivers_)
+            if (i < unshot_.size()) {
+                received_[i] += shot.each;
+                unshot_[i] += input_.mesh.material(i).reflectance * shot.each;
+                order_.set(i, mean_of_channels(unshot_[i].value()));
+                ++result_.hits[i];
+            } else {
+                (i == escaped ? result_.escaped : absorbed_on_backs_) += shot.each;
+            }
+        result_.rays += receivers_.size();
+        input_.monitor.rays += receivers_.size();
+        input_.monitor.step_share =
+            std::min(1.0, static_cast<double>(result_.rays) /
+                              (input_.options.rays * static_cast<double>(unshot_.size())));
     }
 
-    void count(std::size_t rays, StepResult& result) const {
-        result.rays += rays;
-        input_.monitor.rays += rays;
-        input_.monitor.step_share = std::min(
-            1.0, static_cast<double>(result.rays) /
-                     (input_.options.rays * static_cast<double>(input_.mesh.patches().size())));
+    const SolverInput& input_;
+    const StepTask& task_;
+    StepResult& result_;
+    std::uint64_t shots_ = 0;
+    std::vector<CompensatedSum<Vec3>> unshot_, received_; ///< by patch
+    CompensatedSum<Vec3> absorbed_on_backs_;
+    LargestFirst order_;
+    std::vector<std::uint32_t> receivers_; ///< of some of a shot's rays, ray by ray
+};
+
+bool shoot_all(const SolverInput& input, const StepTask& task, StepResult& result) {
+    Shots shots(input, task, result);
+    while (!shots.done())
+        if (!shots.shoot_next())
+            return false;
+    shots.reflect();
+    return true;
+}
+
+class MonteCarloSolver final : public StepwiseSolver {
+  public:
+    explicit MonteCarloSolver(const SolverInput& input) : StepwiseSolver(input, true) {}
+
+  private:
+    [[nodiscard]] bool steps_are_alike() const override { return true; }
+    bool solve_once(const StepTask& task, StepResult& result) override {
+        return shoot_all(input_, task, result);
     }
 };
 
+/// The first step of the same, whose shots are the steps.
+class OneShotSolver final : public Solver {
+  public:
+    explicit OneShotSolver(const SolverInput& input)
+        : input_(input), mean_(input, true), start_(mean_.solution),
+          result_(input.mesh), task_{0, 1, 0, 0, Workers(input.options.threads)} {}
+
+    bool step() override {
+        if (!shots_ && !begin())
+            return false;
+        input_.monitor.phase = "shooting";
+        if (!shots_->done()) {
+            if (!shots_->shoot_next())
+                return false;
+            shots_->reflect();
+        }
+        publish();
+        return true;
+    }
+    [[nodiscard]] const Solution& solution() const override { return mean_.solution; }
+    [[nodiscard]] bool finished() const override { return shots_ && shots_->done(); }
+
+  private:
+    /// The pilot as StepwiseSolver has it.
+    bool begin() {
+        const bool found = mean_.find_ray_power([&](double ray_power, StepResult& pilot) {
+            return shoot_all(input_, {~std::uint64_t{0}, 1, ray_power, 0, task_.workers}, pilot);
+        });
+        if (!found)
+            return false;
+        start_.rays_energy = mean_.solution.rays_energy;
+        task_.ray_power = mean_.ray_power;
+        shots_.emplace(input_, task_, result_);
+        return true;
+    }
+
+    /// The light of all shots so far counts as the only step of a mean; each shot as a step.
+    void publish() {
+        const std::uint32_t steps = mean_.solution.steps;
+        mean_.solution = start_;
+        mean_.sums = {};
+        mean_.sums.squares.assign(start_.radiosity.size(), Vec3(0.0));
+        mean_.add(result_);
+        mean_.solution.steps = steps + 1;
+    }
+
+    SolverInput input_;
+    MeanOfSteps mean_;
+    Solution start_; ///< before the first shot
+    StepResult result_;
+    StepTask task_;
+    std::optional<Shots> shots_; ///< empty before the pilot
+};
+
 std::unique_ptr<Solver> make_monte_carlo(const SolverInput& input) {
+    if (input.options.one_shot)
+        return std::make_unique<OneShotSolver>(input);
     return std::make_unique<MonteCarloSolver>(input);
 }
+
+constexpr std::array flags{one_shot_flag};
 
 } // namespace
 
@@ -160,6 +253,7 @@ const Method monte_carlo_method{
     .work = {.passes = true},
     .saves = true,
     .plain = plain::monte_carlo,
+    .flags = flags,
 };
 
 } // namespace hemilux

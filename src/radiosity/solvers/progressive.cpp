@@ -59,8 +59,8 @@ constexpr double samples_of_error = 9;
 class ProgressiveSolver final : public Solver {
   public:
     explicit ProgressiveSolver(const SolverInput& input)
-        : input_(checked(input)), options_(input.options.progressive),
-          by_hemicubes_(input.options.factors.kind == FactorKind::hemicube), pass_(input) {
+        : input_(checked(input)), by_hemicubes_(input.options.factors.kind == FactorKind::hemicube),
+          pass_(input) {
         solution_.may_find_light = input.needs.bounces;
         solution_.error_batches = samples_of_error;
         pass_.begin(rays_per_light());
@@ -88,7 +88,7 @@ class ProgressiveSolver final : public Solver {
             // At the end of the time the shots of this step count.
             if (cut_short && (input_.monitor.interrupted.load() || pass_.points() == before))
                 return false;
-            if (options_.one_shot)
+            if (input_.options.one_shot)
                 break;
         }
         publish(passes_ > 0 ? mean_ : pass_.estimate());
@@ -100,7 +100,7 @@ class ProgressiveSolver final : public Solver {
         const bool sure = (is_lit(mean_.radiosity) || !solution_.may_find_light) &&
                           std::ranges::all_of(mean_.variance, is_zero) &&
                           std::ranges::all_of(mean_.missing, is_zero);
-        return (passes_ > 0 && (options_.one_shot || sure || by_hemicubes_)) ||
+        return (passes_ > 0 && (input_.options.one_shot || sure || by_hemicubes_)) ||
                is_zero(pass_.emitted());
     }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
@@ -175,7 +175,6 @@ class ProgressiveSolver final : public Solver {
     }
 
     SolverInput input_;
-    ProgressiveOptions options_;
     bool by_hemicubes_; ///< another pass would see the same
     ProgressivePass pass_;
     // All passes before; solution_ is that after the last step.
@@ -190,8 +189,7 @@ std::unique_ptr<Solver> make_progressive(const SolverInput& input) {
 }
 
 constexpr std::array<MethodFlag, 3> flags{{
-    {"--one-shot", "progressive: a step is one shot",
-     [](SolveOptions& options) -> bool& { return options.progressive.one_shot; }},
+    one_shot_flag,
     {"--ambient", "progressive: show an estimate of the light that is still unshot",
      [](SolveOptions& options) -> bool& { return options.progressive.ambient; }},
     {"--overshoot", "progressive: also shoot what a patch will probably receive later",

@@ -22,8 +22,6 @@ class Mesh;
 
 /// What the method `progressive` may do besides.
 struct ProgressiveOptions {
-    /// A step is one shot; else as many as use up the rays of a step.
-    bool one_shot = false;
     /// Adds to the solution shown an estimate of the light that is still unshot (Cohen et al.
     /// 1988). It makes early pictures brighter and is gone at the end.
     bool ambient = false;
@@ -46,6 +44,16 @@ struct FactorOptions {
     std::uint32_t hemicube_edge = 64;
 };
 
+/// What the user of the technique of 1997 gives (paper section 4). Each step makes four times as
+/// many spherical triangles, of which a patch may have 16384 at most: parts times
+/// 4^(1 + stored_steps + estimated_steps).
+struct Subdivision1997Options {
+    std::uint32_t stored_steps = 2; ///< n, 0 to 5: of counted surfaces; each takes rays and memory
+    std::uint32_t estimated_steps = 1; ///< m, 0 to 6: of estimated ones
+    /// Fictive parts of a patch, each with a hemisphere of its own: 1, 4, 16 or 64.
+    std::uint32_t parts = 4;
+};
+
 /// What `hemisphere` is guided by.
 enum class Guide {
     density, ///< surfaces along a ray, as in the paper
@@ -64,6 +72,10 @@ struct SolveOptions {
     bool literal = false;
     FactorOptions factors = {}; ///< of those methods that take them (Method::factors)
     ProgressiveOptions progressive = {};
+    /// `progressive`, `monte-carlo`: a step is one shot, and the run ends when all light is shot;
+    /// else a step has as many shots as use up its rays, or is a whole solution.
+    bool one_shot = false;
+    Subdivision1997Options subdivision_1997 = {};
     Guide guide = Guide::density; ///< `hemisphere`; not with `literal`
     std::uint64_t seed = 1;
     /// `stored-transport`: each step takes as many rays as all before, or as `aim` asks for; else
@@ -157,19 +169,33 @@ struct MethodWork {
     bool passes = false;         ///< solves again and again, to take the mean or with more rays
 };
 
-/// An option that one method takes and no other: a flag.
+/// An option that few methods take: a flag.
 struct MethodFlag {
     std::string_view name;         ///< as `--one-shot`
     std::string_view help;         ///< one line for --help
     bool& (*value)(SolveOptions&); ///< what it sets
 };
 
+/// The flag of methods whose light comes shot by shot.
+inline constexpr MethodFlag one_shot_flag{
+    "--one-shot", "progressive, monte-carlo: a step is one shot",
+    [](SolveOptions& options) -> bool& { return options.one_shot; }};
+
+/// An option that few methods take: one of some whole numbers.
+struct MethodNumber {
+    std::string_view name;                  ///< as `--parts`
+    std::string_view help;                  ///< one line for --help
+    std::span<const std::uint32_t> choices; ///< ascending
+    std::uint32_t& (*value)(SolveOptions&); ///< what it sets
+};
+
 /// What the program takes a method for where the user names none. Each role is one method's.
 enum class Role {
-    standard,  ///< solves
-    reference, ///< is taken for the truth in comparisons
-    baseline,  ///< the others' gains are relative to it
-    paper      ///< shows how hemispheres are divided
+    standard,   ///< solves
+    reference,  ///< is taken for the truth in comparisons
+    baseline,   ///< the others' gains are relative to it
+    paper,      ///< shows how hemispheres are divided
+    forerunner, ///< shows how they were divided before
 };
 
 /// A method as the user picks it.
@@ -190,6 +216,9 @@ struct Method {
     bool guided = false; ///< --guide changes it
     bool aims = false;   ///< --for changes it
     std::span<const MethodFlag> flags = {};
+    std::span<const MethodNumber> numbers = {};
+    /// Throws std::invalid_argument with what is wrong where numbers do not go together.
+    void (*check)(const SolveOptions&) = nullptr;
     /// Kinds of form factors that it may solve with besides its own.
     std::span<const FactorKind> factors = {};
     /// Options that make it the one to solve with where --method is not given.

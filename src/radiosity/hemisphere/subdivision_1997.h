@@ -1,0 +1,86 @@
+#pragma once
+// The hemispheres of the technique of 1997 (paper section 4; Jolivet and Plemenos, GraphiCon 1997).
+//
+// A patch is cut, in thought, into parts with a hemisphere over the centre of each. Level by level
+// all triangles are divided into four, at new directions on their edges that lie nearer to the end
+// where more surfaces were counted (edge_division.h). Which triangles share a direction is as in
+// the regular subdivision (hemisphere.h); only the directions differ, so they are stored: 13 bytes
+// each.
+
+#include "bvh/tracer.h"
+#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/scene/edge_division.h"
+#include "radiosity/scene/needs.h"
+#include "radiosity/solving/solver.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+class Workers;
+
+class Subdivision1997 {
+  public:
+    /// A patch may have as many triangles, of all its parts.
+    static constexpr std::uint64_t most_triangles = 1 << 14;
+    /// Throws std::invalid_argument, with what was expected, unless the numbers of steps and parts
+    /// are among the choices and give no more triangles than that.
+    static void check(const Subdivision1997Options& options);
+    static constexpr std::array<std::uint32_t, 6> stored_choices{0, 1, 2, 3, 4, 5};
+    static constexpr std::array<std::uint32_t, 7> estimated_choices{0, 1, 2, 3, 4, 5, 6};
+    static constexpr std::array<std::uint32_t, 4> part_choices{1, 4, 16, 64};
+
+    /// Checks the options. Nothing is counted yet. Mesh and needs outlive this.
+    Subdivision1997(const Mesh& mesh, const Needs& needs, const Subdivision1997Options& options);
+
+    /// Finds the directions of all triangles up to this level, as far as they are to be stored, and
+    /// counts the surfaces along them. Where the needs say that all counts are 1, no ray is traced.
+    void find(int level, const Tracer& tracer, const Workers& workers, Monitor& monitor);
+
+    [[nodiscard]] std::size_t parts() const { return options_.parts; }
+    /// Of one part; level 0 are the octants.
+    [[nodiscard]] static std::size_t triangles(int level) { return std::size_t{4} << (2 * level); }
+    /// Triangle `index` of a level: a stored one, or what becomes of it by estimation.
+    [[nodiscard]] CountedTriangle triangle(std::uint32_t patch, std::size_t part, int level,
+                                           std::size_t index) const;
+    /// Which of its corners were found with this level, level 0 counting as the first.
+    [[nodiscard]] std::vector<std::size_t> corners_found(int level, std::size_t index) const;
+
+    /// The directions of a part that were counted, all that are to be stored having been found.
+    [[nodiscard]] std::vector<CountedDirection> counted(std::uint32_t patch,
+                                                        std::size_t part) const;
+
+    /// What a patch takes, for valid options.
+    [[nodiscard]] static double bytes_of_patch(const Subdivision1997Options& options);
+    [[nodiscard]] std::uint64_t rays() const { return rays_; }
+    [[nodiscard]] std::uint64_t bytes() const {
+        return direction_.size() * sizeof(direction_[0]) + count_.size();
+    }
+
+  private:
+    [[nodiscard]] int stored_levels() const { return static_cast<int>(options_.stored_steps); }
+    /// Where the directions of a part begin. Where all counts are 1 all patches are alike.
+    [[nodiscard]] std::size_t place(std::uint32_t patch, std::size_t part) const {
+        return ((needs_.densities ? patch : 0) * parts() + part) * topology_.vertices().size();
+    }
+    [[nodiscard]] CountedDirection stored(std::size_t at) const;
+    /// Finds the directions that a level adds, in the patch's order of vertices; returns how many.
+    std::size_t find_level(int level, std::uint32_t patch, std::size_t part, const Tracer& tracer);
+    [[nodiscard]] std::uint8_t count(std::uint32_t patch, const Vec3& from, const Vec3& direction,
+                                     const Tracer& tracer) const;
+
+    const Mesh& mesh_;
+    const Needs& needs_;
+    Subdivision1997Options options_;
+    Hemisphere topology_;
+    int found_ = -1; ///< the last level that was
+    std::uint64_t rays_ = 0;
+    // By patch, part and vertex of the topology, in the patch's own frame.
+    std::vector<std::array<float, 3>> direction_;
+    std::vector<std::uint8_t> count_;
+};
+
+} // namespace hemilux
