@@ -51,6 +51,7 @@ TEST_CASE("solve --plain is refused where there is no page or the page has no su
     for (const char* name : {"matrix", "progressive", "stratified"})
         refused("--method " + std::string(name), "--method " + std::string(name) + " " + pages);
     refused("--method hemisphere --guide visible", "leave out --guide visible");
+    refused("--guide pyramid", "leave out --guide pyramid");
     refused("--guide learned", "leave out --guide learned");
     refused("--method monte-carlo --checkpoint a", "leave out --checkpoint and --resume");
     refused("--method hemisphere --resume a", "leave out --checkpoint and --resume");

@@ -230,6 +230,8 @@ enum class Omission { black, convex, unlit, none, no_reflection };
 bool keeps_every_byte(const std::string& method, Guide guide, Omission omission) {
     if (omission == Omission::none || omission == Omission::no_reflection)
         return true;
+    if (guide == Guide::pyramid) // no patch counts in another's place
+        return omission != Omission::convex;
     if (method == "stored-transport" || guide != Guide::density)
         return false;
     if (method == "progressive")
@@ -304,7 +306,8 @@ TEST_CASE("What is left out keeps every byte where that is promised, else the re
                    })));
         for (const Method* method : methods())
             for (const bool literal : {false, true})
-                for (const Guide guide : {Guide::density, Guide::visible, Guide::learned}) {
+                for (const Guide guide :
+                     {Guide::density, Guide::pyramid, Guide::visible, Guide::learned}) {
                     if (literal && !method->has_literal)
                         continue;
                     if (guide != Guide::density && (literal || method->name != "hemisphere"))

@@ -74,7 +74,7 @@ std::vector<MethodVariant> possible_variants() {
     for (const Method* const method : methods()) {
         list.push_back({std::string(method->name), method, {}});
         if (method->guided)
-            for (const Guide guide : {Guide::visible, Guide::learned})
+            for (const Guide guide : {Guide::pyramid, Guide::visible, Guide::learned})
                 list.push_back(
                     {std::string(method->name) + "-" + guide_names[static_cast<std::size_t>(guide)],
                      method, guide});
@@ -139,7 +139,7 @@ void add_method_options(Command command, SolveOptions& options) {
     add_division_options(command, options);
     command
         .add_value("--guide", "NAME",
-                   "what guides " + guided_methods() + ": density, visible or learned [density]",
+                   "what guides " + guided_methods() + ": density, pyramid, visible or learned [density]",
                    [&options](const std::string& name) {
                        const auto found = std::ranges::find(guide_names, name);
                        if (found == guide_names.end()) {

@@ -1,6 +1,7 @@
 #include "app/settings/memory.h"
 
 #include "app/settings/text.h"
+#include "radiosity/guiding/patch_boxes.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/hemisphere/subdivision_1997.h"
 #include "radiosity/scene/coplanar_overlaps.h"
@@ -82,6 +83,9 @@ double bytes_of(const Method& method, const SolveOptions& options, double patche
     else if (method.work.densities && options.guide == Guide::density)
         bytes +=
             growth * patches * static_cast<double>(Hemisphere(options.depth).vertices().size());
+    else if (method.work.densities && options.guide == Guide::pyramid)
+        bytes += patches * static_cast<double>(Hemisphere::cells_up_to(options.depth) +
+                                               2 * sizeof(PatchBoxes::Node));
     else if (method.work.densities)
         bytes += bytes_per_leaf * patches * static_cast<double>(leaves(options.depth));
     const bool by_hemicubes = options.factors.kind == FactorKind::hemicube;

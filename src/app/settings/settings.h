@@ -30,7 +30,8 @@ struct SceneSettings {
 };
 
 /// The values of --guide, in the order of Guide.
-inline constexpr std::array<const char*, 3> guide_names = {"density", "visible", "learned"};
+inline constexpr std::array<const char*, 4> guide_names = {"density", "pyramid", "visible",
+                                                           "learned"};
 
 /// As --factors names them, in the order of FactorKind.
 inline constexpr std::array<const char*, 3> factor_names = {"rays", "exact", "hemicube"};

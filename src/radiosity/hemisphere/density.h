@@ -45,7 +45,20 @@ struct DensityCount {
 /// a patch there is often an edge. Its ray is tilted as little.
 [[nodiscard]] Vec3 density_direction(const Vec3& vertex);
 
-class DensityMap {
+/// What a strategy needs to know of the densities of patches, however they were found.
+class LeafDensities {
+  public:
+    virtual ~LeafDensities() = default;
+    /// The triangles of a patch that are not divided, in the table's depth-first order.
+    virtual void leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) const = 0;
+    [[nodiscard]] virtual std::uint64_t bytes() const = 0;
+    /// Traced to find them.
+    [[nodiscard]] virtual std::uint64_t rays() const { return 0; }
+    /// How many more rays there would be if all triangles were divided.
+    [[nodiscard]] virtual std::uint64_t rays_spared() const { return 0; }
+};
+
+class DensityMap final : public LeafDensities {
   public:
     /// Shoots the density rays from every patch centre; a triangle whose mean exceeds the threshold
     /// is divided, down to the hemisphere's depth. Counts saturate at 255. Patches that never hold
@@ -55,16 +68,14 @@ class DensityMap {
                const Needs& needs = everything_needed,
                DensityStore kept = DensityStore::divided_only);
 
-    /// The leaves of a patch's tree, in the table's depth-first order.
-    void leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) const;
+    void leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) const override;
     /// What is stored of a patch: the counts at the vertices of all triangles that exist.
     void counts(std::uint32_t patch, std::vector<DensityCount>& result) const;
 
-    [[nodiscard]] std::uint64_t rays() const { return rays_; }
-    /// How many more rays there would be if all triangles were divided.
-    [[nodiscard]] std::uint64_t rays_spared() const { return rays_spared_; }
+    [[nodiscard]] std::uint64_t rays() const override { return rays_; }
+    [[nodiscard]] std::uint64_t rays_spared() const override { return rays_spared_; }
     /// The memory of all that is kept: counts, and the index to find them.
-    [[nodiscard]] std::uint64_t bytes() const {
+    [[nodiscard]] std::uint64_t bytes() const override {
         return counts_.size() + block_start_.size() * sizeof(block_start_[0]);
     }
 

@@ -57,6 +57,7 @@ struct Subdivision1997Options {
 /// What `hemisphere` is guided by.
 enum class Guide {
     density, ///< surfaces along a ray, as in the paper
+    pyramid, ///< patches in the pyramid of a triangle of directions
     visible, ///< what is seen: rho^2 / A of the nearest patch
     learned  ///< the same, from the hits of the steps before
 };

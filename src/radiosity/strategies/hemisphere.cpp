@@ -12,9 +12,11 @@
 //
 // Good where small objects crowd in few directions; little use where a wall hides a crowd, to
 // which it sends rays in vain. Costs at most 41 rays and bytes per patch at depth 2. With --guide
-// visible or learned rays follow what is seen instead, which the wall does not mislead
+// pyramid the density is that of the patches in the pyramid of a triangle (pyramids.h), with
+// --guide visible or learned rays follow what is seen, which the wall does not mislead
 // (visibility_guide.h).
 
+#include "radiosity/guiding/pyramids.h"
 #include "radiosity/guiding/visibility_guide.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/plain/plain.h"
@@ -23,7 +25,7 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <memory>
 
 namespace hemilux {
 namespace {
@@ -37,21 +39,18 @@ class HemisphereStrategy final : public Strategy {
             area_shares_.push_back(
                 power_share(hemisphere, static_cast<std::uint16_t>(cell), literal_));
         if (input.needs.densities)
-            density_.emplace(input.mesh, input.tracer, hemisphere, input.options.threshold, workers,
-                             input.monitor, input.needs,
-                             input.options.keep_all ? DensityStore::everything
-                                                    : DensityStore::divided_only);
+            densities_ = find_densities(input, hemisphere, workers);
         else
             allocate_leaves(leaves_of_one_surface(hemisphere, input.options.threshold),
                             allocated_of_one_surface_);
         const std::size_t cells = hemisphere.cells().size() * input.mesh.patches().size();
-        if (density_ && cells <= most_kept_cells && !input.monitor.interrupted)
+        if (densities_ && cells <= most_kept_cells && !input.monitor.interrupted)
             keep_allocated(input, workers);
     }
 
     [[nodiscard]] bool is_same_in_all_steps() const override { return true; }
     Allocation allocate(std::uint32_t patch, AllocatedCells& memory) const override {
-        if (!density_)
+        if (!densities_)
             return allocated_of_one_surface_.view();
         if (!kept_.empty())
             return kept_[patch].view();
@@ -60,16 +59,27 @@ class HemisphereStrategy final : public Strategy {
     }
 
     [[nodiscard]] std::uint64_t density_rays() const override {
-        return density_ ? density_->rays() : 0;
+        return densities_ ? densities_->rays() : 0;
     }
     [[nodiscard]] std::uint64_t density_rays_spared() const override {
-        return density_ ? density_->rays_spared() : 0;
+        return densities_ ? densities_->rays_spared() : 0;
     }
     [[nodiscard]] std::uint64_t density_bytes() const override {
-        return density_ ? density_->bytes() : 0;
+        return densities_ ? densities_->bytes() : 0;
     }
 
   private:
+    [[nodiscard]] static std::unique_ptr<LeafDensities>
+    find_densities(const SolverInput& input, const Hemisphere& hemisphere, const Workers& workers) {
+        const SolveOptions& options = input.options;
+        if (options.guide == Guide::pyramid && !options.literal)
+            return std::make_unique<PyramidMap>(input.mesh, hemisphere, options.threshold, workers,
+                                                input.monitor, input.needs);
+        return std::make_unique<DensityMap>(
+            input.mesh, input.tracer, hemisphere, options.threshold, workers, input.monitor,
+            input.needs, options.keep_all ? DensityStore::everything : DensityStore::divided_only);
+    }
+
     /// In a small scene what is allocated is kept, 440 bytes a patch: patches shoot few rays at a
     /// time, and walking their trees each time takes a fifth of the run. Large scenes need but the
     /// bytes.
@@ -89,7 +99,7 @@ class HemisphereStrategy final : public Strategy {
 
     void allocate_densities(std::uint32_t patch, AllocatedCells& allocated) const {
         thread_local std::vector<DensityLeaf> leaves;
-        density_->leaves(patch, leaves);
+        densities_->leaves(patch, leaves);
         allocate_leaves(leaves, allocated);
     }
 
@@ -128,15 +138,16 @@ class HemisphereStrategy final : public Strategy {
 
     bool literal_;
     std::vector<double> area_shares_; ///< by cell
-    std::optional<DensityMap> density_;
-    AllocatedCells allocated_of_one_surface_; ///< of all patches, where there is no density_
+    std::unique_ptr<LeafDensities> densities_;
+    AllocatedCells allocated_of_one_surface_; ///< of all patches, where there are no densities_
     std::vector<AllocatedCells> kept_;        ///< by patch, in small scenes
 };
 
 std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisphere& hemisphere,
                                           const Workers& workers) {
     const Guide guide = input.options.literal ? Guide::density : input.options.guide;
-    if (guide != Guide::density && input.needs.densities)
+    const bool by_sight = guide == Guide::visible || guide == Guide::learned;
+    if (by_sight && input.needs.densities)
         return make_visibility_guide(input, hemisphere, workers, guide == Guide::learned);
     return std::make_unique<HemisphereStrategy>(input, hemisphere, workers);
 }

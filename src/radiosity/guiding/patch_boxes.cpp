@@ -1,0 +1,45 @@
+#include "radiosity/guiding/patch_boxes.h"
+
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+
+namespace hemilux {
+
+PatchBoxes::PatchBoxes(const Mesh& mesh) {
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
+        if (mesh.patches()[i].area > 0)
+            order_.push_back(i);
+    nodes_.reserve(2 * order_.size());
+    if (!order_.empty())
+        build(mesh, 0, static_cast<std::uint32_t>(order_.size()));
+}
+
+void PatchBoxes::build(const Mesh& mesh, std::uint32_t first, std::uint32_t last) {
+    const std::size_t at = nodes_.size();
+    Box box, centres;
+    for (std::uint32_t k = first; k < last; ++k) {
+        const Patch& patch = mesh.patches()[order_[k]];
+        centres.include(patch.centre);
+        for (const Vec3& corner : patch.shape.corner)
+            box.include(corner);
+    }
+    nodes_.push_back({box, first, last, 0});
+    if (last - first == 1)
+        return;
+    const Vec3 extent = centres.extent();
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                     : extent.y >= extent.z                       ? 1
+                                                                  : 2;
+    const std::uint32_t middle = first + (last - first) / 2;
+    const auto key = [&](std::uint32_t patch) {
+        return std::pair(mesh.patches()[patch].centre[axis], patch);
+    };
+    std::ranges::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+                             {}, key);
+    build(mesh, first, middle);
+    nodes_[at].second = static_cast<std::uint32_t>(nodes_.size());
+    build(mesh, middle, last);
+}
+
+} // namespace hemilux
