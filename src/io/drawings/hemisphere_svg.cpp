@@ -125,6 +125,8 @@ void draw_parts(std::span<const HemisphereDrawing::Part> parts, const DomeView& 
         centre += part.outline.area() * part.outline.centre();
         area += part.outline.area();
     }
+    if (!(area > 0)) // nothing to stand on
+        return;
     centre /= area;
     for (const auto& part : parts)
         for (const Vec3& corner : part.outline.corner)
