@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace hemilux::plain {
@@ -110,14 +111,14 @@ class Hemisphere1997 final : public StepSolver {
 
     /// For each patch, each triangle and each direction: shoots a ray; bounce after bounce.
     bool compute_radiosity(std::uint64_t step, double Phi_mean, Step& result) override {
-        divide_to(step < std::uint64_t(n) ? static_cast<int>(step) + 1 : n);
+        divide_to(std::cmp_less(step, n) ? static_cast<int>(step) + 1 : n);
         const double least = printed_ ? 1e-4 * result.power_unshot() : 0; // or it never ends
         for (std::uint64_t bounce = 0; result.power_unshot() > least; ++bounce) {
             const std::uint64_t stream = hash_words({input_.options.seed, step, bounce});
             for (const Due& due : result.due(stream, Phi_mean)) {
                 if (input_.monitor.interrupted)
                     return false;
-                if (step < std::uint64_t(n + m))
+                if (std::cmp_less(step, n + m))
                     shoot(due, static_cast<int>(step) + 1, result);
                 else
                     shoot_plainly(due,
