@@ -60,8 +60,8 @@ class MonteCarloSolver final : public StepwiseSolver {
             check_finite(input_.mesh, shooter, power, "the power to be shot", task.number);
             check_bounces(input_.mesh, shots / patches, task.number);
             result.shot += mean_of_channels(power);
-            const Shot shot = aim(shooter, power, task.ray_power,
-                                  hash_words({input_.options.seed, task.stream, shots}));
+            const Shot shot = whole_rays(shooter, power, task.rays(shooter, power),
+                                         hash_words({input_.options.seed, task.stream, shots}));
             for (std::size_t first = 0; first < shot.rays; first += rays_per_volley) {
                 shoot(shot, first, task.workers, receivers);
                 if (input_.monitor.interrupted)
@@ -90,9 +90,8 @@ class MonteCarloSolver final : public StepwiseSolver {
         std::uint64_t stream;
     };
 
-    [[nodiscard]] static Shot aim(std::uint32_t shooter, const Vec3& power, double ray_power,
-                                  std::uint64_t stream) {
-        const double expected = mean_of_channels(power) / ray_power;
+    [[nodiscard]] static Shot whole_rays(std::uint32_t shooter, const Vec3& power, double expected,
+                                         std::uint64_t stream) {
         const double n = std::floor(expected + Rng(stream).uniform());
         // Below one ray, the ray that is shot carries the power of those that are not.
         return {shooter, static_cast<std::size_t>(n), power / (expected >= 1 ? n : expected),
@@ -160,6 +159,7 @@ const Method monte_carlo_method{
     .work = {.passes = true},
     .saves = true,
     .plain = plain::monte_carlo,
+    .aims = true,
 };
 
 } // namespace hemilux

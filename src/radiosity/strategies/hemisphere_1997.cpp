@@ -203,6 +203,7 @@ const Method hemisphere_1997_method{
     .strategy = make_hemisphere_1997,
     .work = {.densities = true, .passes = true},
     .plain = plain::hemisphere_1997,
+    .aims = true,
 };
 
 } // namespace hemilux
