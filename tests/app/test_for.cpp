@@ -119,7 +119,7 @@ TEST_CASE("A target that cannot be is refused") {
     refused(2, "--for points:air.txt", "air.txt:2: --for: expected a point on a face");
     refused(2, "--for points:words.txt", "words.txt:2: expected six numbers");
     refused(2, "--for group:lamp", "nothing that --for names reflects light");
-    refused(2, "--for group:walls --method matrix", "these take a target: stored-transport");
+    refused(2, "--for group:walls --method matrix", "these take a target: hemisphere, ");
     refused(2, "--for group:walls --divide auto", "--divide auto divides by the light of all");
     refused(2, "--for group:walls --plain", "--plain solves for all patches alike");
     place.write("p.txt", ".6 .6 0 0 0 1\n");

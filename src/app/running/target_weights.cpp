@@ -76,6 +76,9 @@ void check_target(const SolveSettings& settings) {
                              names_of_methods([](const Method& method) { return method.aims; }));
     if (settings.plain)
         throw InputError("--for", "--plain solves for all patches alike; leave one of them out");
+    if (settings.options.literal)
+        throw InputError("--for", "with --literal each patch shoots as many rays as any other; "
+                                  "leave one of them out");
     if (settings.divide_auto)
         throw InputError("--for", "--divide auto divides by the light of all patches; take "
                                   "--divide none or a length");

@@ -17,9 +17,9 @@ namespace {
 /// Of the rays of importance; those of light have the task's.
 constexpr std::uint64_t stream_of_importance = ~std::uint64_t{1};
 
-/// So many rays that find the mean importance count with those of each patch: what few rays tell
-/// must not leave a patch without any.
-constexpr double prior_rays = 4;
+/// What each patch is taken to have found besides, at the mean importance: what few rays tell must
+/// not leave it without any.
+constexpr double prior_importance = .5;
 
 /// The importance that rays from a patch have found, and their number.
 struct Found {
@@ -69,11 +69,24 @@ class Watching final : public Strategy {
     return Bounces(tools).shoot(task, result);
 }
 
+double power_of(const Mesh& mesh, std::uint32_t patch, const Vec3& radiosity) {
+    return mesh.patches()[patch].area * mean_of_channels(radiosity);
+}
+
 double power_of(const Mesh& mesh, std::span<const Vec3> radiosity) {
     double power = 0;
     for (std::uint32_t i = 0; i < radiosity.size(); ++i)
-        power += mesh.patches()[i].area * mean_of_channels(radiosity[i]);
+        power += power_of(mesh, i, radiosity[i]);
     return power;
+}
+
+/// The mean over all power of what patches have.
+template <class Value>
+double mean_of_power(const Mesh& mesh, std::span<const Vec3> radiosity, const Value& value) {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i)
+        sum += power_of(mesh, i, radiosity[i]) * value(i);
+    return sum / power_of(mesh, radiosity);
 }
 
 /// With what the patch's neighbours have found.
@@ -83,13 +96,30 @@ Found around(const Mesh& mesh, std::span<const Found> found, std::uint32_t patch
     return sum;
 }
 
+/// u by patch, over its own mean, so that a ray which finds the target finds about 1.
+std::vector<double> source_of(const SolverInput& input) {
+    std::vector<double> source;
+    double sum = 0, squares = 0;
+    for (std::uint32_t i = 0; i < input.target.size(); ++i) {
+        const double area = input.mesh.patches()[i].area;
+        const double rho = mean_of_channels(input.mesh.material(i).reflectance);
+        source.push_back(area > 0 ? input.target[i] * rho / area : 0);
+        sum += area * source[i];
+        squares += area * source[i] * source[i];
+    }
+    for (double& each : source)
+        each *= squares > 0 ? sum / squares : 0;
+    return source;
+}
+
 /// The rays that the hits of importance stand for; none when interrupted.
-std::vector<Found> shoot_importance(const SolverInput& input, StepTask task, std::uint64_t& rays) {
+std::vector<Found> shoot_importance(const SolverInput& input, std::span<const double> source,
+                                    StepTask task, std::uint64_t& rays) {
     const Mesh& mesh = input.mesh;
     StepResult result(mesh);
     const double power_of_light = power_of(mesh, result.radiosity);
-    for (std::uint32_t i = 0; i < result.radiosity.size(); ++i)
-        result.radiosity[i] = input.target[i] * mesh.material(i).reflectance;
+    for (std::uint32_t i = 0; i < source.size(); ++i)
+        result.radiosity[i] = source[i] * mesh.material(i).reflectance;
     task.stream = stream_of_importance;
     task.ray_power *= power_of(mesh, result.radiosity) / power_of_light;
     if (!shoot(input, task, Watching({}, {}), result))
@@ -101,36 +131,35 @@ std::vector<Found> shoot_importance(const SolverInput& input, StepTask task, std
     return found;
 }
 
-/// The root of each patch's mean over that of all power.
+/// The root of each patch's importance over the mean of that; 1 where no light has been seen to
+/// reach the target.
 std::vector<double> times_of(const Mesh& mesh, std::span<const Found> found,
                              std::span<const Vec3> radiosity) {
-    const double power = power_of(mesh, radiosity);
-    const auto power_shot = [&](std::uint32_t i) {
-        return mesh.patches()[i].area * mean_of_channels(radiosity[i]);
-    };
-    double mean = 0, sum = 0;
-    for (std::uint32_t i = 0; i < found.size(); ++i)
-        mean += power_shot(i) / power * found[i].mean();
-    std::vector<double> times;
+    const auto mean = [&](const auto& value) { return mean_of_power(mesh, radiosity, value); };
+    const double usual = mean([&](std::uint32_t i) { return found[i].mean(); });
+    std::vector<double> times(found.size(), 1);
+    if (!(usual > 0))
+        return times;
     for (std::uint32_t i = 0; i < found.size(); ++i) {
         Found known = around(mesh, found, i);
-        known += {prior_rays * mean, prior_rays};
-        times.push_back(std::sqrt(known.mean()));
-        sum += power_shot(i) / power * times[i];
+        known += {prior_importance, prior_importance / usual};
+        times[i] = std::sqrt(known.mean());
     }
+    const double mean_times = mean([&](std::uint32_t i) { return times[i]; });
     for (double& each : times)
-        each = sum > 0 ? each / sum : 1;
+        each /= mean_times;
     return times;
 }
 
 } // namespace
 
 std::vector<double> aim_rays(const SolverInput& input, const StepTask& task, StepResult& pilot) {
-    std::vector<Found> found = shoot_importance(input, task, pilot.rays);
-    std::vector<double> importance; // that light has where it arrives
+    const std::vector<double> source = source_of(input);
+    std::vector<Found> found = shoot_importance(input, source, task, pilot.rays);
+    std::vector<double> importance; // of light that arrives
     for (std::uint32_t i = 0; i < found.size(); ++i)
         importance.push_back(mean_of_channels(input.mesh.material(i).reflectance) *
-                             (input.target[i] + around(input.mesh, found, i).mean()));
+                             (source[i] + around(input.mesh, found, i).mean()));
     if (found.empty() || !shoot(input, task, Watching(importance, found), pilot))
         return {};
     return times_of(input.mesh, found, pilot.radiosity);

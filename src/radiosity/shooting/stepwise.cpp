@@ -216,14 +216,24 @@ void StepwiseSolver::load(StateReader& state) {
     load_more(state);
 }
 
-/// Of a target: the rays that patches get for it.
+/// Over all power a patch gets about as many rays as by power alone.
 void StepwiseSolver::load_aim(StateReader& state) {
     constexpr Bounds times{1e-6, 1e6};
+    constexpr double most_rays = 1e3; // for those that power alone would give
     if (state.whole() != hash_of_weights(input_.target))
         throw StateError("what the run was for is not what it is for this time");
     const bool is_aimed = mean_.ray_power > 0 && mean_.ray_power <= bounds::largest;
     mean_.aimed.resize(is_aimed && input_.needs.bounces ? input_.target.size() : 0);
     state.get(std::span(mean_.aimed), times);
+    double power = 0, rays = 0;
+    for (std::uint32_t i = 0; i < mean_.aimed.size(); ++i) {
+        const double of_patch =
+            input_.mesh.patches()[i].area * mean_of_channels(mean_.solution.radiosity[i]);
+        power += of_patch;
+        rays += of_patch * mean_.aimed[i];
+    }
+    if (!(rays <= most_rays * power))
+        throw StateError("its patches would trace far more rays than are asked for");
 }
 
 } // namespace hemilux
