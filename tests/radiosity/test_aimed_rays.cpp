@@ -132,7 +132,7 @@ Runs runs_for(const Model& model, const Method& method, std::span<const double> 
     Runs result;
     for (int seed = 1; seed <= seeds; ++seed) {
         const Solution s = solve_for(model, method, target, options_of(std::uint64_t(seed), 64, 0),
-                                     test::steps(8));
+                                     test::steps(4));
         const double off = test::true_error_of(model.mesh, s, exact, counted);
         result.error += off * off / seeds;
         result.rays += double(s.rays_energy);
