@@ -87,12 +87,14 @@ TEST_CASE("A run with --for goes on from its checkpoint, and from no other") {
     const Workplace place;
     place.write_room();
     place.write("p.txt", ".6 .6 0 0 0 1\n");
-    const std::string run = "solve room.obj -q --max-edge .25 --for points:p.txt ";
+    const std::string run = "solve room.obj -q --max-edge .25 --for points:p.txt " +
+                            GENERATE(std::string(), "--method hemisphere ", "--method monte-carlo ");
     REQUIRE(place.hemilux(run + "--steps 4 -o whole.csv -t 1").code == 0);
     REQUIRE(place.hemilux(run + "--steps 2 -o parts.csv --checkpoint saved -t 2").code == 0);
     REQUIRE(place.hemilux(run + "--steps 4 -o parts.csv --resume saved -t 2").code == 0);
     CHECK(place.read("whole.csv") == place.read("parts.csv"));
-    const std::string go_on = "solve room.obj -q --max-edge .25 --steps 4 -o x.csv --resume saved";
+    const std::string go_on = run.substr(0, run.find("--for")) + run.substr(run.find(".txt ") + 5) +
+                              "--steps 4 -o x.csv --resume saved";
     test::check_fails(place, 2, go_on, "is a checkpoint of another run");
     test::check_fails(place, 2, go_on + " --for group:walls", "expected --for group:walls");
     place.write("p.txt", ".1 .1 0 0 0 1\n");
@@ -119,8 +121,9 @@ TEST_CASE("A target that cannot be is refused") {
     refused(2, "--for points:air.txt", "air.txt:2: --for: expected a point on a face");
     refused(2, "--for points:words.txt", "words.txt:2: expected six numbers");
     refused(2, "--for group:lamp", "nothing that --for names reflects light");
-    refused(2, "--for group:walls --method matrix", "these take a target: stored-transport");
+    refused(2, "--for group:walls --method matrix", "these take a target: hemisphere, ");
     refused(2, "--for group:walls --divide auto", "--divide auto divides by the light of all");
+    refused(2, "--for group:walls --method hemisphere --literal", "with --literal each patch");
     refused(2, "--for group:walls --plain", "--plain solves for all patches alike");
     place.write("p.txt", ".6 .6 0 0 0 1\n");
     test::check_fails(place, 1, "solve room.obj -o x.csv --stats p.txt --for points:p.txt",

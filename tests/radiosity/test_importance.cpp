@@ -1,6 +1,5 @@
 // A run with a target: importance against the identity that defines it, what a target changes and
 // what it must not.
-#include "io/scene_files/obj.h"
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/linear/conjugate_gradients.h"
@@ -11,6 +10,7 @@
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
+#include "support/targets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,13 @@
 #include <numeric>
 
 using namespace hemilux;
+using test::example;
+using test::first_room;
 using test::Model;
+using test::solve_for;
+using test::true_error_of;
+using test::two_rooms;
+using test::weights_of;
 
 namespace {
 
@@ -50,70 +56,14 @@ struct Surfaces {
     }
 };
 
-Solution solve_for(const Model& model, std::span<const double> target, const SolveOptions& options,
-                   const StopRule& stop) {
-    Monitor monitor;
-    const SolverInput input{model.mesh, model.bvh, options, monitor, everything_needed, target};
-    const auto solver = stored_transport().make(input);
-    run(*solver, input, stop);
-    return solver->solution();
-}
-
 /// To an estimated error, which the steps are planned by.
 Solution solve_to(const Model& model, std::span<const double> target, double error,
                   std::uint64_t seed) {
     SolveOptions options;
     options.seed = seed;
     options.aim = error;
-    return solve_for(model, target, options, {.steps = {}, .seconds = {}, .error = error});
-}
-
-/// Of groups whose names begin with this.
-std::vector<double> weights_of(const Mesh& mesh, const std::string& prefix) {
-    std::vector<std::uint32_t> groups;
-    for (std::uint32_t g = 0; g < mesh.scene().groups.size(); ++g)
-        if (mesh.scene().groups[g].starts_with(prefix))
-            groups.push_back(g);
-    return weights_of_groups(mesh, groups);
-}
-
-/// Relative, of the patches that have weight.
-double true_error_of(const Mesh& mesh, const Solution& solution, const Solution& exact,
-                     std::span<const double> weight) {
-    std::vector<bool> counts;
-    for (const double each : weight)
-        counts.push_back(each > 0);
-    return true_error(mesh, solution.radiosity, exact.radiosity, counts).detail;
-}
-
-Model example(const std::string& name) {
-    return Model(
-        read_obj(std::string(HEMILUX_SOURCE_DIR) + "/examples/scenes/" + name + ".obj").scene);
-}
-
-/// Two rooms without a door: the first 96 patches and the others. The second one shines less.
-Scene two_rooms() {
-    const Material white{"white", Vec3(.5), Vec3(0.0)}, lamp{"lamp", Vec3(.5), Vec3(1.0)},
-        faint{"faint", Vec3(.5), Vec3(.1)};
-    Scene scene = test::box_room({0, 0, 0}, {1, 1, 1}, 4, {white, lamp, faint}, {1, 0, 0, 0, 0, 0});
-    const Scene other =
-        test::box_room({2, 0, 0}, {3, 1, 1}, 4, {white, lamp, faint}, {2, 0, 0, 0, 0, 0});
-    const auto before = static_cast<std::uint32_t>(scene.vertices.size());
-    scene.vertices.insert(scene.vertices.end(), other.vertices.begin(), other.vertices.end());
-    for (Facet facet : other.facets) {
-        for (std::uint32_t& vertex : facet.vertex)
-            vertex += before;
-        facet.face += scene.faces;
-        scene.facets.push_back(facet);
-    }
-    scene.faces += other.faces;
-    return scene;
-}
-
-std::vector<double> first_room(const Mesh& mesh) {
-    std::vector<double> weight(mesh.patches().size());
-    std::fill_n(weight.begin(), weight.size() / 2, 1.0);
-    return weight;
+    return solve_for(model, stored_transport(), target, options,
+                     {.steps = {}, .seconds = {}, .error = error});
 }
 
 } // namespace
@@ -215,9 +165,9 @@ TEST_CASE("With a target the result does not depend on threads, nor on an interr
     }();
     SolveOptions options;
     options.threads = 1;
-    const Solution one = solve_for(model, target, options, test::steps(3));
+    const Solution one = solve_for(model, stored_transport(), target, options, test::steps(3));
     options.threads = 2;
-    const Solution two = solve_for(model, target, options, test::steps(3));
+    const Solution two = solve_for(model, stored_transport(), target, options, test::steps(3));
     CHECK(test::same_bits(one.radiosity, two.radiosity));
     CHECK(test::same_bits(one.standard_error, two.standard_error));
     CHECK(one.rays_energy == two.rays_energy);
@@ -261,7 +211,8 @@ TEST_CASE("A dark target goes on looking for light") {
     Scene scene = two_rooms();
     scene.materials[1].emission = Vec3(0.0);
     const Model model(scene);
-    const Solution s = solve_for(model, first_room(model.mesh), SolveOptions{}, test::steps(2));
+    const Solution s = solve_for(model, stored_transport(), first_room(model.mesh), SolveOptions{},
+                                 test::steps(2));
     CHECK(s.unneeded == 0);
     CHECK(std::isnan(estimated_error(model.mesh, s)));
 }

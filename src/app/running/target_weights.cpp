@@ -16,7 +16,7 @@ namespace {
 
 /// Pixels of the picture that stand for all, along its longer side; and rays from each.
 constexpr double most_pixels = 128;
-constexpr unsigned rays_of_pixel = 16;
+constexpr unsigned rays_of_pixel = 4;
 
 std::vector<double> weights_of_camera(const SolveSettings& settings, const Mesh& mesh,
                                       const Tracer& tracer) {
@@ -76,6 +76,9 @@ void check_target(const SolveSettings& settings) {
                              names_of_methods([](const Method& method) { return method.aims; }));
     if (settings.plain)
         throw InputError("--for", "--plain solves for all patches alike; leave one of them out");
+    if (settings.options.literal)
+        throw InputError("--for", "with --literal each patch shoots as many rays as any other; "
+                                  "leave one of them out");
     if (settings.divide_auto)
         throw InputError("--for", "--divide auto divides by the light of all patches; take "
                                   "--divide none or a length");

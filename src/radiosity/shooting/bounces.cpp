@@ -240,8 +240,7 @@ void Bounces::plan(std::uint64_t stream) {
         const std::uint32_t i = senders_[k];
         const double rays = input_.options.literal
                                 ? input_.options.rays
-                                : mean_of_channels(unshot_[i]) / task_->ray_power *
-                                      tools_.strategy->rays_for_power(i);
+                                : task_->rays(i, unshot_[i]) * tools_.strategy->rays_for_power(i);
         rays_before_[k + 1] = rays_before_[k] + rays;
     }
 }

@@ -35,8 +35,12 @@ bool ShootingSolver::solve_once(const StepTask& task, StepResult& result) {
     Strategy& strategy = *tools_.strategy;
     if (strategy.is_same_in_all_steps())
         return bounces.shoot(task, result);
-    if (task.stream != pilot_stream)
-        strategy.prepare(estimate(), task.ray_power);
+    if (task.stream != pilot_stream) {
+        std::vector<Vec3> light(estimate().begin(), estimate().end());
+        for (std::size_t i = 0; i < task.aimed.size(); ++i)
+            light[i] *= task.aimed[i];
+        strategy.prepare(light, task.ray_power);
+    }
     strategy.begin_step(task.stream); // the pilot's is after all others
     if (!bounces.shoot(task, result))
         return false;

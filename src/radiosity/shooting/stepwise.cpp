@@ -1,10 +1,11 @@
 #include "radiosity/shooting/stepwise.h"
 
-#include "radiosity/rays/shot.h"
 #include "radiosity/saving/solution_state.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/shooting/aimed_rays.h"
 #include "radiosity/solving/solve_error.h"
+#include "radiosity/solving/target.h"
 
 #include <algorithm>
 #include <atomic>
@@ -52,8 +53,8 @@ void StepwiseSolver::work_ahead() {
     const Workers own(workers_.threads() / places);
     const auto work = [&](unsigned at, std::size_t k, std::size_t) {
         const std::uint64_t number = mean_.solution.steps + k;
-        const StepTask task{number, number + 1, mean_.ray_power, at,
-                            k + 1 == count ? workers_ : own};
+        const StepTask task{
+            number, number + 1, mean_.ray_power, at, k + 1 == count ? workers_ : own, mean_.aimed};
         try {
             ahead_[k].result = StepResult(input_.mesh);
             ahead_[k].done = solve_once(task, ahead_[k].result);
@@ -110,11 +111,19 @@ bool StepwiseSolver::find_ray_power() {
             return true;
         }
         make_places(1);
-        const bool done = solve_once({pilot_stream, 1, ray_power, 0, workers_}, pilot);
-        if (done)
-            pilot_ = pilot.radiosity;
-        return done;
+        if (!shoot_pilot({pilot_stream, 1, ray_power, 0, workers_}, pilot))
+            return false;
+        pilot_ = pilot.radiosity;
+        return true;
     });
+}
+
+/// Where there is a target the pilot finds out what is important to it.
+bool StepwiseSolver::shoot_pilot(const StepTask& task, StepResult& pilot) {
+    if (input_.target.empty())
+        return solve_once(task, pilot);
+    mean_.aimed = aim_rays(input_, task, pilot);
+    return !mean_.aimed.empty();
 }
 
 /// Rays die out by chance, which in a room of reflectance .99999 takes about 2e6 bounces.
@@ -154,6 +163,10 @@ void StepwiseSolver::save(StateWriter& state) const {
     state.add(std::span<const Vec3>(solution.radiosity));
     state.add(std::span<const Vec3>(sums.squares));
     state.add(std::span<const std::uint64_t>(solution.hits));
+    if (!input_.target.empty()) {
+        state.add(hash_of_weights(input_.target));
+        state.add(std::span<const double>(mean_.aimed));
+    }
     save_more(state);
 }
 
@@ -196,9 +209,31 @@ void StepwiseSolver::load(StateReader& state) {
             throw StateError("more rays arrived than were traced");
         hits_left -= hits;
     }
+    if (!input_.target.empty())
+        load_aim(state);
     if (solution.steps > 1)
         mean_.estimate_errors();
     load_more(state);
+}
+
+/// Over all power a patch gets about as many rays as by power alone.
+void StepwiseSolver::load_aim(StateReader& state) {
+    constexpr Bounds times{1e-6, 1e6};
+    constexpr double most_rays = 1e3; // for those that power alone would give
+    if (state.whole() != hash_of_weights(input_.target))
+        throw StateError("what the run was for is not what it is for this time");
+    const bool is_aimed = mean_.ray_power > 0 && mean_.ray_power <= bounds::largest;
+    mean_.aimed.resize(is_aimed && input_.needs.bounces ? input_.target.size() : 0);
+    state.get(std::span(mean_.aimed), times);
+    double power = 0, rays = 0;
+    for (std::uint32_t i = 0; i < mean_.aimed.size(); ++i) {
+        const double of_patch =
+            input_.mesh.patches()[i].area * mean_of_channels(mean_.solution.radiosity[i]);
+        power += of_patch;
+        rays += of_patch * mean_.aimed[i];
+    }
+    if (!(rays <= most_rays * power))
+        throw StateError("its patches would trace far more rays than are asked for");
 }
 
 } // namespace hemilux

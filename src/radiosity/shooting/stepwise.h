@@ -2,6 +2,7 @@
 // Methods whose steps are independent solutions of all bounces (mean_of_steps.h). As they are
 // independent, several are solved at the same time, each by a thread.
 
+#include "radiosity/rays/shot.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/solving/mean_of_steps.h"
 
@@ -20,6 +21,12 @@ struct StepTask {
     double ray_power;     ///< that each ray is to carry on average, mean of channels; or infinite
     unsigned place;       ///< among those that are worked out at the same time, from 0
     Workers workers;      ///< for this one
+    std::span<const double> aimed = {}; ///< MeanOfSteps::aimed
+
+    /// That the patch is to shoot, on average.
+    [[nodiscard]] double rays(std::uint32_t patch, const Vec3& power) const {
+        return mean_of_channels(power) / ray_power * (aimed.empty() ? 1 : aimed[patch]);
+    }
 };
 
 /// Throws SolveError after so many bounces that the series seems not to end.
@@ -76,6 +83,8 @@ class StepwiseSolver : public Solver {
     [[nodiscard]] unsigned side_by_side() const;
     [[nodiscard]] double steps_to_come() const;
     bool find_ray_power();
+    bool shoot_pilot(const StepTask& task, StepResult& pilot);
+    void load_aim(StateReader& state);
     void check_ray_power() const;
 
     Workers workers_;

@@ -76,7 +76,8 @@ class Strategy {
     /// the same time, and prepare(), begin_step() and end_step() are not called.
     [[nodiscard]] virtual bool is_same_in_all_steps() const { return false; }
     /// Called before each step but the pilot, with estimates of the radiosity by patch [W/m2] and
-    /// the power of a ray, mean of channels [W/m2 times area in local units].
+    /// the power of a ray, mean of channels [W/m2 times area in local units]. Of a patch that gets
+    /// more rays for a target it is as many times as large.
     virtual void prepare(std::span<const Vec3> /*radiosity*/, double /*ray_power*/) {}
     /// Called when a step begins, 0 being the first: allocations that follow belong to it.
     virtual void begin_step(std::uint64_t) {}

@@ -72,7 +72,34 @@ class Shots {
             shoot(shot, first);
             if (input_.monitor.interrupted)
                 return false;
+<<<<<<< HEAD
             receive(shot);
+=======
+            const auto shooter = static_cast<std::uint32_t>(order.index_of_largest());
+            const Vec3 power = std::exchange(unshot[shooter], {}).value();
+            order.set(shooter, 0);
+            check_finite(input_.mesh, shooter, power, "the power to be shot", task.number);
+            check_bounces(input_.mesh, shots / patches, task.number);
+            result.shot += mean_of_channels(power);
+            const Shot shot = whole_rays(shooter, power, task.rays(shooter, power),
+                                         hash_words({input_.options.seed, task.stream, shots}));
+            for (std::size_t first = 0; first < shot.rays; first += rays_per_volley) {
+                shoot(shot, first, task.workers, receivers);
+                if (input_.monitor.interrupted)
+                    return false;
+                for (const std::uint32_t i : receivers)
+                    if (i < patches) {
+                        received[i] += shot.each;
+                        unshot[i] += input_.mesh.material(i).reflectance * shot.each;
+                        order.set(i, mean_of_channels(unshot[i].value()));
+                        ++result.hits[i];
+                    } else {
+                        (i == escaped ? result.escaped : result.absorbed) += shot.each;
+                    }
+                count(receivers.size(), result);
+            }
+            result.sent += double(shot.rays) * shot.each;
+>>>>>>> shoot
         }
         result_.sent += double(shot.rays) * shot.each;
         ++shots_;
@@ -100,9 +127,14 @@ class Shots {
         std::uint64_t stream;
     };
 
+<<<<<<< HEAD
     [[nodiscard]] Shot aim(std::uint32_t shooter, const Vec3& power) const {
         const std::uint64_t stream = hash_words({input_.options.seed, task_.stream, shots_});
         const double expected = mean_of_channels(power) / task_.ray_power;
+=======
+    [[nodiscard]] static Shot whole_rays(std::uint32_t shooter, const Vec3& power, double expected,
+                                         std::uint64_t stream) {
+>>>>>>> shoot
         const double n = std::floor(expected + Rng(stream).uniform());
         // Below one ray, the ray that is shot carries the power of those that are not.
         return {shooter, static_cast<std::size_t>(n), power / (expected >= 1 ? n : expected),
@@ -253,7 +285,11 @@ const Method monte_carlo_method{
     .work = {.passes = true},
     .saves = true,
     .plain = plain::monte_carlo,
+<<<<<<< HEAD
     .flags = flags,
+=======
+    .aims = true,
+>>>>>>> shoot
 };
 
 } // namespace hemilux

@@ -22,6 +22,7 @@ Solution solution_before_steps(const SolverInput& input) {
     solution.radiosity = StepResult(input.mesh).radiosity;
     solution.standard_error.assign(patches, Vec3(unknown));
     solution.hits.assign(patches, 0);
+    solution.weight.assign(input.target.begin(), input.target.end());
     solution.may_find_light = input.needs.bounces;
     solution.energy.emitted = input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
     solution.energy.unshot = solution.energy.emitted;
@@ -85,7 +86,7 @@ void MeanOfSteps::note_level(const std::vector<Vec3>& radiosity) {
     double of_step = 0, of_mean = 0;
     for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
         const Vec3 emission = input_.mesh.material(i).emission;
-        const Vec3 mean = input_.mesh.patches()[i].area * (solution.radiosity[i] - emission);
+        const Vec3 mean = weighted_area(i) * (solution.radiosity[i] - emission);
         of_step += glm::dot(mean, radiosity[i] - emission);
         of_mean += glm::dot(mean, solution.radiosity[i] - emission);
     }
@@ -109,7 +110,7 @@ void MeanOfSteps::estimate_errors() {
     std::vector<double> of_patch;
     double sum = 0, value = 0, alone = 0;
     for (std::uint32_t i = 0; i < variance.size(); ++i) {
-        const double area = input_.mesh.patches()[i].area;
+        const double area = weighted_area(i);
         const Vec3 reflected = solution.radiosity[i] - input_.mesh.material(i).emission;
         variance[i] = sums.squares[i] / (n * (n - 1));
         of_patch.push_back(area * (variance[i].x + variance[i].y + variance[i].z));
@@ -145,6 +146,12 @@ double MeanOfSteps::emitted() const {
     return mean_of_channels(solution.energy.emitted / input_.mesh.frame().area_to_world(1.0));
 }
 
+/// What a squared error of the patch counts.
+double MeanOfSteps::weighted_area(std::uint32_t patch) const {
+    const double area = input_.mesh.patches()[patch].area;
+    return solution.weight.empty() ? area : solution.weight[patch] * area;
+}
+
 /// By the solution [W, local units].
 Vec3 MeanOfSteps::power_leaving() const {
     CompensatedSum<Vec3> power;
@@ -173,24 +180,26 @@ Vec3 MeanOfSteps::purest_ray() const {
 }
 
 /// What a single ray of all steps so far has added to the patch's radiosity, on average; where none
-/// has hit it, what one of mean power would add.
+/// has hit it, what one of mean power would add, or where patches get fewer rays one of theirs.
 Vec3 MeanOfSteps::one_ray(std::uint32_t patch) const {
     const Material& material = input_.mesh.material(patch);
     if (equal_rays_ && solution.hits[patch] > 0)
         return (solution.radiosity[patch] - material.emission) /
                static_cast<double>(solution.hits[patch]);
     const double area = input_.mesh.patches()[patch].area;
-    return area > 0 ? material.reflectance * mean_ray() / area : Vec3(0.0);
+    const double power = aimed.empty() ? 1 : std::max(1 / aimed[patch], 1.0);
+    return area > 0 ? power * material.reflectance * mean_ray() / area : Vec3(0.0);
 }
 
 /// The squared error, weighted by area, of light that no ray has met so far: by the rule of three,
-/// that of three more rays of mean power, each of which may hit any patch.
+/// that of three more rays of mean power, each of which may hit any patch that counts.
 double MeanOfSteps::unseen() const {
     const Vec3 power = rule_of_three * mean_ray();
     double area = 0, squares = 0;
     for (std::uint32_t i = 0; i < sums.squares.size(); ++i) {
-        const Vec3 reflected = input_.mesh.material(i).reflectance * power;
-        area += input_.mesh.patches()[i].area;
+        const double weight = solution.weight.empty() ? 1 : solution.weight[i];
+        const Vec3 reflected = weight * input_.mesh.material(i).reflectance * power;
+        area += weighted_area(i);
         squares += glm::dot(reflected, reflected);
     }
     return squares / area;

@@ -68,9 +68,13 @@ class MeanOfSteps {
     /// The power that each ray is to carry on average, mean of channels [W/m2 times area in local
     /// units]: 0 before find_ray_power(), infinite where rays are not equal.
     double ray_power = 0;
+    /// By patch, how many times the rays that its power would give it; each carries as much less.
+    /// Empty: 1.
+    std::vector<double> aimed;
 
   private:
     void note_level(const std::vector<Vec3>& radiosity);
+    [[nodiscard]] double weighted_area(std::uint32_t patch) const;
     [[nodiscard]] Vec3 power_leaving() const;
     [[nodiscard]] Vec3 mean_ray() const;
     [[nodiscard]] Vec3 purest_ray() const;

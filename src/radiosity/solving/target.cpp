@@ -8,6 +8,7 @@
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace hemilux {
 namespace {
@@ -69,6 +70,13 @@ std::vector<double> weights_of_points(const Mesh& mesh, const Tracer& tracer,
     for (double& weight : weights)
         weight = largest > 0 ? weight / largest : 0;
     return weights;
+}
+
+std::uint64_t hash_of_weights(std::span<const double> weights) {
+    std::uint64_t hash = 0;
+    for (const double each : weights)
+        hash = hash_words({hash, std::bit_cast<std::uint64_t>(each)});
+    return hash;
 }
 
 void add_weights(std::vector<double>& weights, std::span<const double> others) {

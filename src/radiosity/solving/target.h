@@ -39,6 +39,9 @@ struct SeenPoint {
                                                     std::span<const SeenPoint> points,
                                                     unsigned rays, const Workers& workers);
 
+/// Nearly surely another one for other weights: a saved state belongs to its target.
+[[nodiscard]] std::uint64_t hash_of_weights(std::span<const double> weights);
+
 /// Adds weights of another part of the target: a patch has the larger one. One of both may be
 /// empty.
 void add_weights(std::vector<double>& weights, std::span<const double> others);

@@ -2,13 +2,12 @@
 
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/linear/conjugate_gradients.h"
-#include "radiosity/sampling/rng.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/alike_neighbours.h"
+#include "radiosity/solving/target.h"
 #include "radiosity/stored_transport/transport_system.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace hemilux {
 namespace {
@@ -77,9 +76,10 @@ TargetAim::TargetAim(const Mesh& mesh, const TransportSystem& system,
 
 /// What light cannot leave for the target, as far as is known, may yet turn out to.
 void TargetAim::learn(const ExchangeMatrix& factors, const Workers& workers) {
-    constexpr double least = 1e-9;
+    constexpr double least = 1e-9, roughly = .1; // numbers of rays are as its power 0.8
     learned_ = importance_of_rays(
-        mesh_, importance_of(factors, system_.area(), system_.reflectance(), weight_, workers),
+        mesh_,
+        importance_of(factors, system_.area(), system_.reflectance(), weight_, workers, roughly),
         weight_);
     for (double& each : learned_)
         each = std::max(each, least);
@@ -118,18 +118,10 @@ double TargetAim::counts_alone(std::uint32_t patch) const {
     return weight_[patch] + std::max(through, 0.0) / err_together;
 }
 
-/// Of the weights: a state belongs to its target.
-std::uint64_t TargetAim::hash() const {
-    std::uint64_t hash = 0;
-    for (const double each : weight_)
-        hash = hash_words({hash, std::bit_cast<std::uint64_t>(each)});
-    return hash;
-}
-
 void TargetAim::save(StateWriter& state) const {
     if (!has_target())
         return;
-    state.add(hash());
+    state.add(hash_of_weights(weight_));
     state.add(std::span<const double>(learned_));
     state.add(std::uint64_t{!needed_.empty()});
     for (const bool each : needed_)
@@ -140,7 +132,7 @@ void TargetAim::save(StateWriter& state) const {
 void TargetAim::load(StateReader& state) {
     if (!has_target())
         return;
-    if (state.whole() != hash())
+    if (state.whole() != hash_of_weights(weight_))
         throw StateError("what the run was for is not what it is for this time");
     state.get(std::span(learned_), bounds::non_negative);
     needed_.resize(state.flag() ? learned_.size() : 0);

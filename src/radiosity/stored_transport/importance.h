@@ -83,7 +83,6 @@ class TargetAim {
 
   private:
     void learn(const ExchangeMatrix& factors, const Workers& workers);
-    [[nodiscard]] std::uint64_t hash() const;
 
     const Mesh& mesh_;
     const TransportSystem& system_;

@@ -39,6 +39,7 @@ const Method cosine_method{
     .work = {.passes = true},
     .plain = plain::progressive_monte_carlo,
     .role = Role::baseline,
+    .aims = true,
 };
 
 } // namespace hemilux

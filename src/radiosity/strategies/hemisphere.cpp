@@ -170,6 +170,7 @@ const Method hemisphere_method{
     .plain = plain::hemisphere,
     .role = Role::paper,
     .guided = true,
+    .aims = true,
     .implied_by = division_options,
 };
 

@@ -149,6 +149,7 @@ const Method hemisphere_1997_method{
     .work = {.densities = true, .passes = true},
     .plain = plain::hemisphere_1997,
     .role = Role::forerunner,
+    .aims = true,
     .numbers = numbers,
     .check = [](const SolveOptions& options) { Subdivision1997::check(options.subdivision_1997); },
 };

@@ -42,6 +42,7 @@ const Method stratified_method{
     .make = shoot_with<make_stratified>,
     .strategy = make_stratified,
     .work = {.passes = true},
+    .aims = true,
 };
 
 } // namespace hemilux

@@ -1,0 +1,168 @@
+#include "radiosity/shooting/aimed_rays.h"
+
+#include "radiosity/rays/shot.h"
+#include "radiosity/scene/alike_neighbours.h"
+#include "radiosity/scene/mesh.h"
+#include "radiosity/shooting/bounces.h"
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+/// Of the rays of importance; those of light have the task's.
+constexpr std::uint64_t stream_of_importance = ~std::uint64_t{1};
+
+/// What each patch is taken to have found besides, at the mean importance: what few rays tell must
+/// not leave it without any.
+constexpr double prior_importance = .5;
+
+/// The importance that rays from a patch have found, and their number.
+struct Found {
+    double importance = 0, rays = 0;
+
+    Found& operator+=(const Found& other) {
+        importance += other.importance;
+        rays += other.rays;
+        return *this;
+    }
+    [[nodiscard]] double mean() const { return rays > 0 ? importance / rays : 0; }
+};
+
+/// Rays by the cosine law, which find what light does for the target where they arrive.
+class Watching final : public Strategy {
+  public:
+    /// By patch. Nothing is found without `importance`.
+    Watching(std::span<const double> importance, std::span<Found> found)
+        : importance_(importance), found_(found) {}
+
+    Allocation allocate(std::uint32_t, AllocatedCells&) const override {
+        static constexpr std::uint16_t cell = whole_hemisphere;
+        static constexpr float all_rays = 1;
+        return {{&cell, 1}, {&all_rays, 1}};
+    }
+    [[nodiscard]] bool learns() const override { return !importance_.empty(); }
+    void learn(std::uint32_t patch, std::uint16_t, std::span<const std::uint32_t> receivers,
+               std::span<const std::uint16_t>) override {
+        for (const std::uint32_t receiver : receivers)
+            found_[patch] += {receiver < importance_.size() ? importance_[receiver] : 0, 1};
+    }
+    void find_arrivals(std::span<const Ray> rays, std::span<const std::uint32_t>,
+                       std::vector<std::uint16_t>& arrivals) const override {
+        arrivals.resize(arrivals.size() + rays.size());
+    }
+
+  private:
+    std::span<const double> importance_;
+    std::span<Found> found_;
+};
+
+/// All bounces of the light that `result` has as radiosity; false when interrupted.
+[[nodiscard]] bool shoot(const SolverInput& input, const StepTask& task, const Watching& watching,
+                         StepResult& result) {
+    const ShootingTools tools{input, Hemisphere(0), CellDirections(tools.hemisphere, false),
+                              PatchStarts(input.mesh), std::make_unique<Watching>(watching)};
+    return Bounces(tools).shoot(task, result);
+}
+
+double power_of(const Mesh& mesh, std::uint32_t patch, const Vec3& radiosity) {
+    return mesh.patches()[patch].area * mean_of_channels(radiosity);
+}
+
+double power_of(const Mesh& mesh, std::span<const Vec3> radiosity) {
+    double power = 0;
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i)
+        power += power_of(mesh, i, radiosity[i]);
+    return power;
+}
+
+/// The mean over all power of what patches have.
+template <class Value>
+double mean_of_power(const Mesh& mesh, std::span<const Vec3> radiosity, const Value& value) {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i)
+        sum += power_of(mesh, i, radiosity[i]) * value(i);
+    return sum / power_of(mesh, radiosity);
+}
+
+/// With what the patch's neighbours have found.
+Found around(const Mesh& mesh, std::span<const Found> found, std::uint32_t patch) {
+    Found sum = found[patch];
+    for_alike_neighbours(mesh, patch, [&](std::uint32_t j) { sum += found[j]; });
+    return sum;
+}
+
+/// u by patch, over its own mean, so that a ray which finds the target finds about 1.
+std::vector<double> source_of(const SolverInput& input) {
+    std::vector<double> source;
+    double sum = 0, squares = 0;
+    for (std::uint32_t i = 0; i < input.target.size(); ++i) {
+        const double area = input.mesh.patches()[i].area;
+        const double rho = mean_of_channels(input.mesh.material(i).reflectance);
+        source.push_back(area > 0 ? input.target[i] * rho / area : 0);
+        sum += area * source[i];
+        squares += area * source[i] * source[i];
+    }
+    for (double& each : source)
+        each *= squares > 0 ? sum / squares : 0;
+    return source;
+}
+
+/// The rays that the hits of importance stand for; none when interrupted.
+std::vector<Found> shoot_importance(const SolverInput& input, std::span<const double> source,
+                                    StepTask task, std::uint64_t& rays) {
+    const Mesh& mesh = input.mesh;
+    StepResult result(mesh);
+    const double power_of_light = power_of(mesh, result.radiosity);
+    for (std::uint32_t i = 0; i < source.size(); ++i)
+        result.radiosity[i] = source[i] * mesh.material(i).reflectance;
+    task.stream = stream_of_importance;
+    task.ray_power *= power_of(mesh, result.radiosity) / power_of_light;
+    if (!shoot(input, task, Watching({}, {}), result))
+        return {};
+    rays += result.rays;
+    std::vector<Found> found;
+    for (std::uint32_t i = 0; i < result.hits.size(); ++i)
+        found.push_back({double(result.hits[i]), mesh.patches()[i].area / task.ray_power});
+    return found;
+}
+
+/// The root of each patch's importance over the mean of that; 1 where no light has been seen to
+/// reach the target.
+std::vector<double> times_of(const Mesh& mesh, std::span<const Found> found,
+                             std::span<const Vec3> radiosity) {
+    const auto mean = [&](const auto& value) { return mean_of_power(mesh, radiosity, value); };
+    const double usual = mean([&](std::uint32_t i) { return found[i].mean(); });
+    std::vector<double> times(found.size(), 1);
+    if (!(usual > 0))
+        return times;
+    for (std::uint32_t i = 0; i < found.size(); ++i) {
+        Found known = around(mesh, found, i);
+        known += {prior_importance, prior_importance / usual};
+        times[i] = std::sqrt(known.mean());
+    }
+    const double mean_times = mean([&](std::uint32_t i) { return times[i]; });
+    for (double& each : times)
+        each /= mean_times;
+    return times;
+}
+
+} // namespace
+
+std::vector<double> aim_rays(const SolverInput& input, const StepTask& task, StepResult& pilot) {
+    const std::vector<double> source = source_of(input);
+    std::vector<Found> found = shoot_importance(input, source, task, pilot.rays);
+    std::vector<double> importance; // of light that arrives
+    for (std::uint32_t i = 0; i < found.size(); ++i)
+        importance.push_back(mean_of_channels(input.mesh.material(i).reflectance) *
+                             (source[i] + around(input.mesh, found, i).mean()));
+    if (found.empty() || !shoot(input, task, Watching(importance, found), pilot))
+        return {};
+    return times_of(input.mesh, found, pilot.radiosity);
+}
+
+} // namespace hemilux
