@@ -38,7 +38,7 @@ namespace {
 /// Rays with a random stream of their own, which one thread traces.
 constexpr std::size_t rays_per_stream = 512;
 /// Rays whose receivers are kept until they are summed; whole streams. A lamp may shoot millions.
-constexpr std::size_t rays_per_volley = 2048 * rays_per_stream;
+constexpr std::size_t rays_per_batch = 2048 * rays_per_stream;
 /// Fewer than this are traced sooner than other threads would be started.
 constexpr std::size_t rays_for_one_thread = 2048;
 
@@ -68,38 +68,11 @@ class Shots {
         check_bounces(input_.mesh, shots_ / unshot_.size(), task_.number);
         result_.shot += mean_of_channels(power);
         const Shot shot = aim(shooter, power);
-        for (std::size_t first = 0; first < shot.rays; first += rays_per_volley) {
+        for (std::size_t first = 0; first < shot.rays; first += rays_per_batch) {
             shoot(shot, first);
             if (input_.monitor.interrupted)
                 return false;
-<<<<<<< HEAD
             receive(shot);
-=======
-            const auto shooter = static_cast<std::uint32_t>(order.index_of_largest());
-            const Vec3 power = std::exchange(unshot[shooter], {}).value();
-            order.set(shooter, 0);
-            check_finite(input_.mesh, shooter, power, "the power to be shot", task.number);
-            check_bounces(input_.mesh, shots / patches, task.number);
-            result.shot += mean_of_channels(power);
-            const Shot shot = whole_rays(shooter, power, task.rays(shooter, power),
-                                         hash_words({input_.options.seed, task.stream, shots}));
-            for (std::size_t first = 0; first < shot.rays; first += rays_per_volley) {
-                shoot(shot, first, task.workers, receivers);
-                if (input_.monitor.interrupted)
-                    return false;
-                for (const std::uint32_t i : receivers)
-                    if (i < patches) {
-                        received[i] += shot.each;
-                        unshot[i] += input_.mesh.material(i).reflectance * shot.each;
-                        order.set(i, mean_of_channels(unshot[i].value()));
-                        ++result.hits[i];
-                    } else {
-                        (i == escaped ? result.escaped : result.absorbed) += shot.each;
-                    }
-                count(receivers.size(), result);
-            }
-            result.sent += double(shot.rays) * shot.each;
->>>>>>> shoot
         }
         result_.sent += double(shot.rays) * shot.each;
         ++shots_;
@@ -127,14 +100,9 @@ class Shots {
         std::uint64_t stream;
     };
 
-<<<<<<< HEAD
     [[nodiscard]] Shot aim(std::uint32_t shooter, const Vec3& power) const {
         const std::uint64_t stream = hash_words({input_.options.seed, task_.stream, shots_});
-        const double expected = mean_of_channels(power) / task_.ray_power;
-=======
-    [[nodiscard]] static Shot whole_rays(std::uint32_t shooter, const Vec3& power, double expected,
-                                         std::uint64_t stream) {
->>>>>>> shoot
+        const double expected = task_.rays(shooter, power);
         const double n = std::floor(expected + Rng(stream).uniform());
         // Below one ray, the ray that is shot carries the power of those that are not.
         return {shooter, static_cast<std::size_t>(n), power / (expected >= 1 ? n : expected),
@@ -143,7 +111,7 @@ class Shots {
 
     /// Some of the shot's rays, from `first` on.
     void shoot(const Shot& shot, std::size_t first) {
-        const std::size_t rays = std::min(shot.rays - first, rays_per_volley);
+        const std::size_t rays = std::min(shot.rays - first, rays_per_batch);
         receivers_.resize(rays);
         const Workers workers = rays < rays_for_one_thread ? Workers(1) : task_.workers;
         workers.for_chunks(rays, rays_per_stream, [&](std::size_t begin, std::size_t end) {
@@ -285,11 +253,8 @@ const Method monte_carlo_method{
     .work = {.passes = true},
     .saves = true,
     .plain = plain::monte_carlo,
-<<<<<<< HEAD
-    .flags = flags,
-=======
     .aims = true,
->>>>>>> shoot
+    .flags = flags,
 };
 
 } // namespace hemilux
