@@ -43,7 +43,8 @@ void check_emission(const Material& material, const std::string& path) {
 } // namespace
 
 ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
-    ReadResult read = read_scene_file(settings.path, memory_guard(settings.path, settings.memory));
+    ReadResult read = read_scene_file(settings.path, memory_guard(settings.path, settings.memory),
+                                      settings.textures);
     for (const std::string& library : read.libraries)
         files.read("material library", library);
     for (const std::string& texture : read.textures)

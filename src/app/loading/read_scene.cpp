@@ -8,12 +8,12 @@
 
 namespace hemilux {
 
-ReadResult read_scene_file(const std::string& path, const ReadGuard& guard) {
+ReadResult read_scene_file(const std::string& path, const ReadGuard& guard, bool textures) {
     const std::string extension = extension_of(path);
     if (extension == ".obj")
-        return read_obj(path, guard);
+        return read_obj(path, guard, textures);
     if (extension == ".gltf" || extension == ".glb")
-        return read_gltf(path, guard);
+        return read_gltf(path, guard, textures);
     if (extension == ".stl")
         return read_stl(path, guard);
     throw InputError(path,

@@ -4,11 +4,15 @@
 #include "io/files/text_words.h"
 #include "io/gltf/lights.h"
 #include "io/gltf/primitives.h"
+#include "io/gltf/uri.h"
 #include "io/scene_files/polygon_division.h"
+#include "io/textures/texture_files.h"
+#include "radiosity/sides/shells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <unordered_map>
 
 namespace hemilux {
@@ -34,10 +38,11 @@ std::string name_or(const std::string& name, const char* kind, std::size_t numbe
 
 class Reader {
   public:
-    Reader(const std::string& path, const ReadGuard& guard)
-        : path_(path), guard_(guard), container_(read_container(path, guard)),
-          json_(container_.json, path), document_(read_document(json_.root())),
-          buffers_(document_, container_, path_, guard_), triangles_(buffers_) {}
+    Reader(const std::string& path, const ReadGuard& guard, bool textures)
+        : path_(path), guard_(guard), textures_(textures), texture_files_(guard_),
+          container_(read_container(path, guard)), json_(container_.json, path),
+          document_(read_document(json_.root())), buffers_(document_, container_, path_, guard_),
+          triangles_(buffers_) {}
 
     ReadResult read();
 
@@ -45,6 +50,12 @@ class Reader {
     void find_instances();
     void count_triangles_of_scene();
     void add_materials();
+    void add_texture(const TextureInfo& info, std::size_t material, Vec3 Material::*colour,
+                     TextureMap MaterialTextures::*map);
+    [[nodiscard]] std::shared_ptr<const Texture> read_image(std::size_t image);
+    void add_texcoords(const Primitive& primitive, const Triangles& triangles,
+                       const std::array<std::uint32_t, 3>& corners);
+    void mark_two_sided();
     void add_mesh(const Instance& instance);
     void add_primitive(const Instance& instance, std::size_t mesh, std::size_t number,
                        std::uint32_t group);
@@ -64,6 +75,8 @@ class Reader {
 
     std::string path_;
     const ReadGuard& guard_;
+    bool textures_;
+    TextureFiles texture_files_;
     Container container_;
     JsonDocument json_;
     Document document_;
@@ -75,6 +88,9 @@ class Reader {
     std::unordered_map<std::size_t, std::vector<std::optional<Triangles>>> read_;
     std::vector<bool> used_; ///< materials
     std::optional<std::uint32_t> default_material_;
+    std::size_t sets_ = 0; ///< of texture coordinates that textures use
+    std::size_t missing_ = 0, without_coordinates_ = 0;
+    std::vector<std::string> images_;
     std::size_t lines_ = 0, coloured_ = 0, morphed_ = 0, skins_ = 0;
     PolygonDivision division_;
     std::vector<Vec3> world_;
@@ -85,6 +101,7 @@ ReadResult Reader::read() {
     find_instances();
     count_triangles_of_scene();
     add_materials();
+    result_.scene.textures.texcoords.resize(sets_);
     for (const Instance& instance : instances_) {
         const Node& node = document_.nodes[instance.node];
         if (node.mesh)
@@ -96,8 +113,12 @@ ReadResult Reader::read() {
         throw InputError(path_, result_.scene.faces > 0
                                     ? "none of the triangles has an area"
                                     : "no triangles; expected a scene whose nodes show meshes");
+    mark_two_sided();
     add_lights();
+    for (std::vector<Texcoords>& set : result_.scene.textures.texcoords)
+        set.resize(result_.scene.facets.size());
     collect_warnings();
+    result_.textures = std::move(images_);
     result_.libraries = buffers_.files();
     return std::move(result_);
 }
@@ -151,6 +172,97 @@ void Reader::add_materials() {
         result_.material_source.push_back(path_ + ": /materials/" + std::to_string(number));
     }
     used_.resize(document_.materials.size());
+    for (const Instance& instance : instances_)
+        if (const Index& mesh = document_.nodes[instance.node].mesh)
+            for (const Primitive& primitive : document_.meshes[*mesh].primitives)
+                if (primitive.material && primitive.position && primitive.mode >= Mode::triangles)
+                    used_[*primitive.material] = true;
+    for (std::size_t m = 0; m < used_.size(); ++m) {
+        const auto& [base, emissive] =
+            std::tie(document_.materials[m].base_texture, document_.materials[m].emissive_texture);
+        if (textures_ && used_[m] && base)
+            add_texture(*base, m, &Material::reflectance, &MaterialTextures::reflectance);
+        if (textures_ && used_[m] && emissive)
+            add_texture(*emissive, m, &Material::emission, &MaterialTextures::emission);
+    }
+}
+
+/// The transform of KHR_texture_transform: scale, then rotation, then offset.
+void Reader::add_texture(const TextureInfo& info, std::size_t material, Vec3 Material::*colour,
+                         TextureMap MaterialTextures::*map) {
+    const TextureSource& source = document_.textures[info.texture];
+    if (!source.image || *source.image >= document_.images.size())
+        fail("/textures/" + std::to_string(info.texture) + "/source",
+             "expected an image below " + std::to_string(document_.images.size()));
+    std::shared_ptr<const Texture> texture = read_image(*source.image);
+    if (!texture) {
+        ++missing_;
+        return;
+    }
+    const auto wrap_of = [](Wrapping wrapping) {
+        return wrapping == Wrapping::clamp    ? Wrap::clamp
+               : wrapping == Wrapping::mirror ? Wrap::mirror
+                                              : Wrap::repeat;
+    };
+    SceneTextures& textures = result_.scene.textures;
+    textures.of_material.resize(document_.materials.size());
+    TextureMap& to = textures.of_material[material].*map;
+    to.texture = std::move(texture);
+    to.wraps = {wrap_of(source.wrap_s), wrap_of(source.wrap_t)};
+    to.set = static_cast<std::uint32_t>(info.set);
+    const double c = std::cos(info.rotation), s = std::sin(info.rotation);
+    to.origin = info.offset;
+    to.x = info.scale.x * Vec2(c, -s);
+    to.y = info.scale.y * Vec2(s, c);
+    Vec3& of_material = result_.scene.materials[material].*colour;
+    to.factor = of_material;
+    of_material *= to.texture->mean();
+    sets_ = std::max(sets_, info.set + 1);
+}
+
+/// Empty where the image is missing or of a kind that is not read.
+std::shared_ptr<const Texture> Reader::read_image(std::size_t image) {
+    const ImageInfo& info = document_.images[image];
+    const std::string place = "/images/" + std::to_string(image);
+    const std::string key = path_ + ": " + place;
+    if (info.view)
+        return texture_files_.decode(buffers_.view(*info.view), key);
+    if (is_data_uri(info.uri)) {
+        const std::optional<std::string> bytes = decode_data_uri(info.uri);
+        if (!bytes)
+            fail(place + "/uri", "expected data in base 64");
+        return texture_files_.decode(*bytes, key);
+    }
+    const std::optional<std::string> file = path_of_uri(info.uri, path_);
+    if (!file)
+        fail(place + "/uri", "expected a data URI or a path relative to this file");
+    images_.push_back(*file);
+    return texture_files_.read(*file);
+}
+
+void Reader::add_texcoords(const Primitive& primitive, const Triangles& triangles,
+                           const std::array<std::uint32_t, 3>& corners) {
+    for (std::size_t set = 0; set < sets_; ++set) {
+        Texcoords& to = result_.scene.textures.texcoords[set].emplace_back();
+        to.fill(glm::vec2(0.0f));
+        if (set < std::min(triangles.texcoords.size(), primitive.texcoords.size()))
+            for (std::size_t k = 0; k < 4; ++k)
+                to[k] = triangles.texcoords[set][corners[std::min<std::size_t>(k, 2)]];
+    }
+}
+
+/// Facets of double-sided materials, on open surfaces.
+void Reader::mark_two_sided() {
+    if (std::ranges::none_of(document_.materials, &MaterialInfo::double_sided))
+        return;
+    std::vector<Facet>& facets = result_.scene.facets;
+    const Shells shells = find_shells(result_.scene);
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        const std::uint32_t m = facets[f].material;
+        facets[f].two_sided = m < document_.materials.size() &&
+                              document_.materials[m].double_sided &&
+                              !shells.all[shells.of[f]].closed;
+    }
 }
 
 std::uint32_t Reader::group_of(const std::string& name) {
@@ -176,7 +288,8 @@ const Triangles& Reader::triangles_of(std::size_t mesh, std::size_t number) {
     std::vector<std::optional<Triangles>>& of_mesh = read_[mesh];
     of_mesh.resize(primitives.size());
     if (!of_mesh[number])
-        of_mesh[number] = triangles_.read(primitives[number], place_of(mesh, number), 0);
+        of_mesh[number] = triangles_.read(primitives[number], place_of(mesh, number),
+                                          std::min(sets_, primitives[number].texcoords.size()));
     return *of_mesh[number];
 }
 
@@ -201,8 +314,8 @@ void Reader::add_primitive(const Instance& instance, std::size_t mesh, std::size
     const Triangles& triangles = triangles_of(mesh, number);
     const std::uint32_t material =
         primitive.material ? static_cast<std::uint32_t>(*primitive.material) : default_material();
-    if (primitive.material)
-        used_[*primitive.material] = true;
+    without_coordinates_ +=
+        result_.scene.textures.on(material) && primitive.texcoords.size() < sets_;
     Scene& scene = result_.scene;
     const auto first = static_cast<std::uint32_t>(scene.vertices.size());
     world_.clear();
@@ -225,6 +338,7 @@ void Reader::add_primitive(const Instance& instance, std::size_t mesh, std::size
         }
         scene.facets.push_back(
             {{first + a, first + b, first + c, first + c}, face, material, group});
+        add_texcoords(primitive, triangles, {a, b, c});
     }
     scene.vertices.insert(scene.vertices.end(), world_.begin(), world_.end());
 }
@@ -294,6 +408,10 @@ void Reader::collect_warnings() {
          "materials are transparent; they are opaque here");
     warn(result_.degenerate_faces, "a triangle without area is left out",
          "triangles without area are left out");
+    warn(missing_, "a texture is not found, or neither PNG nor JPEG; the colour is its factor",
+         "textures are not found, or neither PNG nor JPEG; colours are their factors");
+    warn(without_coordinates_, "a textured primitive has no texture coordinates",
+         "textured primitives have no texture coordinates");
     warn(lines_, "a primitive of points or lines is left out",
          "primitives of points or lines are left out");
     warn(coloured_, "a primitive has colours of vertices, which are not read",
@@ -307,8 +425,8 @@ void Reader::collect_warnings() {
 } // namespace
 } // namespace gltf
 
-ReadResult read_gltf(const std::string& path, const ReadGuard& guard) {
-    return gltf::Reader(path, guard).read();
+ReadResult read_gltf(const std::string& path, const ReadGuard& guard, bool textures) {
+    return gltf::Reader(path, guard, textures).read();
 }
 
 } // namespace hemilux

@@ -16,6 +16,8 @@
 namespace hemilux {
 
 /// Throws InputError with the JSON path of what is wrong.
-[[nodiscard]] ReadResult read_gltf(const std::string& path, const ReadGuard& guard = {});
+/// Without `textures` colours are the factors alone.
+[[nodiscard]] ReadResult read_gltf(const std::string& path, const ReadGuard& guard = {},
+                                   bool textures = true);
 
 } // namespace hemilux

@@ -116,8 +116,12 @@ Triangles TriangleReader::read(const Primitive& primitive, const std::string& pl
                              std::to_string(coordinates.size()));
         std::vector<glm::vec2>& of_points = triangles.texcoords.emplace_back();
         of_points.reserve(used_.size());
-        for (const std::uint32_t v : used_)
-            of_points.emplace_back(coordinates.at(v, 0), coordinates.at(v, 1));
+        for (const std::uint32_t v : used_) {
+            const Vec2 uv(coordinates.at(v, 0), coordinates.at(v, 1));
+            if (!std::isfinite(uv.x + uv.y))
+                coordinates.fail("element " + std::to_string(v) + ": expected finite numbers");
+            of_points.emplace_back(uv);
+        }
     }
     return triangles;
 }

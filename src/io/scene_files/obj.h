@@ -1,11 +1,11 @@
 #pragma once
 // Reads Wavefront OBJ files with their MTL material libraries.
 //
-// Read: v, f, g, o, usemtl, mtllib. Faces of any shape become triangles and planar convex quads
+// Read: v, vt, f, g, o, usemtl, mtllib. Faces of any shape become triangles and planar convex quads
 // (polygon_division.h). A face belongs to the group of the latest `g` since the last `o`, else to
 // that `o`, else to "default"; several names after one `g` are one name with blanks. A face before
 // any usemtl has the material "default"; it and those that no library defines have reflectance 0.5.
-// Texture coordinates, normals, smoothing, lines, points and free-form surfaces are left out.
+// Normals, smoothing, lines, points and free-form surfaces are left out.
 
 #include "io/scene_files/read_result.h"
 
@@ -17,6 +17,8 @@ namespace hemilux {
 /// and groups are in the order in which they are defined or first used by a face.
 /// Throws InputError for a file that cannot be read, with file and line for what is wrong in it,
 /// and where no face has an area.
-[[nodiscard]] ReadResult read_obj(const std::string& path, const ReadGuard& guard = {});
+/// Without `textures` colours are Kd and Ke alone.
+[[nodiscard]] ReadResult read_obj(const std::string& path, const ReadGuard& guard = {},
+                                  bool textures = true);
 
 } // namespace hemilux
