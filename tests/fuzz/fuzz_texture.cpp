@@ -8,9 +8,12 @@
 #include <cstdlib>
 #include <cstring>
 
+namespace {
+struct TooLarge {};
+} // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-    struct TooLarge {};
     const std::function<void(double)> guard = [](double needed) {
         constexpr double most = 1 << 24;
         if (needed > most)

@@ -46,7 +46,7 @@ ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
     ReadResult read = read_scene_file(settings.path, memory_guard(settings.path, settings.memory),
                                       settings.textures);
     for (const std::string& library : read.libraries)
-        files.read("material library", library);
+        files.read("file of the scene", library);
     for (const std::string& texture : read.textures)
         if (std::error_code ignored; std::filesystem::exists(texture, ignored))
             files.read("texture", texture);
