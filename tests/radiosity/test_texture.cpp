@@ -111,6 +111,7 @@ TEST_CASE("polygons without area and huge ones have means too", "[texture]") {
     CHECK(texture.mean_over(box(0, 0, 1e6, 1e6), {}) == texture.mean());
     const double nan = std::nan("");
     CHECK(texture.mean_over(box(nan, 0, 1, 1), {}) == texture.mean());
+    CHECK(texture.mean_over(std::vector<Vec2>{{0, 0}, {1, 0}, {1, nan}}, {}) == texture.mean());
 }
 
 TEST_CASE("sRGB bytes mean light by the curve of the standard", "[texture]") {

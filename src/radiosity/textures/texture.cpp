@@ -160,6 +160,8 @@ Vec3 Texture::mean_over(std::span<const Vec2> polygon, Wraps wraps) const {
     Vec2 low(1e300), high(-1e300);
     for (Vec2& corner : corners) {
         corner *= size;
+        if (!std::isfinite(corner.x + corner.y))
+            return mean_;
         low = glm::min(low, corner);
         high = glm::max(high, corner);
     }
