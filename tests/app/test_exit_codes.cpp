@@ -95,7 +95,7 @@ TEST_CASE("bad input ends with 2 and names the file") {
     const Workplace place;
     place.write_room();
     check_fails(place, 2, "solve nothing.obj -o a.png", "nothing.obj");
-    check_fails(place, 2, "solve room.mtl -o a.png", "room.mtl: not a kind of scene");
+    check_fails(place, 2, "solve room.mtl -o a.png", "room.mtl: expected a scene of a kind");
     place.write("bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 7\n");
     check_fails(place, 2, "solve bad.obj -o a.png", "bad.obj:3");
     check_fails(place, 2, "info bad.obj", "bad.obj:3");

@@ -65,7 +65,8 @@ TEST_CASE("what is left out of a scene is said in the right words") {
     const Workplace place;
     place.write("a.obj", "mtllib a.mtl\nusemtl a\n" + triangle + "f 1 2 3\nUSEMTL b\n");
     place.write("a.mtl", "newmtl a\nKd .5\nmap_Ke glow.png\n");
-    CHECK_THAT(place.hemilux("info a.obj").err, Contains("map_Ke") && Contains("capitals"));
+    CHECK_THAT(place.hemilux("info a.obj").err,
+               Contains("texture is not found") && Contains("capitals"));
     place.write("a.mtl", "newmtl a\nKd -.5\n");
     CHECK_THAT(place.hemilux("info a.obj").err, Contains("negative") && !Contains("finite"));
     place.write("a.mtl", "newmtl a\nKd 1e200\n");

@@ -19,6 +19,7 @@ const std::vector<std::string> rooms{
     "bvh",
     "bvh/wide",
     "radiosity/sampling",
+    "radiosity/textures",
     "radiosity/scene",
     "radiosity/rays",
     "radiosity/sides",
@@ -37,7 +38,9 @@ const std::vector<std::string> rooms{
     "radiosity/solvers",
     "radiosity/division",
     "io/files",
+    "io/textures",
     "io/scene_files",
+    "io/gltf",
     "io/results",
     "io/pictures",
     "io/drawings",
@@ -73,8 +76,10 @@ bool may_include_system(const std::string& file, const std::string& header) {
         return true;
     if (begins("stb"))
         return layer == "io" && source;
-    if (begins("nlohmann/")) // these two take long to compile: one file each
-        return file == "io/results/statistics.cpp";
+    if (header == "nlohmann/json_fwd.hpp")
+        return layer == "io";
+    if (begins("nlohmann/")) // these two take long to compile: few files include them
+        return file == "io/results/statistics.cpp" || file == "io/gltf/json_value.cpp";
     if (begins("CLI/"))
         return file == "app/command_line/arguments.cpp";
     if (header == "immintrin.h" || header == "sys/mman.h")

@@ -1,5 +1,7 @@
 #include "io/scene_files/inspect.h"
 
+#include "io/scene_files/obj.h"
+
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 

@@ -39,11 +39,12 @@ TEST_CASE("reflectance and emission are read, all else is passed over", "[mtl]")
     CHECK(materials[0].line == 3);
     CHECK(materials[0].reflectance == Vec3(0.725, 0.71, 0.68));
     CHECK_FALSE(materials[0].emission.has_value());
-    CHECK_FALSE(materials[0].textured);
+    CHECK_FALSE(materials[0].reflectance_map);
     CHECK(materials[1].name == "Material #25");
     CHECK(materials[1].reflectance == Vec3(1.5));
     CHECK(materials[1].emission == Vec3(17, 12, 4));
-    CHECK(materials[1].textured);
+    REQUIRE(materials[1].reflectance_map);
+    CHECK(materials[1].reflectance_map->name == "textures/a b.png");
     CHECK(materials[2].name == "bare");
     CHECK_FALSE(materials[2].reflectance.has_value());
 }
@@ -77,15 +78,17 @@ TEST_CASE("the first of several definitions is taken", "[mtl]") {
     CHECK(table.warnings[1].find(b + ":1: material \"m\"") == 0);
 }
 
-TEST_CASE("textures are told in one warning", "[mtl]") {
+TEST_CASE("textures that are missing are one warning", "[mtl]") {
     const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl a\nmap_Kd x.png\nnewmtl b\nKd .1\nmap_Kd y.png\nnewmtl c\n");
     MaterialTable table(folder.path("scene.obj"));
     table.read_libraries("a.mtl", 1);
+    (void)table.use("a", 2);
+    (void)table.use("b", 3);
     table.finish();
     REQUIRE(table.warnings.size() == 1);
-    CHECK(table.warnings[0].find("textures are not read: 2 materials") != std::string::npos);
-    CHECK(table.warnings[0].find("1 without Kd") != std::string::npos);
+    CHECK(table.warnings[0].find("2 textures are not found") != std::string::npos);
+    CHECK(table.maps.empty());
     CHECK(table.materials[0].reflectance == Vec3(0.5));
     CHECK(table.materials[1].reflectance == Vec3(0.1));
 }

@@ -77,12 +77,17 @@ void add_sides_options(Command command, SceneSettings& scene) {
 } // namespace
 
 Option add_scene_options(Command command, SceneSettings& scene) {
-    command.add_text("SCENE", "FILE", scene.path, "the scene: Wavefront .obj").required();
+    command.add_text("SCENE", "FILE", scene.path, "the scene: .obj, .gltf, .glb or .stl").required();
     const Option max_edge =
         add_number(command, "--max-edge", "LENGTH", scene.mesh.max_edge, positive,
                    "divide faces until no edge is longer [not divided]");
     max_edge.group("Scene");
     add_sides_options(command, scene);
+    command
+        .add_action(
+            "--no-textures", [&scene] { scene.textures = false; },
+            "materials have the colours of the file without their textures")
+        .group("Scene");
     add_override(command, "--emission", scene.emission, emission_range,
                  "what a material emits, W/m2; * for all; repeatable")
         .group("Scene");

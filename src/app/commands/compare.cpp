@@ -137,7 +137,7 @@ int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
 }
 
 /// Fills in the lines of the faces as soon as they are known.
-int run_comparison(const CompareSettings& settings, std::vector<std::uint32_t>& face_lines) {
+int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_lines) {
     std::vector<const Method*> methods;
     for (const MethodVariant& variant : settings.variants)
         methods.push_back(variant.method);
@@ -155,6 +155,7 @@ int run_comparison(const CompareSettings& settings, std::vector<std::uint32_t>& 
                   bytes_of_compared_pictures(settings.view.size));
     face_lines = std::move(loaded.face_lines);
     const Mesh& mesh = loaded.mesh;
+    settings.view = view_of(settings.view, loaded, settings.verbosity);
     check_camera(settings.view, mesh);
     check_exact(settings.options, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);

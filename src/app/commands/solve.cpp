@@ -181,7 +181,7 @@ class SolveRun {
     [[nodiscard]] double bytes_of_outputs() const;
     [[nodiscard]] std::unique_ptr<Solver> begin();
 
-    const SolveSettings& settings_;
+    SolveSettings settings_; ///< with the camera of the scene, where none was given
     const Stopwatch started_;
     Monitor monitor_;
     InterruptGuard guard_;
@@ -220,6 +220,8 @@ void SolveRun::read_scene() {
     loaded_ = load_mesh(settings_.scene, files, settings_.options, methods, settings_.verbosity,
                         bytes_of_outputs());
     check_distances(settings_, points_, mesh());
+    if (std::ranges::any_of(settings_.outputs, is_picture, &Output::kind))
+        settings_.view = view_of(settings_.view, *loaded_, settings_.verbosity);
     check_camera(settings_.view, mesh());
     check_exact(settings_.options, mesh().patches().size());
     check_plain(settings_, mesh().patches().size());

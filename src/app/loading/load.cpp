@@ -1,8 +1,8 @@
 #include "app/loading/load.h"
 
+#include "app/loading/read_scene.h"
 #include "app/loading/sides.h"
 #include "app/settings/exit_code.h"
-#include "app/settings/extension.h"
 #include "app/settings/memory.h"
 #include "app/settings/names.h"
 #include "app/settings/text.h"
@@ -43,11 +43,10 @@ void check_emission(const Material& material, const std::string& path) {
 } // namespace
 
 ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
-    if (extension_of(settings.path) != ".obj")
-        throw InputError(settings.path, "not a kind of scene that can be read; .obj can");
-    ReadResult read = read_obj(settings.path, memory_guard(settings.path, settings.memory));
+    ReadResult read = read_scene_file(settings.path, memory_guard(settings.path, settings.memory),
+                                      settings.textures);
     for (const std::string& library : read.libraries)
-        files.read("material library", library);
+        files.read("file of the scene", library);
     for (const std::string& texture : read.textures)
         if (std::error_code ignored; std::filesystem::exists(texture, ignored))
             files.read("texture", texture);
@@ -92,6 +91,19 @@ Mesh divide_scene(Scene scene, const SceneSettings& settings) {
     }
 }
 
+ViewSettings view_of(const ViewSettings& asked, const LoadedMesh& loaded, Verbosity verbosity) {
+    ViewSettings view = asked;
+    if (view.camera || !loaded.camera)
+        return view;
+    view.camera = loaded.camera;
+    const auto& [eye, target, up, fov] = *loaded.camera;
+    log_line(verbosity, Verbosity::normal,
+             "pictures are seen by camera '" + loaded.camera_name + "' of the scene: " +
+                 formatted("--camera %g,%g,%g,%g,%g,%g,%g", eye.x, eye.y, eye.z, target.x, target.y,
+                           target.z, fov));
+    return view;
+}
+
 /// Either by a thread of its own, where there are two.
 Prepared prepare(LoadedMesh& loaded, const SolveOptions& options) {
     const Stopwatch preparing;
@@ -126,8 +138,9 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
     check_memory(need, settings.memory, settings.path);
     const Stopwatch dividing;
     SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, verbosity);
-    LoadedMesh loaded{std::move(sided.mesh), std::move(sided.made), seconds, dividing.seconds(),
-                      std::move(read.face_lines)};
+    LoadedMesh loaded{std::move(sided.mesh),      std::move(sided.made),      seconds,
+                      dividing.seconds(),         std::move(read.face_lines), read.camera,
+                      std::move(read.camera_name)};
     if (!loaded.mesh.is_laid_apart())
         log_line(
             verbosity, Verbosity::normal,

@@ -3,7 +3,7 @@
 
 #include "app/settings/settings.h"
 #include "io/files/error.h"
-#include "io/scene_files/obj.h"
+#include "io/scene_files/read_result.h"
 #include "radiosity/rays/make_tracer.h"
 #include "radiosity/solving/solve_error.h"
 
@@ -32,7 +32,13 @@ struct LoadedMesh {
     MadeTracer made; ///< where the sides of the faces needed one
     double seconds_read, seconds_sides;
     std::vector<std::uint32_t> face_lines; ///< ReadResult
+    std::optional<Camera> camera;          ///< the same
+    std::string camera_name;
 };
+/// The view asked for; with the camera of the file, which is reported, where none was asked for.
+[[nodiscard]] ViewSettings view_of(const ViewSettings& asked, const LoadedMesh& loaded,
+                                   Verbosity verbosity);
+
 /// Does all of this, with what there is to report. Throws MemoryError if the methods would need
 /// more memory than they may.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,

@@ -111,6 +111,9 @@ std::string line(std::string name, const std::string& text) {
 
 SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings, const SolveOptions& options,
                             Verbosity verbosity) {
+    if (settings.sides == Sides::front)
+        for (Facet& facet : scene.facets)
+            facet.two_sided = false;
     if (settings.sides == Sides::both) {
         if (emitted_power(scene) > 0)
             log_line(verbosity, Verbosity::normal, both_sides_text(scene));

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <system_error>
 
 namespace hemilux {
@@ -43,7 +44,7 @@ constexpr double bytes_of_analysis = 350;
 constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
 /// The light of a pixel in its parts, of more surfaces at edges, and of a quarter of a point at
 /// which indirect light is gathered.
-constexpr double bytes_per_gathered_pixel = 130;
+constexpr double bytes_per_gathered_pixel = 154;
 /// Rays that wait to be summed.
 constexpr double bytes_of_volleys = 32e6;
 
@@ -106,6 +107,20 @@ std::string rounded(double bytes) {
                         : formatted("%.2g bytes", bytes);
 }
 
+/// Of pictures, each once, and of texture coordinates.
+std::vector<double> bytes_of_textures(const Scene& scene) {
+    std::set<const Texture*> textures;
+    for (const auto& [reflectance, emission] : scene.textures.of_material)
+        for (const TextureMap* const map : {&reflectance, &emission})
+            textures.insert(map->texture.get());
+    std::vector<double> bytes;
+    for (const Texture* const texture : textures)
+        bytes.push_back(texture ? texture->bytes() : 0);
+    for (const std::vector<Texcoords>& set : scene.textures.texcoords)
+        bytes.push_back(static_cast<double>(set.size() * sizeof(Texcoords)));
+    return bytes;
+}
+
 } // namespace
 
 std::optional<std::uint64_t> parse_bytes(std::string_view text) {
@@ -124,15 +139,15 @@ std::optional<std::uint64_t> parse_bytes(std::string_view text) {
 }
 
 double patches_of(const Scene& scene, const MeshOptions& options) {
-    const double sides = options.two_sided ? 2 : 1;
-    if (!(options.max_edge > 0))
-        return sides * static_cast<double>(scene.facets.size());
     double patches = 0;
     for (const Facet& facet : scene.facets) {
+        const double sides = options.two_sided || facet.two_sided ? 2 : 1;
         const auto [along, across] = lengths_of(scene, facet);
-        patches += pieces(along, options.max_edge) * pieces(across, options.max_edge);
+        patches += options.max_edge > 0
+                       ? sides * pieces(along, options.max_edge) * pieces(across, options.max_edge)
+                       : sides;
     }
-    return sides * patches;
+    return patches;
 }
 
 MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveOptions& options,
@@ -144,6 +159,10 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
     need.scene = bytes_of_program + growth * (sizeof(Vec3) * vertices + sizeof(Facet) * facets);
     need.mesh =
         sizeof(Patch) * patches + sizeof(Vec3) * vertices + (sizeof(FacetCorners) + 48) * facets;
+    for (const double bytes : bytes_of_textures(scene))
+        need.scene += bytes;
+    if (!scene.textures.of_material.empty())
+        need.mesh += sizeof(Material) * patches;
     need.pairs =
         OverlapLimits::bytes_per_pair * static_cast<double>(OverlapLimits::of(scene).pairs);
     need.analysis = bytes_of_analysis * facets;

@@ -16,14 +16,25 @@ std::optional<Override> parse_override(std::string_view text, const NumberRange&
     return Override{std::string(text.substr(0, equals)), *value};
 }
 
+namespace {
+
+void remove_texture(MaterialTextures& textures, Vec3 Material::*quantity) {
+    (quantity == &Material::emission ? textures.emission : textures.reflectance).texture.reset();
+}
+
+} // namespace
+
 void apply_overrides(Scene& scene, Vec3 Material::*quantity,
                      const std::vector<Override>& overrides) {
     for (const auto& [name, value] : overrides) {
         bool found = false;
-        for (Material& material : scene.materials) {
+        for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+            Material& material = scene.materials[m];
             if (name != "*" && name != material.name)
                 continue;
             material.*quantity = value;
+            if (scene.textures.on(static_cast<std::uint32_t>(m)))
+                remove_texture(scene.textures.of_material[m], quantity);
             found = true;
         }
         if (!found)

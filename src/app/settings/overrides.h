@@ -24,8 +24,8 @@ inline constexpr NumberRange reflectance_range{.low = 0, .high = 1};
 [[nodiscard]] std::optional<Override> parse_override(std::string_view text,
                                                      const NumberRange& range);
 
-/// Replaces the quantity in the materials named, in the order given. Throws UsageError for a
-/// material that the scene does not have.
+/// Replaces the quantity and its texture in the materials named, in the order given. Throws
+/// UsageError for a material that the scene does not have.
 void apply_overrides(Scene& scene, Vec3 Material::*quantity,
                      const std::vector<Override>& overrides);
 

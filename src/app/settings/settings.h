@@ -25,6 +25,7 @@ struct SceneSettings {
     std::string path;
     std::vector<Override> emission, reflectance;
     Sides sides = Sides::automatic;
+    bool textures = true; ///< they are read
     MeshOptions mesh;                    ///< two-sided with Sides::both
     std::optional<std::uint64_t> memory; ///< bytes that a run may need
 };

@@ -34,6 +34,7 @@ Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& trac
     return render(mesh, tracer, radiosity, camera,
                   {.width = width,
                    .height = height,
+                   .textures = true,
                    .gather = gather,
                    .threads = threads,
                    .classes = classes,

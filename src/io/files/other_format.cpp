@@ -20,7 +20,7 @@ constexpr auto of_bytes = std::to_array<Beginning>({
     {"\x28\xb5\x2f\xfd", "compressed by zstd; unpack it first"},
     {"\xff\xfe", "UTF-16; save it as UTF-8 or plain text"},
     {"\xfe\xff", "UTF-16; save it as UTF-8 or plain text"},
-    {"glTF", "a binary glTF model; save the scene as OBJ"},
+    {"glTF", "a binary glTF model; name it .glb"},
     {"Kaydara FBX", "an FBX model; save the scene as OBJ"},
     {"BLENDER", "a Blender file; save the scene as OBJ"},
     {"\x89PNG", "a PNG picture"},
@@ -37,7 +37,7 @@ constexpr auto of_text = std::to_array<Beginning>({
     {"ply\r", "a PLY model; save the scene as OBJ"},
     {"off\n", "an OFF model; save the scene as OBJ"},
     {"#usda", "a USD scene; save the scene as OBJ"},
-    {"{", "JSON, such as glTF; save the scene as OBJ"},
+    {"{", "JSON; name it .gltf if it is a glTF model"},
 });
 
 /// UTF-16 without a byte order mark: one byte in two is 0.
@@ -69,7 +69,7 @@ std::string_view other_format(std::string_view content) {
     constexpr std::size_t first_lines = 1000;
     if (content.starts_with("solid") &&
         content.substr(0, first_lines).find("facet normal") != std::string_view::npos)
-        return "an STL model; save the scene as OBJ";
+        return "an STL model; name it .stl";
     return {};
 }
 

@@ -2,6 +2,7 @@
 // A pinhole camera, given by the user or chosen for a scene.
 
 #include "bvh/tracer.h"
+#include "io/scene_files/camera_of_file.h"
 
 #include <optional>
 #include <span>
@@ -10,13 +11,6 @@
 namespace hemilux {
 
 class Mesh;
-
-/// A camera in world units [m].
-struct Camera {
-    Vec3 eye, target;
-    Vec3 up{0, 1, 0};
-    double vertical_fov_degrees = 45;
-};
 
 /// Reads "ex,ey,ez,tx,ty,tz" or "ex,ey,ez,tx,ty,tz,fov". Throws std::invalid_argument, whose text
 /// says what was expected.

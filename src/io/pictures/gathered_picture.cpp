@@ -1,6 +1,7 @@
 #include "io/pictures/gathered_picture.h"
 
 #include "io/files/error.h"
+#include "io/pictures/pixel_colours.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 
@@ -68,7 +69,11 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first) {
                 const Hit hit = visible_.hit_at(half, direction);
                 const std::uint32_t patch = mesh_.patch_at(hit);
                 const Vec3 position = visible_.eye() + hit.t * direction;
+                const auto [reflectance, emission] =
+                    pixel_colours(mesh_, visible_, half, patch, place);
                 parts.push_back({.position = glm::vec3(position),
+                                 .reflectance = glm::vec3(reflectance),
+                                 .emission = glm::vec3(emission),
                                  .patch = patch,
                                  .share = float(count) / float(offsets_.size()),
                                  .x = x});
@@ -123,9 +128,7 @@ glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
 }
 
 glm::vec3 GatheredPicture::radiosity(const Part& part, int y) const {
-    const Material& material = mesh_.material(part.patch);
-    return glm::vec3(material.emission) +
-           glm::vec3(material.reflectance) * (direct_light(part, y) + part.indirect);
+    return part.emission + part.reflectance * (direct_light(part, y) + part.indirect);
 }
 
 } // namespace hemilux

@@ -28,6 +28,7 @@ class GatheredPicture {
         glm::vec3 position{0.0f};                 ///< local frame
         glm::vec3 direct{0.0f}, unshadowed{0.0f}; ///< by its own shadow rays
         glm::vec3 smooth_unshadowed{0.0f}, indirect{0.0f};
+        glm::vec3 reflectance{0.0f}, emission{0.0f};
         std::uint32_t patch = none;
         float share = 0; ///< of the pixel
         int x = 0;

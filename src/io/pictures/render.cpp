@@ -3,10 +3,12 @@
 #include "io/files/error.h"
 #include "io/pictures/gathered_picture.h"
 #include "io/pictures/picture_gather.h"
+#include "io/pictures/pixel_colours.h"
 #include "io/pictures/visible_facets.h"
 #include "io/results/smooth.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/solving/solution.h"
 
 #include <algorithm>
 #include <optional>
@@ -29,19 +31,44 @@ std::vector<Vec2> pixel_samples(int count) {
     return places;
 }
 
-/// Radiosity at a point of a patch.
+/// Per channel; 0 for a divisor of 0, where nothing is reflected.
+Vec3 quotient(const Vec3& a, const Vec3& b) {
+    Vec3 q(0.0);
+    for (int c = 0; c < 3; ++c)
+        q[c] = b[c] > 0 ? a[c] / b[c] : 0;
+    return q;
+}
+
+/// Radiosity at a point of a patch. Where textures show, what is interpolated over their patches is
+/// the irradiance, which knows nothing of them.
 class Shading {
   public:
     Shading(const Mesh& mesh, std::span<const Vec3> radiosity, const RenderOptions& options)
-        : mesh_(mesh), radiosity_(radiosity), classes_(options.classes) {
+        : mesh_(mesh), radiosity_(radiosity), classes_(options.classes),
+          textures_(options.textures && !mesh.scene().textures.of_material.empty()) {
+        std::vector<Slope> slopes(options.slope.begin(), options.slope.end());
+        if (textures_)
+            divide_by_textures(slopes);
         if (!options.smooth)
             return;
         if (!classes_)
             classes_ = &own_classes_.emplace(find_corner_classes(mesh));
-        corner_radiosity_ = smooth(mesh, *classes_, radiosity, options.slope);
+        corner_radiosity_ = smooth(mesh, *classes_, radiosity_, slopes);
     }
     Shading(const Shading&) = delete;
     Shading& operator=(const Shading&) = delete;
+
+    /// At what is shown of a half of a facet around a place.
+    Vec3 at(const VisibleFacets& visible, std::uint32_t half, const Vec2& place) const {
+        const Vec3 direction = visible.direction(place);
+        const Hit hit = visible.hit_at(half, direction);
+        const std::uint32_t patch = mesh_.patch_at(hit);
+        const Vec3 light = at(patch, visible.eye() + hit.t * direction);
+        if (!textures_ || !mesh_.scene().textures.on(mesh_.patches()[patch].material))
+            return light;
+        const auto [reflectance, emission] = pixel_colours(mesh_, visible, half, patch, place);
+        return emission + reflectance * light;
+    }
 
     Vec3 at(std::uint32_t patch, const Vec3& point) const {
         if (corner_radiosity_.empty())
@@ -54,26 +81,38 @@ class Shading {
     }
 
   private:
+    void divide_by_textures(std::vector<Slope>& slopes) {
+        irradiance_.assign(radiosity_.begin(), radiosity_.end());
+        for (std::uint32_t i = 0; i < irradiance_.size(); ++i) {
+            if (!mesh_.scene().textures.on(mesh_.patches()[i].material))
+                continue;
+            const Material& material = mesh_.material(i);
+            irradiance_[i] = quotient(irradiance_[i] - material.emission, material.reflectance);
+            if (!slopes.empty())
+                slopes[i] = {quotient(slopes[i].x, material.reflectance),
+                             quotient(slopes[i].y, material.reflectance)};
+        }
+        radiosity_ = irradiance_;
+    }
+
     const Mesh& mesh_;
-    std::span<const Vec3> radiosity_;
+    std::span<const Vec3> radiosity_; ///< irradiance of textured patches where textures show
     const CornerClasses* classes_;
+    bool textures_;
+    std::vector<Vec3> irradiance_;
     std::optional<CornerClasses> own_classes_;
     std::vector<Vec3> corner_radiosity_;
 };
 
 /// The light of the patches at what each pixel shows.
-Image shaded_picture(const Mesh& mesh, const VisibleFacets& visible, const Shading& shading,
+Image shaded_picture(const VisibleFacets& visible, const Shading& shading,
                      const RenderOptions& options) {
     Image image(options.width, options.height);
     const auto pixel = [&](const VisibleFacets::Band& band, int x, int y) {
         Vec3 sum(0.0);
         visible.visit_pixel(band, x, y, !options.smooth,
                             [&](std::uint32_t half, const Vec2& place, unsigned, unsigned count) {
-                                const Vec3 direction = visible.direction(place);
-                                const Hit hit = visible.hit_at(half, direction);
-                                sum +=
-                                    double(count) * shading.at(mesh.patch_at(hit),
-                                                               visible.eye() + hit.t * direction);
+                                sum += double(count) * shading.at(visible, half, place);
                             });
         return glm::vec3(sum / double(options.samples));
     };
@@ -105,7 +144,7 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
     const VisibleFacets visible(mesh, rays, {options.width, options.height, 1 / width, 1 / height},
                                 offsets, options.threads);
     if (options.gather == 0)
-        return shaded_picture(mesh, visible, Shading(mesh, radiosity, options), options);
+        return shaded_picture(visible, Shading(mesh, radiosity, options), options);
     const auto samples = static_cast<unsigned>(options.samples);
     const PictureGather gather(
         mesh, tracer, PatchLight(radiosity, options.slope), rays, options.width, options.height,

@@ -15,7 +15,10 @@ struct Slope;
 
 struct RenderOptions {
     int width = 800, height = 600; ///< pixels
-    int samples = 4;    ///< places in a pixel; more: smoother edges, proportionally slower
+    int samples = 4; ///< places in a pixel; more: smoother edges, proportionally slower
+    /// Surfaces show their textures; else the means of patches, as values that are no light have no
+    /// textures.
+    bool textures = false;
     bool smooth = true; ///< interpolate over patches; else each shows its own radiosity
     /// Rays that gather the light at points once more (picture_gather.h): shadows have their
     /// places, for many times the time. 0: the patches' light is shown.

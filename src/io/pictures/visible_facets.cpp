@@ -21,7 +21,6 @@ struct VisibleFacets::Triangle {
 VisibleFacets::VisibleFacets(const Mesh& mesh, const CameraRays& camera, const SampleGrid& grid,
                              std::span<const Vec2> offsets, unsigned threads)
     : mesh_(mesh), grid_(grid), offsets_(offsets), eye_(camera.eye()),
-      two_sided_(mesh.patches().size() > 1 && mesh.patches()[1].back),
       bands_((grid.rows + rows_per_band - 1) / rows_per_band), origin_(camera.direction(0, 0)),
       column_(camera.direction(grid.column_width, 0) - origin_),
       row_(camera.direction(0, grid.row_height) - origin_) {
@@ -76,7 +75,7 @@ bool VisibleFacets::rows_of(std::uint32_t half, int& first, int& last) const {
     if (!corners_of(half, corner))
         return false;
     const double volume_seen = volume(corner);
-    if (!(volume_seen < 0) && !(two_sided_ && volume_seen > 0))
+    if (!(volume_seen < 0) && !(mesh_.has_back(half / 2) && volume_seen > 0))
         return false;
     // A corner is depth * (origin_ + x column_ + y row_).
     const double all = glm::dot(origin_, glm::cross(column_, row_));

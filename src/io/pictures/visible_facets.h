@@ -77,7 +77,6 @@ class VisibleFacets {
     std::span<const Vec2> offsets_;
     Vec2 centre_{0.0}; ///< of the offsets
     Vec3 eye_;
-    bool two_sided_;
     int bands_;
     /// Of the direction: at sample (0, 0), and what a column and a row add.
     Vec3 origin_, column_, row_;

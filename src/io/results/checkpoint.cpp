@@ -138,6 +138,10 @@ std::uint64_t scene_hash(const Mesh& mesh) {
         out.add(patch.centre);
         out.add(patch.area);
         out.add(std::uint64_t{patch.facet});
+        if (patch.colours != patch.material) {
+            out.add(mesh.material(patch).reflectance);
+            out.add(mesh.material(patch).emission);
+        }
         out.add(std::uint64_t{patch.back});
         flush();
     }

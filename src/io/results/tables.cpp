@@ -80,7 +80,12 @@ class PatchRows {
         add(text, frame.area_to_world(patch.area));
         add(text, frame.to_world(patch.centre));
         add(text, patch.normal);
-        text += colours_[patch.material];
+        if (patch.colours == patch.material) {
+            text += colours_[patch.material];
+        } else {
+            add(text, mesh_.material(patch).reflectance);
+            add(text, mesh_.material(patch).emission);
+        }
         add(text, radiosity_[i]);
         add(text, standard_error_.empty() ? Vec3(0.0) : standard_error_[i]);
         if (!slope_.empty()) {

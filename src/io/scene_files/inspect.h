@@ -2,7 +2,7 @@
 // What a scene is, and what is doubtful about it.
 
 #include "geometry/box.h"
-#include "io/scene_files/obj.h"
+#include "io/scene_files/read_result.h"
 #include "radiosity/solving/left_out.h"
 
 #include <cstddef>

@@ -141,14 +141,58 @@ void MaterialTable::define(const std::string& file, const MtlMaterial& material)
     sources[index] = where;
     materials[index].reflectance = material.reflectance.value_or(Material().reflectance);
     materials[index].emission = material.emission.value_or(Material().emission);
-    textured_ += material.textured;
-    textured_emission_ += material.textured_emission;
-    textured_without_colour_ += material.textured && !material.reflectance;
+    Entry& entry = entries_[index];
+    entry.folder = std::filesystem::path(file).parent_path().string();
+    entry.reflectance_map = material.reflectance_map;
+    entry.emission_map = material.emission_map;
+    entry.has_reflectance = material.reflectance.has_value();
+    entry.has_emission = material.emission.has_value();
 }
 
 void MaterialTable::finish() {
     warn_of_undefined();
+    if (!read_textures_)
+        return;
+    for (std::size_t m = 0; m < entries_.size(); ++m) {
+        const Entry& entry = entries_[m];
+        if (!entry.used)
+            continue;
+        add_texture(m, entry.reflectance_map, &Material::reflectance,
+                    &MaterialTextures::reflectance, entry.has_reflectance);
+        add_texture(m, entry.emission_map, &Material::emission, &MaterialTextures::emission,
+                    entry.has_emission);
+    }
     warn_of_textures();
+}
+
+/// Kd or Ke is a factor of its texture, 1 where there is none. The picture's lower left corner is
+/// the origin of coordinates. As paths of other machines are common, the last part of the name is
+/// looked for too.
+void MaterialTable::add_texture(std::size_t material, const std::optional<MtlTexture>& texture,
+                                Vec3 Material::*colour, TextureMap MaterialTextures::*map,
+                                bool has_factor) {
+    if (!texture)
+        return;
+    namespace fs = std::filesystem;
+    const fs::path folder(entries_[material].folder), name(texture->name);
+    std::shared_ptr<const Texture> read = texture_files_.read((folder / name).string());
+    if (!read)
+        read = texture_files_.read((folder / name.filename()).string());
+    if (!read) {
+        if (missing_++ == 0)
+            first_missing_ = texture->name;
+        return;
+    }
+    maps.resize(materials.size());
+    TextureMap& to = maps[material].*map;
+    to.texture = read;
+    to.factor = has_factor ? materials[material].*colour : Vec3(1.0);
+    if (texture->clamp)
+        to.wraps = {Wrap::clamp, Wrap::clamp};
+    to.origin = {texture->offset.x, 1 - texture->offset.y};
+    to.x = {texture->scale.x, 0};
+    to.y = {0, -texture->scale.y};
+    materials[material].*colour = to.factor * read->mean();
 }
 
 void MaterialTable::warn_of_undefined() {
@@ -171,18 +215,12 @@ void MaterialTable::warn_of_undefined() {
 }
 
 void MaterialTable::warn_of_textures() {
-    if (textured_emission_ > 0)
-        warnings.push_back(path_ +
-                           ": textures are not read: " + counted_materials(textured_emission_) +
-                           " with map_Ke; their emission is Ke, or none");
-    if (textured_ == 0)
-        return;
-    std::string text =
-        path_ + ": textures are not read: " + counted_materials(textured_) + " with map_Kd";
-    if (textured_without_colour_ > 0)
-        text += ", of which " + std::to_string(textured_without_colour_) +
-                " without Kd: reflectance 0.5";
-    warnings.push_back(std::move(text));
+    if (missing_ > 0)
+        warnings.push_back(
+            path_ + ": " + std::to_string(missing_) +
+            (missing_ == 1 ? " texture is" : " textures are") +
+            " not found, or neither PNG nor JPEG; colours are Kd and Ke alone there (" +
+            in_quotes(first_missing_) + (missing_ == 1 ? ")" : " is the first)"));
 }
 
 } // namespace hemilux

@@ -4,6 +4,7 @@
 
 #include "io/files/file_identity.h"
 #include "io/scene_files/mtl.h"
+#include "io/textures/texture_files.h"
 #include "radiosity/scene/scene.h"
 
 #include <cstdint>
@@ -21,30 +22,37 @@ class MaterialTable {
   public:
     /// `path` of the OBJ file; libraries are looked for in its folder.
     /// Before a library is read `before_library` is called with about the bytes that it will take;
-    /// what that throws ends the reading.
+    /// what that throws ends the reading. Without `read_textures` colours are Kd and Ke alone.
     explicit MaterialTable(const std::string& path,
-                           std::function<void(double bytes)> before_library = {})
-        : path_(path), before_library_(std::move(before_library)) {}
+                           std::function<void(double bytes)> before_library = {},
+                           bool read_textures = true)
+        : path_(path), before_library_(std::move(before_library)), texture_files_(before_library_),
+          read_textures_(read_textures) {}
 
     /// The material's index. `line` of the OBJ file is for messages.
     [[nodiscard]] std::uint32_t use(const std::string& name, std::size_t line);
     /// Reads what follows mtllib: a file name that may have blanks in it, or else several names.
     /// A library that is missing is a warning. Throws InputError for one with errors.
     void read_libraries(std::string_view names, std::size_t line);
-    /// Adds to the warnings what is only known at the end.
+    /// Reads the textures of materials in use, and adds to the warnings what is only known at the
+    /// end.
     void finish();
 
     std::vector<Material> materials;
     std::vector<std::string> sources; ///< "file:line" of each definition; "" where there is none
     std::vector<std::string> warnings;
     std::vector<std::string> libraries; ///< paths of those that were read
-    std::vector<std::string> textures;  ///< where those that they name may lie; they are not read
+    std::vector<std::string> textures;  ///< where those that they name may lie
+    std::vector<MaterialTextures> maps; ///< by material; empty where no texture was read
 
   private:
     struct Entry {
         std::size_t first_use = 0; ///< line of the OBJ file
         bool used = false, defined = false;
         std::string redefined_in; ///< file, which was said
+        std::string folder;       ///< of its library
+        std::optional<MtlTexture> reflectance_map, emission_map;
+        bool has_reflectance = false, has_emission = false;
     };
     [[nodiscard]] std::uint32_t index_of(const std::string& name);
     [[nodiscard]] std::string find_library(std::string_view name) const;
@@ -52,6 +60,8 @@ class MaterialTable {
     void warn_of_outside(const std::string& file, const std::string& where);
     void define(const std::string& file, const MtlMaterial& material);
     void warn_of_undefined();
+    void add_texture(std::size_t material, const std::optional<MtlTexture>& texture,
+                     Vec3 Material::*colour, TextureMap MaterialTextures::*map, bool has_factor);
     void warn_of_textures();
 
     std::string path_;
@@ -61,7 +71,10 @@ class MaterialTable {
     std::set<std::string> libraries_missed_; ///< which was said
     std::unordered_map<std::string, std::uint32_t> index_;
     std::vector<Entry> entries_;
-    std::size_t textured_ = 0, textured_without_colour_ = 0, textured_emission_ = 0;
+    TextureFiles texture_files_;
+    bool read_textures_;
+    std::size_t missing_ = 0; ///< textures that are used and were not read
+    std::string first_missing_;
 };
 
 } // namespace hemilux

@@ -60,6 +60,49 @@ void add_textures(std::string_view rest, std::set<std::string, std::less<>>& nam
     }
 }
 
+/// Numbers after an option, up to three; the first two are taken, and the first alone stands for
+/// both where `same`.
+void take_numbers(std::string_view& rest, Vec2& values, bool same) {
+    for (int i = 0; i < 3; ++i) {
+        std::string_view after = rest;
+        const std::optional<double> number = parse_decimal(take_word(after));
+        if (!number || trimmed(after).empty()) // a name may be a number
+            return;
+        rest = after;
+        if (i == 0 && same)
+            values = Vec2(*number);
+        else if (i < 2)
+            values[i] = *number;
+    }
+}
+
+/// The options that change where the picture lies; other known ones are passed over with their
+/// words. Empty where no name follows.
+std::optional<MtlTexture> read_texture(std::string_view rest) {
+    constexpr std::array<std::string_view, 9> one_word{
+        "-blendu", "-blendv", "-boost", "-bm", "-cc", "-imfchan", "-texres", "-type", "-clamp"};
+    MtlTexture texture;
+    for (rest = name_in(rest); rest.starts_with('-'); rest = trimmed(rest)) {
+        const std::string_view option = take_word(rest);
+        if (option == "-s") {
+            take_numbers(rest, texture.scale, true);
+        } else if (option == "-o") {
+            take_numbers(rest, texture.offset, false);
+        } else if (option == "-t" || option == "-mm") {
+            Vec2 ignored(0.0);
+            take_numbers(rest, ignored, false);
+        } else if (std::ranges::find(one_word, option) != one_word.end()) {
+            const std::string_view word = take_word(rest);
+            texture.clamp |= option == "-clamp" && word == "on";
+        } else {
+            break;
+        }
+    }
+    texture.name = trimmed(rest);
+    std::ranges::replace(texture.name, '\\', '/');
+    return texture.name.empty() ? std::nullopt : std::optional(std::move(texture));
+}
+
 } // namespace
 
 MtlFile read_mtl(const std::string& path) {
@@ -86,9 +129,9 @@ MtlFile read_mtl(const std::string& path) {
         else if (statement.keyword == "Ke")
             materials.back().emission = read_colour(path, statement);
         else if (statement.keyword == "map_Kd")
-            materials.back().textured = true;
+            materials.back().reflectance_map = read_texture(statement.rest);
         else if (statement.keyword == "map_Ke")
-            materials.back().textured_emission = true;
+            materials.back().emission_map = read_texture(statement.rest);
     }
     for (std::string name : textures) {
         std::ranges::replace(name, '\\', '/');

@@ -11,13 +11,19 @@
 
 namespace hemilux {
 
+/// A texture with its options; the place on the picture is offset + scale times the coordinates.
+struct MtlTexture {
+    std::string name;
+    Vec2 scale{1.0}, offset{0.0};
+    bool clamp = false;
+};
+
 struct MtlMaterial {
     std::string name;
     std::size_t line = 0;            ///< of its newmtl
     std::optional<Vec3> reflectance; ///< Kd, each channel >= 0 and possibly 1 or more
     std::optional<Vec3> emission;    ///< Ke, each channel >= 0 [W/m2]
-    bool textured = false;           ///< has a map_Kd
-    bool textured_emission = false;  ///< has a map_Ke
+    std::optional<MtlTexture> reflectance_map, emission_map; ///< map_Kd, map_Ke
 };
 
 struct MtlFile {

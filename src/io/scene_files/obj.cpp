@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <span>
@@ -43,18 +44,23 @@ struct Tally {
 
 class ObjReader {
   public:
-    ObjReader(const std::string& path, const ReadGuard& guard)
-        : path_(path), guard_(guard), materials_(path, [this](double bytes) {
-              libraries_ += bytes;
-              check_memory();
-          }) {}
+    ObjReader(const std::string& path, const ReadGuard& guard, bool textures)
+        : path_(path), guard_(guard), textures_(textures), materials_(
+                                                               path,
+                                                               [this](double bytes) {
+                                                                   libraries_ += bytes;
+                                                                   check_memory();
+                                                               },
+                                                               textures) {}
     ReadResult read();
 
   private:
     void read_statement(const Statement& statement);
     void read_vertex(const Statement& statement);
     void read_face(const Statement& statement);
-    std::uint32_t read_corner(std::string_view word, std::size_t line) const;
+    void read_texcoord(const Statement& statement);
+    void read_corner(std::string_view word, std::size_t line);
+    void add_texcoords();
     void read_group(std::string_view names);
     void resolve_names();
     void divide_faces();
@@ -72,11 +78,15 @@ class ObjReader {
 
     std::string path_;
     const ReadGuard& guard_;
+    bool textures_;
     double text_ = 0, libraries_ = 0; ///< bytes
     std::size_t statements_ = 0;
     MaterialTable materials_;
     std::unordered_map<std::string, std::uint32_t> group_index_;
     std::vector<std::uint32_t> corners_;
+    std::vector<glm::vec2> texcoords_;
+    std::vector<std::uint32_t> texcoord_of_corner_; ///< unresolved: none
+    std::vector<std::size_t> corners_of_facets_;    ///< four each, in corners_
     std::vector<RawFace> faces_;
     ReadResult result_;
 
@@ -128,7 +138,10 @@ void ObjReader::read_statement(const Statement& statement) {
         materials_.read_libraries(statement.rest, statement.line);
     } else if (keyword == "p" || keyword == "l") {
         lines_and_points_.add(statement.line);
-    } else if (keyword != "vn" && keyword != "vt") {
+    } else if (keyword == "vt") {
+        if (textures_)
+            read_texcoord(statement);
+    } else if (keyword != "vn") {
         for (const std::string_view free_form : free_form_keywords)
             if (keyword == free_form)
                 free_form_.add(statement.line);
@@ -157,22 +170,24 @@ void ObjReader::read_face(const Statement& statement) {
     faces_.push_back({corners_.size(), statement.line, material_, group_});
     std::string_view rest = statement.rest;
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest))
-        corners_.push_back(read_corner(word, statement.line));
+        read_corner(word, statement.line);
     if (corners_.size() == faces_.back().first_corner)
         throw InputError(path_, statement.line,
                          "expected three or more vertices after f, " + found_instead(""));
 }
 
-/// v, v/t, v//n or v/t/n; only v is of interest, counted from 1, or backwards from the last vertex
-/// so far where negative. It may be of a vertex to come: check_corners.
-std::uint32_t ObjReader::read_corner(std::string_view word, std::size_t line) const {
+/// v, v/t, v//n or v/t/n; v and t count from 1, or backwards from the last one so far where
+/// negative. v may be of a vertex to come: check_corners. A texture coordinate that does not exist
+/// is none.
+void ObjReader::read_corner(std::string_view word, std::size_t line) {
     const char* at = word.data();
     const char* const end = at + word.size();
-    std::int64_t vertex = 0, ignored = 0;
+    std::int64_t vertex = 0;
+    std::array<std::int64_t, 2> others{}; // of coordinates and normals
     const std::from_chars_result parsed = std::from_chars(at, end, vertex);
     at = parsed.ptr;
-    for (int slash = 0; slash < 2 && at != end && *at == '/'; ++slash)
-        at = std::from_chars(at + 1, end, ignored).ptr;
+    for (std::size_t slash = 0; slash < 2 && at != end && *at == '/'; ++slash)
+        at = std::from_chars(at + 1, end, others.at(slash)).ptr;
     if (parsed.ec == std::errc::invalid_argument || at != end)
         throw InputError(path_, line,
                          "expected a vertex such as 1, 1/2, 1//3 or 1/2/3, " + found_instead(word));
@@ -182,7 +197,49 @@ std::uint32_t ObjReader::read_corner(std::string_view word, std::size_t line) co
         throw InputError(path_, line,
                          "expected a vertex between 1 and the number of vertices (" +
                              std::to_string(count) + " so far), " + found_instead(word));
-    return static_cast<std::uint32_t>(index);
+    corners_.push_back(static_cast<std::uint32_t>(index));
+    if (!textures_)
+        return;
+    const auto coordinates = static_cast<std::int64_t>(texcoords_.size());
+    const std::int64_t t = others[0] < 0 ? others[0] + coordinates : others[0] - 1;
+    texcoord_of_corner_.push_back(t >= 0 && t < unresolved ? static_cast<std::uint32_t>(t)
+                                                           : unresolved);
+}
+
+/// Coordinates that are no numbers are 0: they matter where a texture is.
+void ObjReader::read_texcoord(const Statement& statement) {
+    std::string_view rest = statement.rest;
+    glm::vec2 place(0.0f);
+    for (int axis = 0; axis < 2; ++axis) {
+        const std::optional<double> number = parse_decimal(take_word(rest));
+        constexpr double most = 1e6;
+        place[axis] = number && std::abs(*number) <= most ? static_cast<float>(*number) : 0.0f;
+    }
+    texcoords_.push_back(place);
+}
+
+/// Of all facets, once it is known that some carry a texture.
+void ObjReader::add_texcoords() {
+    Scene& scene = result_.scene;
+    if (materials_.maps.empty())
+        return;
+    scene.textures.of_material = std::move(materials_.maps);
+    scene.textures.of_material.resize(scene.materials.size());
+    std::vector<Texcoords>& of_facets = scene.textures.texcoords.emplace_back();
+    std::size_t missing = 0;
+    for (std::size_t f = 0; f < scene.facets.size(); ++f) {
+        Texcoords& facet = of_facets.emplace_back();
+        bool all = true;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t t = texcoord_of_corner_[corners_of_facets_[4 * f + k]];
+            all &= t < texcoords_.size();
+            facet[k] = t < texcoords_.size() ? texcoords_[t] : glm::vec2(0.0f);
+        }
+        missing += !all && scene.textures.on(scene.facets[f].material);
+    }
+    if (missing > 0)
+        result_.warnings.push_back(
+            path_ + ": textured faces without texture coordinates: " + std::to_string(missing));
 }
 
 void ObjReader::read_group(std::string_view names) {
@@ -243,12 +300,16 @@ void ObjReader::divide_faces() {
         for (const std::uint32_t vertex : corner)
             shape_.push_back(result_.scene.vertices[vertex]);
         const PolygonFlags flags = division_.divide(shape_);
-        for (const PolygonDivision::Piece& p : division_.pieces())
+        for (const PolygonDivision::Piece& p : division_.pieces()) {
+            if (textures_)
+                for (const std::uint32_t k : p)
+                    corners_of_facets_.push_back(faces_[f].first_corner + k);
             result_.scene.facets.push_back(
                 {{corner[p[0]], corner[p[1]], corner[p[2]], corner[p[3]]},
                  f,
                  faces_[f].material,
                  faces_[f].group});
+        }
         result_.degenerate_faces += flags.degenerate;
         result_.nonplanar_faces += flags.nonplanar;
         result_.concave_faces += flags.concave;
@@ -286,7 +347,8 @@ void ObjReader::check_memory() const {
     const auto bytes = [](const auto& list) {
         return growing * static_cast<double>(list.capacity() * sizeof(list[0]));
     };
-    guard_(text_ + libraries_ + bytes(corners_) + bytes(faces_) + bytes(result_.scene.vertices) +
+    guard_(text_ + libraries_ + bytes(corners_) + bytes(texcoords_) + bytes(texcoord_of_corner_) +
+           bytes(corners_of_facets_) + bytes(faces_) + bytes(result_.scene.vertices) +
            bytes(result_.scene.facets) +
            per_group *
                static_cast<double>(result_.scene.groups.size() + materials_.materials.size()));
@@ -320,6 +382,7 @@ void ObjReader::collect_warnings() {
     result_.warnings = std::move(materials_.warnings);
     result_.libraries = std::move(materials_.libraries);
     result_.textures = std::move(materials_.textures);
+    add_texcoords();
     if (const std::string rounding = rounding_of_places(); !rounding.empty())
         result_.warnings.push_back(path_ + rounding);
     warn(few_corners_, "a face with fewer than 3 corners is left out",
@@ -339,8 +402,8 @@ void ObjReader::collect_warnings() {
 
 } // namespace
 
-ReadResult read_obj(const std::string& path, const ReadGuard& guard) {
-    return ObjReader(path, guard).read();
+ReadResult read_obj(const std::string& path, const ReadGuard& guard, bool textures) {
+    return ObjReader(path, guard, textures).read();
 }
 
 } // namespace hemilux

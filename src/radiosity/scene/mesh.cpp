@@ -2,7 +2,9 @@
 
 #include "geometry/numeric.h"
 #include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/coplanar_layers.h"
+#include "radiosity/scene/textured_facets.h"
 
 #include <algorithm>
 #include <array>
@@ -129,6 +131,28 @@ Mesh::Mesh(Scene scene, const MeshOptions& options)
     patches_.reserve(scene_.facets.size() * (two_sided_ ? 2 : 1));
     for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
         divide(f, options);
+    find_colours();
+}
+
+void Mesh::find_colours() {
+    colours_ = scene_.materials;
+    std::vector<std::uint32_t> textured;
+    for (std::uint32_t i = 0; i < patches_.size(); ++i)
+        if (scene_.textures.on(patches_[i].material)) {
+            patches_[i].colours = static_cast<std::uint32_t>(colours_.size() + textured.size());
+            textured.push_back(i);
+        }
+    const std::size_t first = colours_.size();
+    colours_.resize(first + textured.size());
+    Workers(0).for_chunks(textured.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const Patch& patch = patches_[textured[k]];
+            const Colours mean = mean_colours(
+                scene_, patch.facet, polygon_of(vertices_, corners_[patch.facet]), patch.shape);
+            colours_[first + k].reflectance = mean.reflectance;
+            colours_[first + k].emission = mean.emission;
+        }
+    });
 }
 
 Frame Mesh::hemisphere_frame(std::uint32_t patch) const {
@@ -153,13 +177,9 @@ Patch Mesh::patch_from(const Polygon& shape, std::uint32_t facet, bool back) con
         normal = shape.normal();
     else if (const Polygon whole = polygon_of(vertices_, corners_[facet]); whole.area() > 0)
         normal = whole.normal();
-    return {back ? shape.flipped() : shape,
-            shape.centre(),
-            back ? -normal : normal,
-            area,
-            facet,
-            scene_.facets[facet].material,
-            back};
+    return {
+        back ? shape.flipped() : shape, shape.centre(), back ? -normal : normal,      area, facet,
+        scene_.facets[facet].material,  back,           scene_.facets[facet].material};
 }
 
 void Mesh::lay_apart() {
@@ -205,7 +225,7 @@ void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
 
 void Mesh::add_patches(std::uint32_t facet, const Polygon& shape) {
     for (const bool back : {false, true})
-        if (!back || two_sided_)
+        if (!back || has_back(facet))
             patches_.push_back(patch_from(shape, facet, back));
 }
 
@@ -308,10 +328,11 @@ Mesh::Place Mesh::place_in_triangle(const Division& division, const Hit& hit) co
 }
 
 std::uint32_t Mesh::patch_at(const Hit& hit) const {
-    if (!hit.front && !two_sided_)
+    const bool has_two = has_back(hit.facet);
+    if (!hit.front && !has_two)
         return none;
     const Division& division = divisions_[hit.facet];
-    const std::uint32_t side = two_sided_ && !hit.front ? 1 : 0;
+    const std::uint32_t side = hit.front ? 0 : 1;
     if (!is_divided(hit.facet))
         return division.first_patch + side;
     const bool triangle = scene_.facets[hit.facet].is_triangle();
@@ -320,7 +341,7 @@ std::uint32_t Mesh::patch_at(const Hit& hit) const {
         return cells_.patch_at(division.first_cell + place.piece, triangle && division.similar,
                                place.inside) +
                side;
-    return division.first_patch + (two_sided_ ? 2 : 1) * place.piece + side;
+    return division.first_patch + (has_two ? 2 : 1) * place.piece + side;
 }
 
 std::uint32_t Mesh::pieces_of(std::uint32_t facet) const {
@@ -357,6 +378,7 @@ std::vector<std::uint32_t> Mesh::refine(std::span<const std::uint8_t> levels) {
         std::exchange(patches_, {}), divisions_, std::exchange(cells_, {}), levels, {}};
     for (std::uint32_t f = 0; f < divisions_.size(); ++f)
         refine_facet(f, before);
+    find_colours();
     return std::move(before.parents);
 }
 
@@ -389,9 +411,9 @@ void Mesh::refine_facet(std::uint32_t facet, Refinement& before) {
             refine_cell(division.first_cell + q, old_cell + q, facet, before);
             continue;
         }
-        const std::uint32_t patch = begin + q * (two_sided_ ? 2 : 1);
+        const std::uint32_t patch = begin + q * (has_back(facet) ? 2 : 1);
         refine_leaf(division.first_cell + q, cell_shape(facet, before.patches[patch].shape), facet,
-                    before.levels_of(patch, two_sided_), patch, before);
+                    before.levels_of(patch, has_back(facet)), patch, before);
     }
 }
 
@@ -400,7 +422,7 @@ void Mesh::refine_cell(std::uint32_t cell, std::uint32_t before_cell, std::uint3
     const CellTree::Cell old = before.cells[before_cell];
     if (old.cut == CellCut::leaf)
         return refine_leaf(cell, cell_shape(facet, before.patches[old.first].shape), facet,
-                           before.levels_of(old.first, two_sided_), old.first, before);
+                           before.levels_of(old.first, has_back(facet)), old.first, before);
     const std::uint32_t count = old.cut == CellCut::four ? 4 : 2, first = cells_.add(count);
     cells_[cell] = {first, old.cut};
     for (std::uint32_t q = 0; q < count; ++q)
@@ -412,7 +434,7 @@ void Mesh::refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t
     if (levels == 0) {
         cells_[cell] = {static_cast<std::uint32_t>(patches_.size()), CellCut::leaf};
         add_patches(facet, shape.polygon());
-        for (std::uint32_t side = 0; side < (two_sided_ ? 2 : 1); ++side)
+        for (std::uint32_t side = 0; side < (has_back(facet) ? 2 : 1); ++side)
             before.parents.push_back(parent + side);
         return;
     }

@@ -35,7 +35,8 @@ struct Patch {
     double area;
     std::uint32_t facet;
     std::uint32_t material;
-    bool back; ///< the reverse of a two-sided facet
+    bool back;             ///< the reverse of a two-sided facet
+    std::uint32_t colours; ///< Mesh::material
 };
 
 /// The largest distance of a corner from the patch's centre, in the local frame.
@@ -68,8 +69,19 @@ class Mesh {
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const LocalFrame& frame() const { return frame_; }
     [[nodiscard]] std::span<const Patch> patches() const { return patches_; }
+    /// The colours of a patch: those of its material, or the means of textures over it, which have
+    /// no name.
     [[nodiscard]] const Material& material(const Patch& patch) const {
-        return scene_.materials[patch.material];
+        return colours_[patch.colours];
+    }
+    /// Whether the emission of a patch differs from that of others on its facet.
+    [[nodiscard]] bool emits_by_texture(const Patch& patch) const {
+        return scene_.textures.on(patch.material) &&
+               scene_.textures.of_material[patch.material].emission.texture;
+    }
+    /// Whether a facet has patches on its back.
+    [[nodiscard]] bool has_back(std::uint32_t facet) const {
+        return two_sided_ || scene_.facets[facet].two_sided;
     }
     [[nodiscard]] const Material& material(std::uint32_t patch) const {
         return material(patches_[patch]);
@@ -93,7 +105,7 @@ class Mesh {
     [[nodiscard]] bool is_divided(std::uint32_t facet) const { return only_patch_[facet] == none; }
     /// The patch on one side of a facet that is not divided; none on the back of a one-sided facet.
     [[nodiscard]] std::uint32_t patch_of(std::uint32_t facet, bool front) const {
-        if (!front && !two_sided_)
+        if (!front && !has_back(facet))
             return none;
         return only_patch_[facet] + (front ? 0 : 1);
     }
@@ -137,6 +149,7 @@ class Mesh {
     void refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t facet, int levels,
                      std::uint32_t parent, Refinement& before);
     void add_patches(std::uint32_t facet, const Polygon& shape);
+    void find_colours();
     [[nodiscard]] Place place_in_quad(const Division& division, const Hit& hit) const;
     [[nodiscard]] Place place_in_triangle(const Division& division, const Hit& hit) const;
 
@@ -147,6 +160,7 @@ class Mesh {
     std::vector<FacetCorners> corners_to_trace_; ///< empty: as corners_
     bool laid_apart_ = true;
     std::vector<Patch> patches_;
+    std::vector<Material> colours_; ///< the materials, then those of textured patches
     std::vector<Division> divisions_;
     CellTree cells_;
     std::vector<std::uint32_t>

@@ -44,15 +44,11 @@ bool needs_tree(const Mesh& mesh) {
 }
 
 Needs find_needs(const Mesh& mesh) {
-    const Scene& scene = mesh.scene();
-    const std::vector<bool> used = materials_in_use(scene);
     Needs needs;
-    needs.colours = false;
-    for (std::size_t m = 0; m < used.size(); ++m)
-        if (used[m]) {
-            const Material& material = scene.materials[m];
-            needs.colours |= !is_grey(material.reflectance) || !is_grey(material.emission);
-        }
+    needs.colours = std::ranges::any_of(mesh.patches(), [&](const Patch& patch) {
+        const Material& material = mesh.material(patch);
+        return !is_grey(material.reflectance) || !is_grey(material.emission);
+    });
     needs.closed = is_convex_enclosure(mesh);
     needs.densities = needs.visibility = !needs.closed;
     needs.tree = needs_tree(mesh);

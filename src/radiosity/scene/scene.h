@@ -2,6 +2,7 @@
 // What a file describes: polygons with materials and groups, in the user's own units.
 
 #include "geometry/vector.h"
+#include "radiosity/textures/texture_map.h"
 
 #include <array>
 #include <cstdint>
@@ -23,6 +24,7 @@ struct Facet {
     std::uint32_t face;                  ///< 0-based index of the face in the file
     std::uint32_t material;
     std::uint32_t group;
+    bool two_sided = false; ///< its back emits and reflects too
 
     [[nodiscard]] bool is_triangle() const { return vertex[2] == vertex[3]; }
 };
@@ -33,6 +35,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<std::string> groups;
     std::uint32_t faces = 0; ///< faces in the file, including those without area
+    SceneTextures textures;  ///< a textured material has the colours of its textures' means
 };
 
 /// By material, whether some facet is made of it.

@@ -136,7 +136,6 @@ std::vector<SideLight> light_on_sides(const Mesh& mesh, const Tracer& tracer,
 LightShares find_light_shares(const Mesh& mesh, const Tracer& tracer) {
     constexpr std::uint32_t paths = 1024;
     constexpr double longest = 0.99; // of the chances to go on
-    const bool two_sided = std::ranges::any_of(mesh.patches(), &Patch::back);
     const auto material = [&](std::uint32_t f) -> const Material& {
         return mesh.scene().materials[mesh.scene().facets[f].material];
     };
@@ -145,10 +144,10 @@ LightShares find_light_shares(const Mesh& mesh, const Tracer& tracer) {
     for_each_path(powers_of(mesh), paths, [&](std::uint32_t f, std::uint32_t k) {
         const Vec3& e = material(f).emission;
         Vec3 weight = e / (e.r + e.g + e.b) / double{paths};
-        const FacetSide source{f, two_sided && k % 2 == 1};
+        const FacetSide source{f, mesh.has_back(f) && k % 2 == 1};
         // Until the light falls on a back, leaves, or is absorbed by chance.
         const auto arrive = [&](std::optional<FacetSide> side) {
-            if (!side || (side->back && !two_sided)) {
+            if (!side || (side->back && !mesh.has_back(side->facet))) {
                 (side ? sum.backs : sum.escaped) += weight.r + weight.g + weight.b;
                 return false;
             }

@@ -45,6 +45,9 @@ class Judge {
         in_doubt_ = stays_ = looks_away_;
         for (std::uint32_t s = 0; s < shells_.all.size(); ++s)
             judge(s);
+        for (const Facet& facet : scene_.facets)
+            if (facet.two_sided)
+                looks_away_[facet.face] = in_doubt_[facet.face] = false;
         std::tie(result_.faces, result_.groups) = count(looks_away_);
         std::tie(result_.in_doubt, result_.groups_in_doubt) = count(in_doubt_);
         if (result_.faces > 0) {
@@ -90,7 +93,7 @@ class Judge {
         for (std::uint32_t f = 0; f < light_.size(); ++f) {
             add(light_[f], false, light_of_face_[scene_.facets[f].face]);
             all_light_ += sum_of(light_[f]);
-            if (emits_[shells_.of[f]] || sum_of(light_[f]) == 0)
+            if (emits_[shells_.of[f]] || sum_of(light_[f]) == 0 || scene_.facets[f].two_sided)
                 continue;
             const double area = area_of(mesh_, f);
             lit += area;
@@ -241,12 +244,19 @@ Orientation find_orientation(const Scene& scene) {
 void turn_faces(Scene& scene, const Orientation& orientation) {
     if (orientation.looks_away.empty())
         return;
-    for (Facet& facet : scene.facets)
-        if (orientation.looks_away[facet.face]) {
-            auto& v = facet.vertex;
-            v = facet.is_triangle() ? decltype(facet.vertex){v[0], v[2], v[1], v[1]}
-                                    : decltype(facet.vertex){v[0], v[3], v[2], v[1]};
-        }
+    const auto turn = [](auto& corners, bool is_triangle) {
+        auto& v = corners;
+        v = is_triangle ? std::array{v[0], v[2], v[1], v[1]} : std::array{v[0], v[3], v[2], v[1]};
+    };
+    for (std::size_t f = 0; f < scene.facets.size(); ++f) {
+        Facet& facet = scene.facets[f];
+        if (!orientation.looks_away[facet.face])
+            continue;
+        const bool is_triangle = facet.is_triangle();
+        turn(facet.vertex, is_triangle);
+        for (std::vector<Texcoords>& of_facets : scene.textures.texcoords)
+            turn(of_facets[f], is_triangle);
+    }
 }
 
 } // namespace hemilux

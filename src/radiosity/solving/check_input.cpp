@@ -68,7 +68,7 @@ std::string describe(const Mesh& mesh, const LosslessComponent& trapped) {
         const Facet& facet = mesh.scene().facets[mesh.patches()[patch].facet];
         if (facet.group < mesh.scene().groups.size())
             groups.insert(mesh.scene().groups[facet.group]);
-        materials.insert(mesh.material(patch).name);
+        materials.insert(mesh.scene().materials[facet.material].name);
     }
     return "there is no finite solution: " + std::to_string(trapped.patches.size()) +
            " patches that reflect all light (" +

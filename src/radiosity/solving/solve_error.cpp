@@ -28,7 +28,7 @@ std::uint32_t face_of(const Mesh& mesh, std::uint32_t patch) {
 
 std::string name_of_patch(const Mesh& mesh, std::uint32_t patch) {
     return "patch " + std::to_string(patch) + " (face " + std::to_string(face_of(mesh, patch)) +
-           ", material '" + mesh.material(patch).name + "')";
+           ", material '" + mesh.scene().materials[mesh.patches()[patch].material].name + "')";
 }
 
 void check_finite(const Mesh& mesh, std::uint32_t patch, const Vec3& value, const char* what,

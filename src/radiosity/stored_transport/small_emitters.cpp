@@ -167,7 +167,8 @@ std::vector<std::uint32_t> one_of_each_side(const Mesh& mesh,
     std::array<std::uint32_t, 2> last{none, none};
     for (const std::uint32_t e : emitters) {
         const Patch& patch = mesh.patches()[e];
-        if (std::exchange(last[patch.back ? 1 : 0], patch.facet) != patch.facet)
+        if (std::exchange(last[patch.back ? 1 : 0], patch.facet) != patch.facet ||
+            mesh.emits_by_texture(patch))
             patches.push_back(e);
     }
     return patches;
@@ -176,7 +177,9 @@ std::vector<std::uint32_t> one_of_each_side(const Mesh& mesh,
 std::vector<Patch> whole_sides(const Mesh& mesh, std::span<const std::uint32_t> patches) {
     std::vector<Patch> sides;
     for (const std::uint32_t p : patches)
-        sides.push_back(mesh.whole_side(mesh.patches()[p].facet, mesh.patches()[p].back));
+        sides.push_back(mesh.emits_by_texture(mesh.patches()[p])
+                            ? mesh.patches()[p]
+                            : mesh.whole_side(mesh.patches()[p].facet, mesh.patches()[p].back));
     return sides;
 }
 

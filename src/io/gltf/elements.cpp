@@ -1,0 +1,156 @@
+#include "io/gltf/elements.h"
+
+#include "io/files/error.h"
+#include "io/files/input_file.h"
+#include "io/gltf/uri.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace hemilux::gltf {
+namespace {
+
+/// Little-endian, whatever the machine is.
+template <class Bits>
+Bits bits_at(const char* bytes) {
+    Bits value = 0;
+    for (std::size_t i = 0; i < sizeof(Bits); ++i)
+        value = static_cast<Bits>(value | static_cast<Bits>(static_cast<unsigned char>(bytes[i]))
+                                              << (8 * i));
+    return value;
+}
+
+template <class Whole>
+double whole_number(const char* bytes, bool normalized) {
+    using Bits = std::make_unsigned_t<Whole>;
+    const auto value = static_cast<double>(static_cast<Whole>(bits_at<Bits>(bytes)));
+    return normalized ? std::max(value / double(std::numeric_limits<Whole>::max()), -1.0) : value;
+}
+
+double number_at(const char* bytes, Component component, bool normalized) {
+    switch (component) {
+    case Component::int8:
+        return whole_number<std::int8_t>(bytes, normalized);
+    case Component::uint8:
+        return whole_number<std::uint8_t>(bytes, normalized);
+    case Component::int16:
+        return whole_number<std::int16_t>(bytes, normalized);
+    case Component::uint16:
+        return whole_number<std::uint16_t>(bytes, normalized);
+    case Component::uint32:
+        return whole_number<std::uint32_t>(bytes, normalized);
+    case Component::float32:
+        break;
+    }
+    return std::bit_cast<float>(bits_at<std::uint32_t>(bytes));
+}
+
+} // namespace
+
+std::string_view Buffers::view(std::size_t view) {
+    const BufferView& of = document_.views[view];
+    return content(of.buffer).substr(of.offset, of.length);
+}
+
+std::string_view Buffers::content(std::size_t buffer) {
+    const auto& [length, uri] = document_.buffers[buffer];
+    const auto check = [&, n = length](std::string_view bytes) {
+        if (bytes.size() < n)
+            throw InputError(path_, "/buffers/" + std::to_string(buffer) +
+                                        "/byteLength: expected at most " +
+                                        std::to_string(bytes.size()) +
+                                        ", the bytes there are, found " + std::to_string(n));
+        return bytes;
+    };
+    if (uri.empty() && buffer == 0 && container_.binary)
+        return check(*container_.binary);
+    std::optional<std::string>& content = contents_[buffer];
+    if (!content)
+        content = read(buffer, uri);
+    return check(*content);
+}
+
+std::string Buffers::read(std::size_t buffer, const std::string& uri) {
+    const std::string place = "/buffers/" + std::to_string(buffer) + "/uri: ";
+    if (uri.empty())
+        throw InputError(path_, place + "expected a URI, as the file has no binary chunk for it");
+    if (guard_)
+        guard_(static_cast<double>(uri.size() + container_.content.size()));
+    if (is_data_uri(uri)) {
+        std::optional<std::string> bytes = decode_data_uri(uri);
+        if (!bytes)
+            throw InputError(path_, place + "expected data in base 64");
+        return std::move(*bytes);
+    }
+    const std::optional<std::string> file = path_of_uri(uri, path_);
+    if (!file)
+        throw InputError(path_, place + "expected a data URI or a path relative to this file");
+    files_.push_back(*file);
+    return read_input(*file, InputKind::regular, [&](std::string_view content) {
+        if (guard_)
+            guard_(static_cast<double>(content.size() + container_.content.size()));
+    });
+}
+
+Elements::Elements(Buffers& buffers, std::size_t accessor)
+    : accessor_(buffers.document().accessors[accessor]), number_(accessor), path_(buffers.path()),
+      element_bytes_(accessor_.components * size_of(accessor_.component)) {
+    if (accessor_.span) {
+        const BufferView& view = buffers.document().views[accessor_.span->view];
+        first_ = buffers.view(accessor_.span->view).data() + accessor_.span->offset;
+        stride_ = view.stride > 0 ? view.stride : element_bytes_;
+    }
+    if (!accessor_.sparse)
+        return;
+    const Accessor::Sparse& sparse = *accessor_.sparse;
+    const char* const indices = buffers.view(sparse.indices.view).data() + sparse.indices.offset;
+    sparse_values_ = buffers.view(sparse.values.view).data() + sparse.values.offset;
+    for (std::size_t k = 0; k < sparse.count; ++k) {
+        const double index =
+            number_at(indices + k * size_of(sparse.index_component), sparse.index_component, false);
+        const double low = k > 0 ? sparse_.back() + 1.0 : 0.0;
+        if (index < low || index >= double(accessor_.count))
+            fail("expected sparse indices that ascend and are below " +
+                 std::to_string(accessor_.count) + ", found " +
+                 std::to_string(static_cast<std::uint64_t>(index)));
+        sparse_.push_back(static_cast<std::uint32_t>(index));
+    }
+}
+
+void Elements::fail(const std::string& message) const {
+    throw InputError(path_, "/accessors/" + std::to_string(number_) + ": " + message);
+}
+
+void Elements::check(const char* type, std::initializer_list<Component> components) const {
+    if (accessor_.type != type)
+        fail(std::string("expected the type ") + type + ", found " + accessor_.type);
+    if (std::ranges::find(components, accessor_.component) == components.end())
+        fail("expected another componentType, found " +
+             std::to_string(static_cast<unsigned>(accessor_.component)));
+}
+
+/// nullptr for zeros.
+const char* Elements::place_of(std::size_t element) const {
+    if (!sparse_.empty()) {
+        const auto found = std::ranges::lower_bound(sparse_, element);
+        if (found != sparse_.end() && *found == element)
+            return sparse_values_ +
+                   static_cast<std::size_t>(found - sparse_.begin()) * element_bytes_;
+    }
+    return first_ ? first_ + element * stride_ : nullptr;
+}
+
+double Elements::at(std::size_t element, std::size_t component) const {
+    const char* const place = place_of(element);
+    return place ? number_at(place + component * size_of(accessor_.component), accessor_.component,
+                             accessor_.normalized)
+                 : 0;
+}
+
+std::uint32_t Elements::whole_at(std::size_t element) const {
+    const char* const place = place_of(element);
+    return place ? static_cast<std::uint32_t>(number_at(place, accessor_.component, false)) : 0;
+}
+
+} // namespace hemilux::gltf

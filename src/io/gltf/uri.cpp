@@ -1,0 +1,93 @@
+#include "io/gltf/uri.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+
+namespace hemilux::gltf {
+namespace {
+
+constexpr std::string_view digits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+constexpr std::uint8_t no_digit = 0xff;
+
+constexpr std::array<std::uint8_t, 256> values_of_digits() {
+    std::array<std::uint8_t, 256> values{};
+    values.fill(no_digit);
+    for (std::size_t k = 0; k < digits.size(); ++k)
+        values[static_cast<unsigned char>(digits[k])] = static_cast<std::uint8_t>(k);
+    return values;
+}
+
+std::optional<std::string> decode_base64(std::string_view text) {
+    static constexpr std::array<std::uint8_t, 256> value = values_of_digits();
+    for (int padding = 0; padding < 2 && text.ends_with('='); ++padding)
+        text.remove_suffix(1);
+    std::string bytes;
+    bytes.reserve(text.size() / 4 * 3 + 2);
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : text) {
+        const std::uint8_t digit = value[static_cast<unsigned char>(c)];
+        if (digit == no_digit)
+            return std::nullopt;
+        bits = bits << 6 | digit;
+        count += 6;
+        if (count >= 8) {
+            count -= 8;
+            bytes += static_cast<char>(bits >> count & 0xff);
+        }
+    }
+    return count < 6 ? std::optional(std::move(bytes)) : std::nullopt;
+}
+
+int hex_digit(char c) {
+    constexpr std::string_view all = "0123456789abcdef";
+    const char small = c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c;
+    const std::size_t at = all.find(small);
+    return at == std::string_view::npos ? -1 : static_cast<int>(at);
+}
+
+/// %20 and the like. What is no such code stays.
+std::string without_percents(std::string_view uri) {
+    std::string path;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const bool coded = uri[i] == '%' && i + 2 < uri.size();
+        const int high = coded ? hex_digit(uri[i + 1]) : -1,
+                  low = coded ? hex_digit(uri[i + 2]) : -1;
+        if (high < 0 || low < 0) {
+            path += uri[i];
+            continue;
+        }
+        path += static_cast<char>(16 * high + low);
+        i += 2;
+    }
+    return path;
+}
+
+} // namespace
+
+bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
+
+std::optional<std::string> decode_data_uri(std::string_view uri) {
+    constexpr std::string_view base64 = ";base64";
+    const std::size_t comma = uri.find(',');
+    if (!is_data_uri(uri) || comma == std::string_view::npos ||
+        !uri.substr(0, comma).ends_with(base64))
+        return std::nullopt;
+    return decode_base64(uri.substr(comma + 1));
+}
+
+std::optional<std::string> path_of_uri(std::string_view uri, const std::string& scene) {
+    namespace fs = std::filesystem;
+    const std::string name = without_percents(uri);
+    const fs::path relative = fs::path(name).lexically_normal();
+    const bool has_scheme = name.find(':') < name.find('/');
+    if (name.empty() || name.find('\0') != std::string::npos || has_scheme ||
+        relative.is_absolute())
+        return std::nullopt;
+    return (fs::path(scene).parent_path() / relative).string();
+}
+
+} // namespace hemilux::gltf

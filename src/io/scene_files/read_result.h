@@ -1,0 +1,34 @@
+#pragma once
+// What reading a scene file gives, whatever its format.
+
+#include "io/scene_files/camera_of_file.h"
+#include "radiosity/scene/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+struct ReadResult {
+    Scene scene;
+    std::vector<std::string> warnings;        ///< "file: ..." or "file:line: ..."
+    std::vector<std::string> material_source; ///< "file:line" of each material; "" if from no file
+    std::vector<std::string> libraries;       ///< paths of further files that were read
+    std::vector<std::string> textures;        ///< paths that are named
+    std::vector<std::uint32_t> face_lines;    ///< where each face stands, from 1; empty: in no line
+    std::size_t degenerate_faces = 0; ///< without area or with fewer than 3 corners; left out
+    std::size_t nonplanar_faces = 0;
+    std::size_t concave_faces = 0;
+    std::optional<Camera> camera; ///< the first of the file
+    std::string camera_name;
+};
+
+/// Called now and then while a scene is read, with about the bytes that reading it takes so far or
+/// will take next. What it throws ends the reading.
+using ReadGuard = std::function<void(double bytes)>;
+
+} // namespace hemilux

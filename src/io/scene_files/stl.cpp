@@ -1,0 +1,195 @@
+#include "io/scene_files/stl.h"
+
+#include "io/files/error.h"
+#include "io/files/text_reader.h"
+#include "io/files/text_words.h"
+#include "io/scene_files/polygon_division.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <unordered_map>
+
+namespace hemilux {
+namespace {
+
+constexpr std::size_t header = 80, count_bytes = 4, record = 50;
+
+/// Little-endian, whatever the machine is.
+std::uint32_t word_at(std::string_view bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        value |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
+    return value;
+}
+
+/// Many binary files begin with "solid" too: their length decides, and a text has no zero byte.
+bool is_binary(std::string_view content) {
+    return !content.starts_with("solid") || content.find('\0') != std::string_view::npos ||
+           (content.size() >= header + count_bytes &&
+            content.size() == header + count_bytes + record * word_at(content, header));
+}
+
+class StlReader {
+  public:
+    StlReader(const std::string& path, const ReadGuard& guard) : path_(path), guard_(guard) {}
+    ReadResult read();
+
+  private:
+    void read_binary(std::string_view content);
+    void read_text(std::string content);
+    void read_statement(const Statement& statement);
+    void read_corner(const Statement& statement);
+    void end_facet(const Statement& statement);
+    void add_triangle(const std::array<Vec3, 3>& corners);
+    std::uint32_t vertex_at(const Vec3& place);
+    [[noreturn]] void fail_at_byte(std::size_t at, const std::string& message) const {
+        throw InputError(path_, "byte " + std::to_string(at) + ": " + message);
+    }
+
+    struct Hash {
+        std::size_t operator()(const std::array<double, 3>& place) const {
+            std::size_t sum = 0;
+            for (const double x : place)
+                sum = (sum ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15 ^ (sum >> 29);
+            return sum;
+        }
+    };
+    std::string path_;
+    const ReadGuard& guard_;
+    std::unordered_map<std::array<double, 3>, std::uint32_t, Hash> vertices_;
+    std::vector<Vec3> corners_; ///< of the facet that is read
+    std::uint32_t group_ = 0;
+    PolygonDivision division_;
+    ReadResult result_;
+};
+
+ReadResult StlReader::read() {
+    std::string content = read_input(path_, InputKind::stream, [this](std::string_view read) {
+        constexpr double bytes_per_byte = 5; // vertices, facets and the map of places
+        if (guard_)
+            guard_(bytes_per_byte * static_cast<double>(read.size()));
+    });
+    result_.scene.materials.emplace_back().name = "default";
+    result_.material_source.emplace_back();
+    if (is_binary(content))
+        read_binary(content);
+    else
+        read_text(std::move(content));
+    if (result_.scene.facets.empty())
+        throw InputError(path_, result_.scene.faces > 0 ? "none of the triangles has an area"
+                                                        : "no triangles; expected an STL file");
+    if (result_.degenerate_faces > 0)
+        result_.warnings.push_back(path_ + ": triangles without area are left out: " +
+                                   std::to_string(result_.degenerate_faces));
+    return std::move(result_);
+}
+
+void StlReader::read_binary(std::string_view content) {
+    if (content.size() < header + count_bytes)
+        throw InputError(path_, "expected an STL file: a text that begins with solid, or at least "
+                                "84 bytes, found " +
+                                    std::to_string(content.size()));
+    const std::size_t count = word_at(content, header);
+    const std::size_t most = (content.size() - header - count_bytes) / record;
+    if (count > most)
+        fail_at_byte(header, "expected at most " + std::to_string(most) +
+                                 " triangles, as the file has " + std::to_string(content.size()) +
+                                 " bytes, found " + std::to_string(count));
+    result_.scene.groups.emplace_back("default");
+    for (std::size_t t = 0; t < count; ++t) {
+        constexpr std::size_t normal_bytes = 12;
+        const std::size_t begin = header + count_bytes + t * record + normal_bytes;
+        std::array<Vec3, 3> corners{};
+        for (std::size_t k = 0; k < 9; ++k) {
+            const auto value = std::bit_cast<float>(word_at(content, begin + 4 * k));
+            if (!std::isfinite(value))
+                fail_at_byte(begin + 4 * k, "expected a finite number");
+            corners[k / 3][static_cast<int>(k % 3)] = value;
+        }
+        add_triangle(corners);
+    }
+}
+
+void StlReader::read_text(std::string content) {
+    TextReader reader(std::move(content));
+    Statement statement;
+    std::size_t line = 1;
+    while (reader.next(statement)) {
+        read_statement(statement);
+        line = statement.line;
+    }
+    if (!corners_.empty())
+        throw InputError(path_, line, "expected endfacet before the end of the file");
+}
+
+void StlReader::read_statement(const Statement& statement) {
+    if (statement.keyword == "vertex") {
+        read_corner(statement);
+    } else if (statement.keyword == "endfacet") {
+        end_facet(statement);
+    } else if (statement.keyword == "solid") {
+        const std::string name(name_in(statement.rest));
+        group_ = static_cast<std::uint32_t>(result_.scene.groups.size());
+        result_.scene.groups.push_back(name.empty() ? "default" : name);
+    } else if (statement.keyword != "facet" && statement.keyword != "outer" &&
+               statement.keyword != "endloop" && statement.keyword != "endsolid") {
+        throw InputError(path_, statement.line,
+                         "expected solid, facet, outer, vertex, endloop, endfacet or endsolid, " +
+                             found_instead(statement.keyword));
+    }
+}
+
+void StlReader::read_corner(const Statement& statement) {
+    std::string_view rest = statement.rest;
+    Vec3 corner;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string_view word = take_word(rest);
+        const std::optional<double> number = parse_decimal(word);
+        if (!number)
+            throw InputError(path_, statement.line,
+                             "expected 3 numbers after vertex, " + found_instead_of_number(word));
+        corner[axis] = *number;
+    }
+    if (corners_.size() == 3)
+        throw InputError(path_, statement.line, "expected 3 vertices in a facet, found a fourth");
+    corners_.push_back(corner);
+}
+
+void StlReader::end_facet(const Statement& statement) {
+    if (corners_.size() != 3)
+        throw InputError(path_, statement.line,
+                         "expected 3 vertices in a facet, found " +
+                             std::to_string(corners_.size()));
+    result_.face_lines.push_back(static_cast<std::uint32_t>(statement.line));
+    add_triangle({corners_[0], corners_[1], corners_[2]});
+    corners_.clear();
+}
+
+void StlReader::add_triangle(const std::array<Vec3, 3>& corners) {
+    const std::uint32_t face = result_.scene.faces++;
+    if (division_.divide(corners).degenerate) {
+        ++result_.degenerate_faces;
+        return;
+    }
+    const std::uint32_t a = vertex_at(corners[0]), b = vertex_at(corners[1]),
+                        c = vertex_at(corners[2]);
+    result_.scene.facets.push_back({{a, b, c, c}, face, 0, group_});
+}
+
+/// Corners at one place are one vertex, as the format repeats them.
+std::uint32_t StlReader::vertex_at(const Vec3& place) {
+    const auto next = static_cast<std::uint32_t>(result_.scene.vertices.size());
+    const auto [found, is_new] = vertices_.try_emplace({place.x, place.y, place.z}, next);
+    if (is_new)
+        result_.scene.vertices.push_back(place);
+    return found->second;
+}
+
+} // namespace
+
+ReadResult read_stl(const std::string& path, const ReadGuard& guard) {
+    return StlReader(path, guard).read();
+}
+
+} // namespace hemilux

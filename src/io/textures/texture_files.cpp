@@ -1,0 +1,94 @@
+#include "io/textures/texture_files.h"
+
+#include "io/files/error.h"
+#include "io/files/input_file.h"
+
+#include <cstdlib>
+#include <limits>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#define STBI_MAX_DIMENSIONS 16384
+#include <stb_image.h>
+
+namespace hemilux {
+namespace {
+
+/// Texels of a picture: a small file may claim any number.
+constexpr double most_texels = 1 << 26;
+/// While it is decoded: the file's samples, and three bytes each.
+constexpr double bytes_per_texel = 12;
+
+struct Size {
+    int width = 0, height = 0;
+    [[nodiscard]] double texels() const { return double(width) * height; }
+};
+
+const stbi_uc* data_of(std::string_view bytes) {
+    return reinterpret_cast<const stbi_uc*>(bytes.data());
+}
+
+Size size_of(std::string_view bytes, const std::string& place) {
+    Size size;
+    int channels = 0;
+    if (bytes.size() > std::numeric_limits<int>::max() ||
+        stbi_info_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,
+                              &size.height, &channels) == 0)
+        throw InputError(place, "expected a PNG or JPEG picture of at most 16384 x 16384 pixels, "
+                                "its header is broken");
+    if (size.width < 1 || size.height < 1 || size.texels() > most_texels)
+        throw InputError(place, "expected a picture of at most 67108864 pixels, found " +
+                                    std::to_string(size.width) + " x " +
+                                    std::to_string(size.height));
+    return size;
+}
+
+} // namespace
+
+bool is_picture_file(std::string_view bytes) {
+    return bytes.starts_with("\x89PNG\r\n\x1a\n") || bytes.starts_with("\xff\xd8\xff");
+}
+
+Texture decode_texture(std::string_view bytes, const std::string& place) {
+    Size size = size_of(bytes, place);
+    int channels = 0;
+    constexpr int rgb = 3;
+    const std::unique_ptr<stbi_uc, decltype(&std::free)> pixels(
+        stbi_load_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,
+                              &size.height, &channels, rgb),
+        &std::free);
+    if (!pixels)
+        throw InputError(place, std::string("expected a whole PNG or JPEG picture: ") +
+                                    stbi_failure_reason());
+    const auto width = static_cast<std::uint32_t>(size.width),
+               height = static_cast<std::uint32_t>(size.height);
+    const std::size_t count = std::size_t{rgb} * width * height;
+    return {width, height, std::vector<std::uint8_t>(pixels.get(), pixels.get() + count),
+            srgb_to_linear()};
+}
+
+std::shared_ptr<const Texture> TextureFiles::decode(std::string_view bytes,
+                                                    const std::string& key) {
+    if (const auto found = known_.find(key); found != known_.end())
+        return found->second;
+    if (!is_picture_file(bytes))
+        return known_[key] = nullptr;
+    if (guard_)
+        guard_(bytes_ + bytes_per_texel * size_of(bytes, key).texels());
+    const auto texture = std::make_shared<const Texture>(decode_texture(bytes, key));
+    bytes_ += texture->bytes();
+    return known_[key] = texture;
+}
+
+std::shared_ptr<const Texture> TextureFiles::read(const std::string& path) {
+    if (const auto found = known_.find(path); found != known_.end())
+        return found->second;
+    if (!is_input(path, InputKind::regular))
+        return known_[path] = nullptr;
+    return decode(read_input(path, InputKind::regular), path);
+}
+
+} // namespace hemilux

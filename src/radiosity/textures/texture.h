@@ -1,0 +1,64 @@
+#pragma once
+// A picture on surfaces: texels of one colour each, in linear light, and their exact mean over any
+// polygon.
+//
+// The integral over a polygon follows from its border (Green's theorem): with F(x, y) the integral
+// of the row at y from 0 to x, it is the sum over the edges of the integral of F dy. Within a texel
+// F is linear in x, so the trapezoid rule is exact there. Only texels on the border are visited,
+// and sums along rows stand for those inside.
+
+#include "geometry/vector.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+/// What lies beyond the picture.
+enum class Wrap : std::uint8_t { repeat, clamp, mirror };
+struct Wraps {
+    Wrap x = Wrap::repeat, y = Wrap::repeat;
+};
+
+class Texture {
+  public:
+    /// `rgb`: three bytes per texel, row by row from the top; `linear`: the light that a byte
+    /// means, by byte.
+    Texture(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgb,
+            const std::array<double, 256>& linear);
+
+    [[nodiscard]] std::uint32_t width() const { return width_; }
+    [[nodiscard]] std::uint32_t height() const { return height_; }
+    /// The mean of the whole picture.
+    [[nodiscard]] const Vec3& mean() const { return mean_; }
+    /// The mean over a polygon of three or more places; x from 0 (left) to 1, y from 0 (top) to 1.
+    /// Edges across more than 16384 texels see the picture's mean; polygons without area are
+    /// sampled.
+    [[nodiscard]] Vec3 mean_over(std::span<const Vec2> polygon, Wraps wraps) const;
+    [[nodiscard]] double bytes() const;
+
+  private:
+    [[nodiscard]] Vec3 texel(std::size_t column, std::size_t row) const;
+    [[nodiscard]] Vec3 sum_before(std::size_t column, std::size_t row) const;
+    [[nodiscard]] Vec3 row_integral(double x, std::int64_t column, std::size_t row,
+                                    Wrap wrap) const;
+    [[nodiscard]] Vec3 at(const Vec2& place, Wraps wraps) const;
+    [[nodiscard]] Vec3 edge_integral(const Vec2& from, const Vec2& to, Wraps wraps) const;
+    [[nodiscard]] Vec3 sampled_mean(std::span<const Vec2> polygon, Wraps wraps) const;
+
+    static constexpr std::size_t block = 16; ///< columns between sums that are kept
+    std::uint32_t width_, height_;
+    std::vector<std::uint8_t> rgb_;
+    std::array<double, 256> linear_;
+    std::size_t blocks_;     ///< of a row
+    std::vector<Vec3> sums_; ///< of each row before each block
+    Vec3 mean_{0.0};
+};
+
+/// The light that bytes mean: by the sRGB curve (IEC 61966-2-1), or in proportion.
+[[nodiscard]] const std::array<double, 256>& srgb_to_linear();
+
+} // namespace hemilux

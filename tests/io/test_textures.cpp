@@ -1,0 +1,102 @@
+// Textures of OBJ files, from the picture's file to the colours of patches and pictures.
+
+#include "io/files/error.h"
+#include "io/pictures/image.h"
+#include "io/pictures/render.h"
+#include "io/scene_files/obj.h"
+#include "io/textures/texture_files.h"
+#include "radiosity/rays/make_tracer.h"
+#include "radiosity/scene/mesh.h"
+#include "support/catch.h"
+#include "support/temporary_folder.h"
+
+using namespace hemilux;
+using hemilux::test::content_of;
+using hemilux::test::TemporaryFolder;
+
+namespace {
+
+/// A picture of two texels, red on the left, black on the right.
+void write_red_and_black(const std::string& path) {
+    Image image(2, 1);
+    image.at(0, 0) = {1, 0, 0};
+    write_png(path, image, 1);
+}
+
+const std::string square = "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\n"
+                           "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+
+ReadResult read(const TemporaryFolder& folder, const std::string& mtl, const std::string& face,
+                bool textures = true) {
+    write_red_and_black(folder.path("t.png"));
+    (void)folder.write("m.mtl", "newmtl m\n" + mtl);
+    return read_obj(folder.write("s.obj", square + face), {}, textures);
+}
+
+} // namespace
+
+TEST_CASE("Kd is a factor of its texture, over the face's part of it", "[textures]") {
+    const TemporaryFolder folder;
+    const ReadResult whole = read(folder, "Kd .5\nmap_Kd t.png\n", "f 1/1 2/2 3/3 4/4\n");
+    const double red = Mesh(whole.scene).material(0u).reflectance.x;
+    CHECK(red > .2); // half of the light that the tone curve leaves of 1
+    CHECK(red <= .25 + 1e-9);
+    CHECK(whole.scene.materials[0].reflectance.x == Approx(red));
+    CHECK(whole.warnings.empty());
+    // The triangle on the left has three quarters of its area in the red half.
+    const ReadResult left = read(folder, "Kd .5\nmap_Kd t.png\n", "f 1/1 2/2 4/4\n");
+    CHECK(Mesh(left.scene).material(0u).reflectance.x == Approx(1.5 * red));
+    const ReadResult moved =
+        read(folder, "map_Kd -s 2 1 1 -o 0.25 0 0 t.png\n", "f 1/1 2/2 3/3 4/4\n");
+    CHECK(Mesh(moved.scene).material(0u).reflectance.x == Approx(2 * red));
+    const ReadResult without = read(folder, "Kd .5\nmap_Kd t.png\n", "f 1/1 2/2 4/4\n", false);
+    CHECK(Mesh(without.scene).material(0u).reflectance == Vec3(.5));
+}
+
+TEST_CASE("a lamp emits by its texture", "[textures]") {
+    const TemporaryFolder folder;
+    const ReadResult result =
+        read(folder, "Kd 0\nKe 10 10 10\nmap_Ke t.png\n", "f 1/1 2/2 3/3 4/4\n");
+    const Mesh mesh(result.scene, {.max_edge = 1});
+    REQUIRE(mesh.patches().size() == 4);
+    for (const Patch& patch : mesh.patches()) {
+        const bool left = mesh.frame().to_world(patch.centre).x < 1;
+        CHECK((mesh.material(patch).emission.x > 8) == left);
+        CHECK(mesh.material(patch).emission.y == 0);
+    }
+}
+
+TEST_CASE("a picture shows the texture within a patch", "[textures]") {
+    const TemporaryFolder folder;
+    const ReadResult result = read(folder, "map_Kd t.png\n", "f 1/1 2/2 3/3 4/4\n");
+    const Mesh mesh(result.scene);
+    const MadeTracer made = make_tracer(mesh, false, 1);
+    const std::vector<Vec3> radiosity{Vec3(3) * mesh.material(0u).reflectance};
+    const Camera camera{.eye = {1, 1, 5}, .target = {1, 1, 0}, .vertical_fov_degrees = 20};
+    for (const bool smooth : {false, true}) {
+        const Image image = render(mesh, *made.tracer, radiosity, camera,
+                                   {.width = 9, .height = 9, .textures = true, .smooth = smooth});
+        CHECK(image.at(2, 4).x > 2.4f);
+        CHECK(image.at(4, 4).x == Approx(image.at(2, 4).x / 2).epsilon(1e-3));
+        CHECK(image.at(6, 4).x == 0);
+    }
+}
+
+TEST_CASE("broken pictures are refused, other kinds are reported", "[textures]") {
+    const TemporaryFolder folder;
+    const std::string png =
+        (write_red_and_black(folder.path("whole.png")), content_of(folder.path("whole.png")));
+    const std::string start = png.substr(0, 8);
+    for (const std::string& bytes :
+         {start, png.substr(0, 40), png.substr(0, png.size() / 2), std::string("\xff\xd8\xff\xe0"),
+          // 16384 x 16384 pixels
+          start + std::string("\0\0\0\rIHDR\0\0\x40\0\0\0\x40\0\x08\x02\0\0\0", 21)})
+        CHECK_THROWS_AS(decode_texture(bytes, "t.png"), InputError);
+    (void)folder.write("t.tga", "no picture that is read");
+    (void)folder.write("m.mtl", "newmtl m\nmap_Kd t.tga\n");
+    const ReadResult result = read_obj(folder.write("s.obj", square + "f 1/1 2/2 3/3\n"));
+    REQUIRE(result.warnings.size() == 1);
+    CHECK(result.warnings[0].find("1 texture is not found, or neither PNG nor JPEG") !=
+          std::string::npos);
+    CHECK(Mesh(result.scene).material(0u).reflectance == Vec3(.5));
+}
