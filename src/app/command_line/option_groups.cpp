@@ -74,6 +74,33 @@ void add_sides_options(Command command, SceneSettings& scene) {
         .excludes(sides);
 }
 
+void add_light_options(Command command, SceneSettings& scene) {
+    add_parsed(
+        command, "--light", "TEXT",
+        "add a lamp, as 'disc at 0,2.4,0 towards 0,-1,0 radius .2 watts 60' or 'rectangle at ... "
+        "towards ... size 1x.5 emission 20'; repeatable",
+        light_form, [](const std::string& text) { return parse_light(text); },
+        [&scene](const LightSettings& light) { scene.lights.push_back(light); })
+        .repeatable()
+        .group("Scene");
+    add_parsed(
+        command, "--sun", "X,Y,Z,W",
+        "add a sun: the direction in which its light goes, and what arrives on a surface that "
+        "faces it, W/m2 or R,G,B; repeatable",
+        "X,Y,Z,W or X,Y,Z,R,G,B with a direction that is not 0,0,0",
+        [](const std::string& text) { return parse_sun(text); },
+        [&scene](const SunSettings& sun) { scene.suns.push_back(sun); })
+        .repeatable()
+        .group("Scene");
+    add_parsed(
+        command, "--sky", "R,G,B",
+        "add a sky that is alike all around and lights what sees nothing else by so much, W/m2",
+        "R,G,B or one number, " + emission_range.text(),
+        [](const std::string& text) { return parse_colour(text, emission_range); },
+        [&scene](const Vec3& sky) { scene.sky = sky; })
+        .group("Scene");
+}
+
 } // namespace
 
 Option add_scene_options(Command command, SceneSettings& scene) {
@@ -94,6 +121,7 @@ Option add_scene_options(Command command, SceneSettings& scene) {
     add_override(command, "--reflectance", scene.reflectance, reflectance_range,
                  "what a material reflects, 0 to 1; * for all; repeatable")
         .group("Scene");
+    add_light_options(command, scene);
     return max_edge;
 }
 

@@ -1,5 +1,6 @@
 #include "app/loading/load.h"
 
+#include "app/loading/lights.h"
 #include "app/loading/read_scene.h"
 #include "app/loading/sides.h"
 #include "app/settings/exit_code.h"
@@ -40,6 +41,14 @@ void check_emission(const Material& material, const std::string& path) {
                                    "; --emission 'MATERIAL=R,G,B' replaces what the file says");
 }
 
+std::string no_light_text(const Scene& scene, const std::vector<std::string>& materials) {
+    const std::vector<std::string> lamps = likely_lamps(scene);
+    return "nothing emits light; --sky 1 lights it from all sides, --light puts in a lamp, and "
+           "--emission 'MATERIAL=R,G,B' makes a material emit. " +
+           (lamps.empty() ? "Its materials: " + list_names(materials)
+                          : "By their names these may be lamps: " + list_names(lamps));
+}
+
 } // namespace
 
 ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
@@ -52,6 +61,7 @@ ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
             files.read("texture", texture);
     apply_overrides(read.scene, &Material::emission, settings.emission);
     apply_overrides(read.scene, &Material::reflectance, settings.reflectance);
+    add_lights(read.scene, settings);
     return read;
 }
 
@@ -70,9 +80,7 @@ void check_solvable(const ReadResult& read, const std::string& path) {
         names.push_back(read.scene.materials[m].name);
     }
     if (!emits)
-        throw InputError(path, "nothing emits light; make a material do so with --emission "
-                               "'MATERIAL=R,G,B'. Its materials: " +
-                                   list_names(names));
+        throw InputError(path, no_light_text(read.scene, names));
 }
 
 InputError as_input_error(const SolveError& error, const std::string& path,

@@ -1,6 +1,7 @@
 #pragma once
 // What the command line asks for, once it has been read and its numbers are within their ranges.
 
+#include "app/settings/lights.h"
 #include "app/settings/numbers.h"
 #include "app/settings/outputs.h"
 #include "app/settings/overrides.h"
@@ -24,6 +25,9 @@ inline constexpr std::array<const char*, 3> sides_names = {"auto", "front", "bot
 struct SceneSettings {
     std::string path;
     std::vector<Override> emission, reflectance;
+    std::vector<LightSettings> lights; ///< that are added
+    std::vector<SunSettings> suns;
+    std::optional<Vec3> sky; ///< its radiosity [W/m2]
     Sides sides = Sides::automatic;
     bool textures = true; ///< they are read
     MeshOptions mesh;                    ///< two-sided with Sides::both

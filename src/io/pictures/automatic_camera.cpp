@@ -15,11 +15,18 @@ namespace {
 
 constexpr double outside_fov = 40, inside_fov = 60; // vertical [degrees]
 
+/// Whether the patch belongs to the scene and not to a sun or sky around it.
+bool is_near(const Mesh& mesh, std::size_t patch) {
+    return !mesh.material(static_cast<std::uint32_t>(patch)).is_far;
+}
+
 /// Lamps shine down, floors and ceilings are wider than walls, rooms wider than high. y unless most
 /// of that speaks for z.
 int guess_up(const Mesh& mesh, const Vec3& extent) {
     Vec3 down(1e-9), facing(1e-9);
     for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
+        if (!is_near(mesh, i))
+            continue;
         const Patch& patch = mesh.patches()[i];
         const Vec3& e = mesh.material(static_cast<std::uint32_t>(i)).emission;
         down += patch.area * (e.x + e.y + e.z) * glm::max(-patch.normal, Vec3(0.0));
@@ -85,13 +92,15 @@ std::vector<bool> lit_patches(const Mesh& mesh, std::span<const Vec3> radiosity)
     const auto light = [&](std::size_t i) { return glm::dot(radiosity[i], Vec3(1)); };
     double power = 0, area = 0;
     for (std::size_t i = 0; i < radiosity.size(); ++i) {
+        if (!is_near(mesh, i))
+            continue;
         const Vec3 emission = mesh.material(static_cast<std::uint32_t>(i)).emission;
         power += mesh.patches()[i].area * (light(i) - glm::dot(emission, Vec3(1)));
         area += mesh.patches()[i].area;
     }
     std::vector<bool> lit;
     for (std::size_t i = 0; i < radiosity.size(); ++i)
-        lit.push_back(!(power > 0) || light(i) > 0.1 * power / area);
+        lit.push_back(is_near(mesh, i) && (!(power > 0) || light(i) > 0.1 * power / area));
     return lit;
 }
 
@@ -140,8 +149,10 @@ double score_of(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
 Camera automatic_camera(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
                         double aspect) {
     Box box;
-    for (const Vec3& vertex : mesh.vertices())
-        box.include(vertex);
+    for (std::size_t i = 0; i < mesh.patches().size(); ++i)
+        if (is_near(mesh, i))
+            for (const Vec3& corner : mesh.patches()[i].shape.corner)
+                box.include(corner);
     const int up = guess_up(mesh, glm::max(box.extent(), Vec3(1e-9)));
     std::vector<Camera> cameras = candidates(box, up, aspect);
     std::vector<double> score(cameras.size());

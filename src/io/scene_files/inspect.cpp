@@ -1,6 +1,7 @@
 #include "io/scene_files/inspect.h"
 
 #include "geometry/polygon.h"
+#include "io/scene_files/emitter_shapes.h"
 #include "radiosity/scene/coplanar_layers.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/scene/welded_edges.h"
@@ -48,14 +49,6 @@ void add_doubt(std::string& text, const std::string& name, std::size_t count,
 }
 
 bool emits(const Vec3& e) { return e.x > 0 || e.y > 0 || e.z > 0; }
-
-Box bounds_of(const Scene& scene) {
-    Box bounds;
-    for (const Facet& facet : scene.facets)
-        for (const std::uint32_t v : facet.vertex)
-            bounds.include(scene.vertices[v]);
-    return bounds;
-}
 
 /// Areas are computed in units in which the scene has a size of about 1, so that no square
 /// vanishes or overflows.

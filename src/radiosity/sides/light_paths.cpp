@@ -86,9 +86,10 @@ double area_of(const Mesh& mesh, std::uint32_t facet) {
 }
 
 double power_of(const Mesh& mesh, std::uint32_t facet) {
-    const Vec3& e = mesh.scene().materials[mesh.scene().facets[facet].material].emission;
+    const Material& material = mesh.scene().materials[mesh.scene().facets[facet].material];
+    const Vec3& e = material.emission;
     const double sum = e.r + e.g + e.b;
-    if (!(sum > 0) || !std::isfinite(sum))
+    if (material.is_far || !(sum > 0) || !std::isfinite(sum))
         return 0;
     return sum * area_of(mesh, facet);
 }

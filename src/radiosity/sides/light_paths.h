@@ -39,7 +39,8 @@ class Targets {
 [[nodiscard]] double area_of(const Mesh& mesh, std::uint32_t facet);
 
 /// The power that a facet emits on one side, all channels together [W/m2 times area in the local
-/// frame]; 0 where that is not finite.
+/// frame]; 0 where that is not finite, and of a sun or sky: its light comes from all sides,
+/// whichever of them a surface is to be seen from.
 [[nodiscard]] double power_of(const Mesh& mesh, std::uint32_t facet);
 
 /// How many of about `count` items each facet gets, in proportion to its weight: systematic

@@ -220,8 +220,9 @@ class Judge {
 
 Orientation find_orientation(const Mesh& mesh, const Tracer& tracer) {
     const auto emits = [&](const Facet& facet) {
-        const Vec3& e = mesh.scene().materials[facet.material].emission;
-        return e.r + e.g + e.b > 0;
+        const Material& material = mesh.scene().materials[facet.material];
+        const Vec3& e = material.emission;
+        return !material.is_far && e.r + e.g + e.b > 0;
     };
     if (std::ranges::any_of(mesh.scene().facets, emits))
         return Judge(mesh, tracer).find();

@@ -36,7 +36,7 @@ struct Orientation {
 };
 
 /// Finds the faces that look away; the same mesh gives the same faces. In a scene without an
-/// emitter there are none, nor among two-sided facets.
+/// emitter, or with a sun and a sky alone, there are none, nor among two-sided facets.
 [[nodiscard]] Orientation find_orientation(const Mesh& mesh, const Tracer& tracer);
 /// The same with a mesh and a tracer that it makes itself. `light` is found in any case.
 [[nodiscard]] Orientation find_orientation(const Scene& scene);

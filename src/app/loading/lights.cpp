@@ -1,0 +1,57 @@
+#include "app/loading/lights.h"
+
+#include "io/scene_files/emitter_shapes.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+namespace hemilux {
+namespace {
+
+std::string numbered(const std::string& name, std::size_t number) {
+    return name + " " + std::to_string(number);
+}
+
+void add_lamp(Scene& scene, const LightSettings& light, const std::string& name) {
+    const Vec3 normal = glm::normalize(light.towards);
+    const EmitterShape shape = light.is_disc
+                                   ? disc(light.at, normal, light.width / 2)
+                                   : rectangle(light.at, normal, light.width, light.height);
+    add_emitter(scene, shape, name, light.emission ? *light.emission : *light.watts / shape.area());
+}
+
+} // namespace
+
+void add_lights(Scene& scene, const SceneSettings& settings) {
+    if (scene.facets.empty())
+        return;
+    const Box bounds = bounds_of(scene);
+    for (std::size_t i = 0; i < settings.lights.size(); ++i)
+        add_lamp(scene, settings.lights[i], numbered("light", i + 1));
+    for (std::size_t i = 0; i < settings.suns.size(); ++i)
+        add_sun(scene, numbered("sun", i + 1), bounds, settings.suns[i].direction,
+                settings.suns[i].irradiance);
+    if (settings.sky)
+        add_sky(scene, "sky", bounds, *settings.sky);
+}
+
+std::vector<std::string> likely_lamps(const Scene& scene) {
+    constexpr std::array<std::string_view, 16> words = {
+        "lamp",  "light", "bulb",   "lantern", "neon", "glow", "emi",   "sun",
+        "torch", "lava",  "candle", "flame",   "fire", "led_", "tubes", "screen"};
+    const std::vector<bool> used = materials_in_use(scene);
+    std::vector<std::string> names;
+    for (std::size_t m = 0; m < used.size(); ++m) {
+        std::string name = scene.materials[m].name;
+        std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+        if (used[m] && std::ranges::any_of(words, [&](std::string_view word) {
+                return name.find(word) != std::string::npos;
+            }))
+            names.push_back(scene.materials[m].name);
+    }
+    return names;
+}
+
+} // namespace hemilux

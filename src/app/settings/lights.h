@@ -1,0 +1,33 @@
+#pragma once
+// Lights that the command line adds to a scene: `--light 'disc at 0,2.4,0 towards 0,-1,0 radius .2
+// watts 60'`, `--sun 1,-2,1,800`, `--sky 100`.
+
+#include "geometry/vector.h"
+
+#include <optional>
+#include <string_view>
+
+namespace hemilux {
+
+/// A lamp of one disc or rectangle.
+struct LightSettings {
+    bool is_disc = false;
+    Vec3 at{0.0}, towards{0.0};   ///< its middle [m]; the direction in which it shines
+    double width = 0, height = 0; ///< of a rectangle; of a disc the radius, twice [m]
+    std::optional<Vec3> watts;    ///< that it emits in all, by channel
+    std::optional<Vec3> emission; ///< [W/m2]; one of the two is given
+};
+inline constexpr const char* light_form =
+    "disc at X,Y,Z towards X,Y,Z radius R watts W, or rectangle at X,Y,Z towards X,Y,Z size WxH "
+    "watts W; emission E in place of watts; W and E are one number or R,G,B";
+/// Reads this form, the pairs of words in any order; empty for any other text.
+[[nodiscard]] std::optional<LightSettings> parse_light(std::string_view text);
+
+struct SunSettings {
+    Vec3 direction;  ///< in which its light goes
+    Vec3 irradiance; ///< of a surface that faces it [W/m2]
+};
+/// Reads "X,Y,Z,IRRADIANCE" or "X,Y,Z,R,G,B"; empty for any other text.
+[[nodiscard]] std::optional<SunSettings> parse_sun(std::string_view text);
+
+} // namespace hemilux

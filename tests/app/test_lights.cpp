@@ -1,0 +1,106 @@
+// Lights that the command line adds: what they bring is known in closed form.
+#include "app/program.h"
+#include "app/statistics_file.h"
+#include "io/results/tables.h"
+#include "support/catch.h"
+
+#include <cmath>
+
+using Catch::Contains;
+using hemilux::PatchTable;
+using test::Workplace;
+
+namespace {
+
+/// A square of 2 x 2 m that reflects half of the light, its front upwards; nothing emits.
+void write_ground(const Workplace& place) {
+    place.write("ground.mtl", "newmtl ground\nKd .5 .5 .5\nnewmtl Ceiling_Lamp\nKd .5 .5 .5\n");
+    place.write("ground.obj", "mtllib ground.mtl\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\n"
+                              "g ground\nusemtl ground\nf 1 2 3 4\n");
+}
+
+/// The red radiosity of the ground [W/m2].
+double ground_light(const Workplace& place, const std::string& options) {
+    const auto run = place.hemilux("solve ground.obj -q -o table.csv --stats s.json " + options);
+    CAPTURE(options, run.err);
+    REQUIRE(run.code == 0);
+    const PatchTable table = hemilux::read_patch_table(place.path("table.csv").string());
+    return table.radiosity.front().r;
+}
+
+} // namespace
+
+TEST_CASE("A sky lights open ground by its own radiosity") {
+    const Workplace place;
+    write_ground(place);
+    CHECK(ground_light(place, "--sky 3") == Approx(1.5).epsilon(.01));
+    CHECK(ground_light(place, "--sky 3 --method matrix") == Approx(1.5).epsilon(.01));
+}
+
+TEST_CASE("A sun brings its irradiance times the cosine") {
+    const Workplace place;
+    write_ground(place);
+    CHECK(ground_light(place, "--sun 0,-1,0,800") == Approx(400).epsilon(.01));
+    CHECK(ground_light(place, "--sun 3,-4,0,800") == Approx(320).epsilon(.01));
+    CHECK(ground_light(place, "--sun 3,-4,0,800 --sky 100") == Approx(370).epsilon(.01));
+    CHECK(ground_light(place, "--sun 0,-2,0,800,1,2 --sun 1,-1,0,100") ==
+          Approx(400 + 50 / std::sqrt(2)).epsilon(.01));
+}
+
+TEST_CASE("A lamp emits its watts, and lights what is below as a disc does") {
+    const Workplace place;
+    write_ground(place);
+    const double light =
+        ground_light(place, "--max-edge .05 --light 'disc at 0,2,0 towards 0,-1,0 radius .1 "
+                            "watts 60'");
+    const std::string statistics = place.read("s.json");
+    CHECK_THAT(statistics, Contains("60"));
+    CHECK(light > 0);
+    // All of a sheet of light lands where the ground is as wide as the lamp and close to it.
+    const double below =
+        ground_light(place, "--light 'rectangle emission 2 size 200x200 towards 0,-1,0 at 0,1,0'");
+    CHECK(below == Approx(1).epsilon(.01));
+}
+
+TEST_CASE("A scene without light names what may be a lamp, and ways to light it") {
+    const Workplace place;
+    write_ground(place);
+    const auto dark = place.hemilux("solve ground.obj -q -o table.csv");
+    CHECK(dark.code == 2);
+    CHECK_THAT(dark.err, Contains("--sky 1") && Contains("--light") && Contains("ground"));
+    place.write("ground.obj", place.read("ground.obj") + "usemtl Ceiling_Lamp\nf 4 3 2 1\n");
+    CHECK_THAT(place.hemilux("solve ground.obj -q -o table.csv").err,
+               Contains("may be lamps: Ceiling_Lamp"));
+}
+
+TEST_CASE("Lights that cannot be understood are refused with the form that can") {
+    const Workplace place;
+    write_ground(place);
+    for (const char* options :
+         {"--light 'disc at 0,2,0 towards 0,-1,0 watts 60'",
+          "--light 'disc at 0,2,0 towards 0,0,0 radius 1 watts 60'",
+          "--light 'disc at 0,2 towards 0,-1,0 radius 1 watts 60'",
+          "--light 'disc at 0,2,0 towards 0,-1,0 radius 1 watts 60 emission 3'",
+          "--light 'disc at 0,2,0 towards 0,-1,0 radius 1 radius 2 watts 60'",
+          "--light 'disc at 0,2,0 towards 0,-1,0 radius -1 watts 60'",
+          "--light 'disc at 0,2,0 towards 0,-1,0 radius 1 watts'",
+          "--light 'rectangle at 0,2,0 towards 0,-1,0 size 1 watts 60'",
+          "--light 'rectangle at 0,2,0 towards 0,-1,0 size 1x0 watts 60'",
+          "--light 'lamp at 0,2,0'", "--sun 0,0,0,5", "--sun 0,-1,0", "--sun 0,-1,0,-5", "--sky -1",
+          "--sky blue"}) {
+        CAPTURE(options);
+        const auto run = place.hemilux("solve ground.obj -o table.csv " + std::string(options));
+        CHECK(run.code == 1);
+        CHECK_THAT(run.err, Contains("expected"));
+        CHECK_FALSE(place.has("table.csv"));
+    }
+}
+
+TEST_CASE("Sun and sky are not in the way of the camera, nor of the scene's size") {
+    const Workplace place;
+    write_ground(place);
+    const auto run = place.hemilux("solve ground.obj --sun 1,-2,1,5 --sky 1 -o a.png --size 80x60");
+    CHECK(run.code == 0);
+    const auto info = place.hemilux("info ground.obj --sky 1");
+    CHECK_THAT(info.out, Contains("2 0 2"));
+}
