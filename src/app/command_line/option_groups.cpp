@@ -116,10 +116,10 @@ Option add_scene_options(Command command, SceneSettings& scene) {
             "materials have the colours of the file without their textures")
         .group("Scene");
     add_override(command, "--emission", scene.emission, emission_range,
-                 "what a material emits, W/m2; * for all; repeatable")
+                 "what a material emits, W/m2; * in its name stands for any letters; repeatable")
         .group("Scene");
     add_override(command, "--reflectance", scene.reflectance, reflectance_range,
-                 "what a material reflects, 0 to 1; * for all; repeatable")
+                 "what a material reflects, 0 to 1; * as above; repeatable")
         .group("Scene");
     add_light_options(command, scene);
     return max_edge;

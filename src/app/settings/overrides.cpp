@@ -4,6 +4,26 @@
 #include "app/settings/names.h"
 
 namespace hemilux {
+namespace {
+
+/// Whether the name is the pattern, where each * of it stands for any letters.
+bool matches(std::string_view pattern, std::string_view name) {
+    const std::size_t star = pattern.find('*');
+    if (star == std::string_view::npos || pattern == name)
+        return pattern == name;
+    if (name.substr(0, star) != pattern.substr(0, star))
+        return false;
+    // The first place where the piece up to the next star fits leaves the most for the rest.
+    pattern.remove_prefix(star + 1);
+    name.remove_prefix(star);
+    const std::size_t next = pattern.find('*');
+    if (next == std::string_view::npos)
+        return name.ends_with(pattern);
+    const std::size_t at = name.find(pattern.substr(0, next));
+    return at != std::string_view::npos && matches(pattern.substr(next), name.substr(at + next));
+}
+
+} // namespace
 
 std::optional<Override> parse_override(std::string_view text, const NumberRange& range) {
     // The value has no '='; a material's name may.
@@ -28,9 +48,14 @@ void apply_overrides(Scene& scene, Vec3 Material::*quantity,
                      const std::vector<Override>& overrides) {
     for (const auto& [name, value] : overrides) {
         bool found = false;
+<<<<<<< Updated upstream
         for (std::size_t m = 0; m < scene.materials.size(); ++m) {
             Material& material = scene.materials[m];
             if (name != "*" && name != material.name)
+=======
+        for (Material& material : scene.materials) {
+            if (!matches(name, material.name))
+>>>>>>> Stashed changes
                 continue;
             material.*quantity = value;
             if (scene.textures.on(static_cast<std::uint32_t>(m)))

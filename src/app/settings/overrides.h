@@ -11,7 +11,8 @@
 
 namespace hemilux {
 
-/// A new value for a material's emission or reflectance; the material `*` stands for all.
+/// A new value for the emission or reflectance of a material; `*` in its name stands for any
+/// letters, and alone for all materials.
 struct Override {
     std::string material;
     Vec3 value;
