@@ -23,6 +23,10 @@ bool matches(std::string_view pattern, std::string_view name) {
     return at != std::string_view::npos && matches(pattern.substr(next), name.substr(at + next));
 }
 
+void remove_texture(MaterialTextures& textures, Vec3 Material::*quantity) {
+    (quantity == &Material::emission ? textures.emission : textures.reflectance).texture.reset();
+}
+
 } // namespace
 
 std::optional<Override> parse_override(std::string_view text, const NumberRange& range) {
@@ -36,26 +40,13 @@ std::optional<Override> parse_override(std::string_view text, const NumberRange&
     return Override{std::string(text.substr(0, equals)), *value};
 }
 
-namespace {
-
-void remove_texture(MaterialTextures& textures, Vec3 Material::*quantity) {
-    (quantity == &Material::emission ? textures.emission : textures.reflectance).texture.reset();
-}
-
-} // namespace
-
 void apply_overrides(Scene& scene, Vec3 Material::*quantity,
                      const std::vector<Override>& overrides) {
     for (const auto& [name, value] : overrides) {
         bool found = false;
-<<<<<<< Updated upstream
         for (std::size_t m = 0; m < scene.materials.size(); ++m) {
             Material& material = scene.materials[m];
-            if (name != "*" && name != material.name)
-=======
-        for (Material& material : scene.materials) {
             if (!matches(name, material.name))
->>>>>>> Stashed changes
                 continue;
             material.*quantity = value;
             if (scene.textures.on(static_cast<std::uint32_t>(m)))
