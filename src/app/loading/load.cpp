@@ -44,9 +44,9 @@ void check_emission(const Material& material, const std::string& path) {
 std::string no_light_text(const Scene& scene, const std::vector<std::string>& materials) {
     const std::vector<std::string> lamps = likely_lamps(scene);
     return "nothing emits light; --sky 1 lights it from all sides, --light puts in a lamp, and "
-           "--emission 'MATERIAL=R,G,B' makes a material emit. " +
-           (lamps.empty() ? "Its materials: " + list_names(materials)
-                          : "By their names these may be lamps: " + list_names(lamps));
+           "--emission 'MATERIAL=R,G,B' makes a material emit. Its materials: " +
+           list_names(materials) +
+           (lamps.empty() ? "" : "; by their names these may be lamps: " + list_names(lamps));
 }
 
 } // namespace
