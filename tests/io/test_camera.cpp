@@ -1,6 +1,7 @@
 #include "bvh/bvh.h"
 #include "io/pictures/automatic_camera.h"
 #include "io/pictures/camera.h"
+#include "io/scene_files/emitter_shapes.h"
 #include "radiosity/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
@@ -59,6 +60,8 @@ TEST_CASE("a camera is read from its numbers") {
     CHECK(b.eye == Vec3(-1.5, 2000, 0));
     CHECK(b.target == Vec3(0.25, 0, 0));
     CHECK(b.vertical_fov_degrees == 60);
+    CHECK(b.up == Vec3(0, 1, 0));
+    CHECK(parse_camera("1,2,3,4,5,6,60,0,0,1").up == Vec3(0, 0, 1));
 }
 
 TEST_CASE("a camera that cannot be is refused with the reason") {
@@ -67,7 +70,9 @@ TEST_CASE("a camera that cannot be is refused with the reason") {
     };
     const auto bad = GENERATE(values<Case>({{"", "not a finite number"},
                                             {"1,2,3,4,5", "only 5 numbers"},
-                                            {"1,2,3,4,5,6,7,8", "more than 7"},
+                                            {"1,2,3,4,5,6,7,8", "upwards needs"},
+                                            {"1,2,3,4,5,6,7,0,0,0", "upwards needs"},
+                                            {"1,2,3,4,5,6,7,0,0,1,1", "more than 10"},
                                             {"1,2,3,4,5,6,", "''"},
                                             {"1,2,x,4,5,6", "'x'"},
                                             {"1,2,3 4,5,6,7", "'3 4'"},
@@ -192,4 +197,39 @@ TEST_CASE("the automatic camera is always the same, in the dark too") {
     CHECK(a.eye == b.eye);
     CHECK(a.target == b.target);
     CHECK(shares_of(mesh, bvh, a).seen > 0.99);
+}
+
+TEST_CASE("An object under the sky is looked at from outside, and all of it is seen") {
+    Scene scene;
+    scene.materials = {{"leg", Vec3(0.5), Vec3(0)}};
+    scene.groups = {"table"};
+    const auto block = [&](const Vec3& low, const Vec3& high) {
+        for (const int axis : {0, 1, 2})
+            for (const bool upper : {false, true}) {
+                const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+                std::array<Vec3, 4> corner{low, low, low, low};
+                corner[1][u] = corner[2][u] = high[u];
+                corner[2][v] = corner[3][v] = high[v];
+                for (Vec3& c : corner)
+                    c[axis] = upper ? high[axis] : low[axis];
+                if (!upper)
+                    std::swap(corner[1], corner[3]);
+                add_quad(scene, corner[0], corner[1], corner[2], corner[3], 1, 1, 0);
+            }
+    };
+    block({0, 0.9, 0}, {2, 1, 1});
+    for (const double x : {0.0, 1.9})
+        for (const double z : {0.0, 0.9})
+            block({x, 0, z}, {x + 0.1, 0.9, z + 0.1});
+    const Box bounds = bounds_of(scene);
+    add_sky(scene, "sky", bounds, Vec3(1));
+    const Mesh mesh(std::move(scene));
+    const Bvh bvh(mesh.soup());
+    const Camera camera = automatic_camera(mesh, bvh, even_light(mesh));
+    CHECK((glm::any(glm::lessThan(camera.eye, bounds.low)) ||
+           glm::any(glm::lessThan(bounds.high, camera.eye))));
+    const double cosine = std::cos(glm::radians(camera.vertical_fov_degrees) * 5 / 6);
+    for (const Vec3& corner : {bounds.low, bounds.high})
+        CHECK(glm::dot(glm::normalize(corner - camera.eye),
+                       glm::normalize(camera.target - camera.eye)) > cosine);
 }

@@ -22,10 +22,15 @@ Option add_override(Command command, const std::string& name, std::vector<Overri
         .repeatable();
 }
 
-std::optional<Camera> camera_from(const std::string& text) {
+/// A camera, or none for `auto`.
+std::optional<std::optional<Camera>> camera_from(const std::string& text) {
+    if (text == "auto")
+        return std::optional<Camera>();
     try {
         const Camera camera = parse_camera(text);
-        return camera.eye != camera.target ? std::optional(camera) : std::nullopt;
+        if (camera.eye != camera.target)
+            return std::optional(camera);
+        return std::nullopt;
     } catch (const std::invalid_argument&) {
         return std::nullopt;
     }
@@ -104,7 +109,8 @@ void add_light_options(Command command, SceneSettings& scene) {
 } // namespace
 
 Option add_scene_options(Command command, SceneSettings& scene) {
-    command.add_text("SCENE", "FILE", scene.path, "the scene: .obj, .gltf, .glb or .stl").required();
+    command.add_text("SCENE", "FILE", scene.path, "the scene: .obj, .gltf, .glb or .stl")
+        .required();
     const Option max_edge =
         add_number(command, "--max-edge", "LENGTH", scene.mesh.max_edge, positive,
                    "divide faces until no edge is longer [not divided]");
@@ -191,11 +197,17 @@ void add_random_options(Command command, SolveOptions& options) {
 }
 
 void add_camera_options(Command command, ViewSettings& view) {
-    add_parsed(command, "--camera", "EX,EY,EZ,TX,TY,TZ[,FOV]",
-               "eye, target and vertical angle of view in degrees [automatic]",
-               "ex,ey,ez,tx,ty,tz or ex,ey,ez,tx,ty,tz,fov with two different points and an angle "
-               "between 0 and 180 degrees",
-               camera_from, [&view](const Camera& value) { view.camera = value; })
+    add_parsed(
+        command, "--camera", "EX,EY,EZ,TX,TY,TZ[,FOV[,UX,UY,UZ]]",
+        "eye, target, vertical angle of view in degrees and the direction that is upwards in "
+        "the picture; auto: as the program chooses it [that of the scene, else auto]",
+        "auto or ex,ey,ez,tx,ty,tz[,fov[,ux,uy,uz]] with two different points, an angle "
+        "between 0 and 180 degrees and a direction that is not 0,0,0",
+        camera_from,
+        [&view](const std::optional<Camera>& value) {
+            view.camera = value;
+            view.uses_camera_of_scene = false;
+        })
         .group(output_group);
     add_parsed(
         command, "--size", "WxH", "of pictures, in pixels [800x600]",

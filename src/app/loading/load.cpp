@@ -7,6 +7,7 @@
 #include "app/settings/memory.h"
 #include "app/settings/names.h"
 #include "app/settings/text.h"
+#include "app/settings/view.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
@@ -101,14 +102,12 @@ Mesh divide_scene(Scene scene, const SceneSettings& settings) {
 
 ViewSettings view_of(const ViewSettings& asked, const LoadedMesh& loaded, Verbosity verbosity) {
     ViewSettings view = asked;
-    if (view.camera || !loaded.camera)
+    if (view.camera || !view.uses_camera_of_scene || !loaded.camera)
         return view;
     view.camera = loaded.camera;
-    const auto& [eye, target, up, fov] = *loaded.camera;
     log_line(verbosity, Verbosity::normal,
              "pictures are seen by camera '" + loaded.camera_name + "' of the scene: " +
-                 formatted("--camera %g,%g,%g,%g,%g,%g,%g", eye.x, eye.y, eye.z, target.x, target.y,
-                           target.z, fov));
+                 camera_text(*loaded.camera) + "; --camera auto chooses another");
     return view;
 }
 

@@ -4,6 +4,7 @@
 #include "app/running/point_table.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/view.h"
+#include "app/terminal/log.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/pictures/image.h"
@@ -39,8 +40,9 @@ class SharedClasses {
 class Picture {
   public:
     Picture(const SolveSettings& settings, const Results& results, SharedClasses& classes)
-        : view_(settings.view), gather_(settings.gather_pictures ? settings.gather : 0),
-          results_(results), classes_(classes), time_(results.interrupted) {}
+        : view_(settings.view), verbosity_(settings.verbosity),
+          gather_(settings.gather_pictures ? settings.gather : 0), results_(results),
+          classes_(classes), time_(results.interrupted) {}
 
     /// Of rendering, where the light is gathered.
     [[nodiscard]] double seconds_gather() const { return seconds_gather_; }
@@ -60,6 +62,8 @@ class Picture {
     [[nodiscard]] Image render() {
         const auto& [mesh, tracer, solution, statistics, steps, points, interrupted] = results_;
         const Camera camera = camera_of(view_, mesh, tracer, solution.radiosity);
+        if (!view_.camera)
+            log_line(verbosity_, Verbosity::verbose, "pictures are seen by " + camera_text(camera));
         const Stopwatch watch;
         Image image =
             render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads, time_,
@@ -70,6 +74,7 @@ class Picture {
     }
 
     const ViewSettings& view_;
+    Verbosity verbosity_;
     unsigned gather_; ///< rays at a point; 0: pictures interpolate
     const Results& results_;
     SharedClasses& classes_;

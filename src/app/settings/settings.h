@@ -29,7 +29,7 @@ struct SceneSettings {
     std::vector<SunSettings> suns;
     std::optional<Vec3> sky; ///< its radiosity [W/m2]
     Sides sides = Sides::automatic;
-    bool textures = true; ///< they are read
+    bool textures = true;                ///< they are read
     MeshOptions mesh;                    ///< two-sided with Sides::both
     std::optional<std::uint64_t> memory; ///< bytes that a run may need
 };
@@ -46,7 +46,8 @@ enum class Verbosity { quiet, normal, verbose };
 
 /// The view of a picture.
 struct ViewSettings {
-    std::optional<Camera> camera; ///< empty: chosen by the program
+    std::optional<Camera> camera;     ///< empty: chosen by the program
+    bool uses_camera_of_scene = true; ///< where there is one and none was given
     PixelSize size{800, 600};
     std::optional<double> exposure; ///< empty: from the picture
 };

@@ -1,6 +1,7 @@
 #include "app/settings/view.h"
 
 #include "app/settings/exit_code.h"
+#include "app/settings/text.h"
 #include "io/pictures/render.h"
 #include "radiosity/scene/mesh.h"
 
@@ -11,6 +12,13 @@ void check_camera(const ViewSettings& view, const Mesh& mesh) {
         mesh.frame().to_local(view.camera->eye) == mesh.frame().to_local(view.camera->target))
         throw UsageError("--camera: expected an eye and a target that differ; beside the scene's "
                          "distance from the origin these two are the same point");
+}
+
+std::string camera_text(const Camera& camera) {
+    const auto& [eye, target, up, fov] = camera;
+    const std::string text = formatted("--camera %g,%g,%g,%g,%g,%g,%g", eye.x, eye.y, eye.z,
+                                       target.x, target.y, target.z, fov);
+    return up == Camera().up ? text : text + formatted(",%g,%g,%g", up.x, up.y, up.z);
 }
 
 Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,

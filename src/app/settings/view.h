@@ -8,11 +8,15 @@
 #include <atomic>
 #include <chrono>
 #include <span>
+#include <string>
 
 namespace hemilux {
 
 /// Throws UsageError for a camera given whose eye and target are one point where the scene is.
 void check_camera(const ViewSettings& view, const Mesh& mesh);
+
+/// The option that asks for this camera: "--camera 1,2,3,4,5,6,45".
+[[nodiscard]] std::string camera_text(const Camera& camera);
 
 /// The camera given, or one chosen for the scene.
 [[nodiscard]] Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,

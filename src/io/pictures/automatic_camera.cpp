@@ -110,8 +110,17 @@ std::uint64_t kind_of(const Patch& patch) {
     return std::uint64_t{patch.material} * 6 + static_cast<std::uint64_t>(side);
 }
 
-/// How much of the picture shows lit fronts, how many kinds of them, and how far the near ones are.
-double score_of(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
+/// What a few rays tell of a view.
+struct Judgement {
+    double score = 0;
+    double enclosed = 0; ///< the share of rays that meet something of the scene
+};
+
+bool is_from_outside(const Camera& camera) { return camera.vertical_fov_degrees == outside_fov; }
+
+/// By how much of the picture shows lit fronts, how many kinds of them, and how far the near ones
+/// are.
+Judgement judge(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
                 const std::vector<bool>& lit, double aspect) {
     constexpr int columns = 16, rows = 12;
     const CameraRays view(camera, mesh, aspect);
@@ -123,9 +132,12 @@ double score_of(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
     tracer.closest_stream(rays, hits);
     std::vector<std::uint64_t> seen;
     std::vector<double> depths;
+    Judgement result;
     for (std::size_t k = 0; k < rays.size(); ++k) {
         if (hits[k].facet == none)
             continue;
+        if (!mesh.scene().materials[mesh.scene().facets[hits[k].facet].material].is_far)
+            result.enclosed += 1.0 / rays.size();
         const Hit hit = tracer.locate(rays[k], hits[k].facet);
         const std::uint32_t patch = mesh.patch_at(hit);
         if (patch != none && lit[patch]) {
@@ -134,14 +146,28 @@ double score_of(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
         }
     }
     if (seen.empty())
-        return 0;
+        return result;
     const auto pixels = static_cast<double>(seen.size());
     std::ranges::sort(seen);
     const auto kinds = std::unique(seen.begin(), seen.end()) - seen.begin();
     std::ranges::sort(depths);
     // An open box is meant to be looked into.
-    const double favour = camera.vertical_fov_degrees == outside_fov ? 1.3 : 1;
-    return favour * pixels * std::sqrt(double(kinds)) * std::sqrt(depths[depths.size() / 4]);
+    const double favour = is_from_outside(camera) ? 1.3 : 1;
+    result.score =
+        favour * pixels * std::sqrt(double(kinds)) * std::sqrt(depths[depths.size() / 4]);
+    return result;
+}
+
+/// Whether views from within the scene's box mostly look past what is there: a thing, not a room.
+bool is_object(std::span<const Camera> cameras, std::span<const Judgement> judgements) {
+    constexpr double least_of_room = 0.5;
+    double enclosed = 0, views = 0;
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        if (!is_from_outside(cameras[i])) {
+            enclosed += judgements[i].enclosed;
+            views += 1;
+        }
+    return enclosed < least_of_room * views;
 }
 
 } // namespace
@@ -155,16 +181,20 @@ Camera automatic_camera(const Mesh& mesh, const Tracer& tracer, std::span<const 
                 box.include(corner);
     const int up = guess_up(mesh, glm::max(box.extent(), Vec3(1e-9)));
     std::vector<Camera> cameras = candidates(box, up, aspect);
-    std::vector<double> score(cameras.size());
+    std::vector<Judgement> judged(cameras.size());
     const std::vector<bool> lit = lit_patches(mesh, radiosity);
     Workers(0).for_chunks(cameras.size(), 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             cameras[i].eye = mesh.frame().to_world(cameras[i].eye);
             cameras[i].target = mesh.frame().to_world(cameras[i].target);
-            score[i] = score_of(cameras[i], mesh, tracer, lit, aspect);
+            judged[i] = judge(cameras[i], mesh, tracer, lit, aspect);
         }
     });
-    return cameras[static_cast<std::size_t>(std::ranges::max_element(score) - score.begin())];
+    if (is_object(cameras, judged))
+        for (std::size_t i = 0; i < cameras.size(); ++i)
+            judged[i].score *= is_from_outside(cameras[i]) ? 1 : 0;
+    const auto best = std::ranges::max_element(judged, {}, &Judgement::score);
+    return cameras[static_cast<std::size_t>(best - judged.begin())];
 }
 
 } // namespace hemilux

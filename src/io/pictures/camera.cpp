@@ -14,13 +14,14 @@ namespace hemilux {
 namespace {
 
 [[noreturn]] void refuse(std::string_view text, const std::string& reason) {
-    throw std::invalid_argument("expected ex,ey,ez,tx,ty,tz or ex,ey,ez,tx,ty,tz,fov (eye, target, "
-                                "vertical angle in degrees), got '" +
-                                std::string(text) + "': " + reason);
+    throw std::invalid_argument(
+        "expected ex,ey,ez,tx,ty,tz[,fov[,ux,uy,uz]] (eye, target, vertical "
+        "angle in degrees, direction upwards), got '" +
+        std::string(text) + "': " + reason);
 }
 
 /// Numbers between commas; blanks around them are allowed. Returns how many there are.
-std::size_t parse_numbers(std::string_view text, std::array<double, 7>& numbers) {
+std::size_t parse_numbers(std::string_view text, std::array<double, 10>& numbers) {
     std::size_t count = 0;
     std::string_view left = text;
     for (;;) {
@@ -28,7 +29,7 @@ std::size_t parse_numbers(std::string_view text, std::array<double, 7>& numbers)
         const std::size_t first = std::min(part.find_first_not_of(" \t"), part.size());
         const std::string_view word = part.substr(first, part.find_last_not_of(" \t") + 1 - first);
         if (count == numbers.size())
-            refuse(text, "there are more than 7 numbers");
+            refuse(text, "there are more than 10 numbers");
         const char* end = word.data() + word.size();
         const auto [rest, error] = std::from_chars(word.data(), end, numbers[count++]);
         if (error != std::errc() || rest != end || !std::isfinite(numbers[count - 1]))
@@ -42,15 +43,20 @@ std::size_t parse_numbers(std::string_view text, std::array<double, 7>& numbers)
 } // namespace
 
 Camera parse_camera(std::string_view text) {
-    std::array<double, 7> n{};
+    std::array<double, 10> n{};
     const std::size_t count = parse_numbers(text, n);
     if (count < 6)
         refuse(text, "there are only " + std::to_string(count) + " numbers");
     Camera camera{.eye = {n[0], n[1], n[2]}, .target = {n[3], n[4], n[5]}};
     if (camera.eye == camera.target)
         refuse(text, "eye and target are the same point");
-    if (count == 7)
+    if (count > 6)
         camera.vertical_fov_degrees = n[6];
+    if (count > 7) {
+        camera.up = {n[7], n[8], n[9]};
+        if (count < 10 || camera.up == Vec3(0.0))
+            refuse(text, "the direction upwards needs three numbers that are not all 0");
+    }
     if (!(camera.vertical_fov_degrees > 0 && camera.vertical_fov_degrees < 180))
         refuse(text, "the angle must lie between 0 and 180 degrees");
     return camera;

@@ -12,8 +12,8 @@ namespace hemilux {
 
 class Mesh;
 
-/// Reads "ex,ey,ez,tx,ty,tz" or "ex,ey,ez,tx,ty,tz,fov". Throws std::invalid_argument, whose text
-/// says what was expected.
+/// Reads "ex,ey,ez,tx,ty,tz", to which ",fov" or ",fov,ux,uy,uz" may be added. Throws
+/// std::invalid_argument, whose text says what was expected.
 [[nodiscard]] Camera parse_camera(std::string_view text);
 
 /// The rays of a camera, in the local frame of a mesh.
