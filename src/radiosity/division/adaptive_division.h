@@ -59,9 +59,10 @@ class Division {
     /// Makes the light on patches linear functions of the place, whose noise is well below `error`.
     /// Returns the rays that this took.
     std::uint64_t add_slopes(Solution& light, double error);
-    /// By patch what linear functions leave, as far as it is known.
+    /// Is, by patch, the squared error [local area x (W/m2)^2] that linear functions leave, as far
+    /// as it is known.
     [[nodiscard]] std::span<const double> squares() const { return square_; }
-    /// By patch, of the light as it was measured.
+    /// Are, by patch, those of the light as it was measured.
     [[nodiscard]] std::vector<Slope> slopes() const;
     /// From now on each patch is measured once more before it is divided: what was missed so far
     /// may be found.

@@ -9,7 +9,7 @@
 
 namespace hemilux {
 
-/// By new patch what the patch had that it is a piece of; `parents` as of Mesh::refine().
+/// Returns, by new patch, what the patch had that it is a piece of; `parents` as of Mesh::refine().
 template <class Value>
 [[nodiscard]] std::vector<Value> inherited(const std::vector<Value>& values,
                                            std::span<const std::uint32_t> parents) {

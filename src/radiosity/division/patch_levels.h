@@ -9,7 +9,7 @@ namespace hemilux {
 
 struct LevelOptions {
     double goal; ///< of the sum of all squared errors
-    /// That the patches are to become.
+    /// Bound how many pieces the patches are to become.
     std::size_t least_pieces, most_pieces;
 };
 

@@ -46,7 +46,8 @@ struct DivisionErrorOptions {
 /// The sum over patches of area times reflected radiosity squared, to which errors are relative.
 [[nodiscard]] double reflected_square(const Mesh& mesh, const Solution& solution);
 
-/// Of a solution with a step at least. Where it was interrupted the error is not known.
+/// Estimates the error of a solution with a step at least. Where it was interrupted the error is
+/// not known.
 [[nodiscard]] DivisionError division_error(const Mesh& mesh, const Tracer& tracer,
                                            const Solution& solution,
                                            const DivisionErrorOptions& options,

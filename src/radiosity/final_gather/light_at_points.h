@@ -42,7 +42,7 @@ struct PointLightOptions {
     std::function<bool()> give_up = {};
 };
 
-/// Of each sensor. Empty where it was given up.
+/// Finds the light at each sensor. Empty where it was given up.
 [[nodiscard]] std::vector<PointLight> light_at(std::span<const Sensor> sensors, const Mesh& mesh,
                                                const Tracer& tracer, const Solution& solution,
                                                const PointLightOptions& options,

@@ -34,7 +34,7 @@ struct WithinOptions {
     /// Cosine-distributed ones of an estimate, and half as many shadow rays. More: squares are less
     /// noisy too.
     unsigned rays = 8;
-    /// Of points, on large patches; at least 3.
+    /// Limits the rows of points on large patches; at least 3.
     unsigned most_rows = 8;
     std::uint64_t seed = 1;
 };
@@ -44,12 +44,12 @@ struct LightWithinPatches {
     /// linear function leaves, summed over channels [local area * (W/m2)^2]; an estimate from few
     /// points, which may be negative.
     std::vector<double> square;
-    /// Of its slope, two independent estimates.
+    /// Holds two independent estimates of its slope.
     std::vector<std::array<Slope, 2>> slopes;
     std::uint64_t rays = 0;
 };
 
-/// Of some patches. Where it was interrupted the rest is 0.
+/// Measures some patches. Where it was interrupted the rest is 0.
 [[nodiscard]] LightWithinPatches light_within_patches(const LightSource& light,
                                                       std::span<const std::uint32_t> patches,
                                                       const WithinOptions& options,

@@ -25,7 +25,7 @@ class LinearLight {
     /// The variance over the patch that the linear function leaves, by channel: an estimate free of
     /// noise, which may be negative.
     [[nodiscard]] Vec3 variance_left() const;
-    /// By either estimate.
+    /// Is the slope by either estimate.
     [[nodiscard]] const std::array<Slope, 2>& slopes() const { return slope_; }
 
     /// Fewer leave nothing to judge a linear function by.

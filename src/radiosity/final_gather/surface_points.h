@@ -12,7 +12,7 @@ namespace hemilux {
 
 class Mesh;
 
-/// In the local frame.
+/// Lies in the local frame.
 struct SurfacePoint {
     Vec3 position;
     Vec3 normal;         ///< unit, to the side that receives

@@ -34,7 +34,7 @@ struct FacingPair {
 /// A F from the front of one polygon to the front of the other. The error is below 1e-10 of the
 /// smaller area.
 [[nodiscard]] double exchange_area(const Polygon& from, const Polygon& to);
-/// The same for parts that face each other.
+/// Computes the same for parts that face each other.
 [[nodiscard]] double exchange_area(const Outline& from, const Outline& to, double smaller_area);
 
 } // namespace hemilux

@@ -25,9 +25,10 @@ namespace hemilux {
 class ExchangeMatrix {
   public:
     ExchangeMatrix() = default;
-    /// Of the rays of one batch.
+    /// Is made of the rays of one batch.
     ExchangeMatrix(const Mesh& mesh, const RayCounts& batch);
-    /// Of the rays of several batches, where each patch shot as many in one as in the others.
+    /// Is made of the rays of several batches, where each patch shot as many in one as in the
+    /// others.
     ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers);
 
     /// y_i = sum_j F_ij x_j
@@ -60,9 +61,9 @@ class ExchangeMatrix {
 
     /// What patch i exchanges with others; a value is S before it is scaled.
     [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const { return rows_.row(i); }
-    /// By patch.
+    /// Has an entry for each patch.
     [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }
-    /// Those that the patch shot itself.
+    /// Counts, by patch, the rays that it shot itself.
     [[nodiscard]] std::span<const double> rays() const { return rays_; }
     [[nodiscard]] std::uint64_t bytes() const { return rows_.entries() * sizeof(MatrixEntry); }
 

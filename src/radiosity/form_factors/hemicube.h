@@ -90,7 +90,7 @@ class HemicubeFormFactors {
                         const Workers& workers, Monitor& monitor);
 
     [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
-    /// By patch.
+    /// Has an entry for each patch.
     [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 

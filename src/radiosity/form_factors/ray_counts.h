@@ -40,7 +40,7 @@ class RayCounts {
                                      Monitor& monitor, double share);
 
     [[nodiscard]] std::uint32_t patches() const { return static_cast<std::uint32_t>(rows_.size()); }
-    /// Of this patch.
+    /// Counts the rays of this patch.
     [[nodiscard]] std::uint32_t rays(std::uint32_t patch) const { return rows_[patch].rays; }
     /// Each patch once, in the order in which they were first struck.
     [[nodiscard]] std::span<const Count> row(std::uint32_t patch) const {

@@ -22,13 +22,13 @@ class SparseRows {
 
     [[nodiscard]] std::size_t rows() const { return begin_.size(); }
     [[nodiscard]] std::size_t entries() const { return entries_; }
-    /// In any order; a column may come twice.
+    /// Its entries have any order, and a column may come twice.
     [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const {
         return {begin_[i], size_[i]};
     }
     [[nodiscard]] MatrixEntry* to_write(std::size_t i) { return begin_[i]; }
 
-    /// Of the loops over rows.
+    /// Is the grain of loops over rows.
     static constexpr std::size_t rows_per_chunk = 64;
 
   private:

@@ -41,7 +41,7 @@ class Subdivision1997 {
     void find(int level, const Tracer& tracer, const Workers& workers, Monitor& monitor);
 
     [[nodiscard]] std::size_t parts() const { return options_.parts; }
-    /// Of one part; level 0 are the octants.
+    /// Counts those of one part; level 0 are the octants.
     [[nodiscard]] static std::size_t triangles(int level) { return std::size_t{4} << (2 * level); }
     /// Triangle `index` of a level: a stored one, or what becomes of it by estimation.
     [[nodiscard]] CountedTriangle triangle(std::uint32_t patch, std::size_t part, int level,

@@ -15,12 +15,12 @@ namespace hemilux {
 
 struct Monitor;
 
-/// Of nodes: `to` gathers from `from`.
+/// Joins two nodes: `to` gathers from `from`.
 struct Link {
     std::uint32_t to, from;
 };
 
-/// About F_to,from if nothing stands between; rather too large than too small.
+/// Is about F_to,from if nothing stands between; rather too large than too small.
 [[nodiscard]] double rough_factor(const PatchTree::Node& to, const PatchTree::Node& from);
 
 enum class Refinement { not_needed, done, too_many_links };
@@ -58,7 +58,7 @@ class LinkFactors {
                 std::span<const std::uint32_t> points, std::uint64_t seed, const Workers& workers,
                 Monitor& monitor);
 
-    /// By link.
+    /// Has an entry for each link.
     [[nodiscard]] std::span<const double> factors() const { return factors_; }
     /// y_i = sum_j F_ij x_j: pull, gather, push.
     void multiply(std::span<const double> x, std::span<double> y) const;

@@ -36,7 +36,7 @@ inline constexpr double least_radiosity = 1e-145;
 /// `step` counts from 1; 0 stands for before the first.
 void check_finite(const Mesh& mesh, std::span<const Vec3> values, const char* what,
                   std::uint64_t step);
-/// The same for one patch.
+/// Checks the same of one patch.
 void check_finite(const Mesh& mesh, std::uint32_t patch, const Vec3& value, const char* what,
                   std::uint64_t step);
 

@@ -107,7 +107,7 @@ struct StopRule {
     static constexpr std::uint32_t default_steps = 16;
 };
 
-/// For SolveOptions: more than will be taken where the time ends the run.
+/// Is for SolveOptions: more than will be taken where the time ends the run.
 [[nodiscard]] inline std::uint32_t expected_steps(const StopRule& stop) {
     return stop.steps.value_or(stop.seconds ? std::numeric_limits<std::uint32_t>::max() : 0);
 }
@@ -231,7 +231,7 @@ struct Method {
 
 /// All methods, one per file of strategies/ and solvers/, in alphabetical order.
 [[nodiscard]] std::span<const Method* const> methods();
-/// By its name or its former name; nullptr if there is no such method.
+/// Finds it by its name or its former name; nullptr if there is no such method.
 [[nodiscard]] const Method* find_method(std::string_view name);
 /// The one that has this role.
 [[nodiscard]] const Method& method_of(Role role);

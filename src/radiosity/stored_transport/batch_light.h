@@ -21,7 +21,7 @@ class BatchLight {
 
     [[nodiscard]] std::size_t batches() const { return batches_; }
 
-    /// Of one batch.
+    /// Is what one batch has found.
     struct Light {
         explicit Light(std::size_t patches) : incident(patches, Vec3(0.0)) {}
         std::vector<Vec3> incident; ///< arrives at each patch [W/m2]
@@ -50,7 +50,7 @@ class BatchLight {
     [[nodiscard]] EnergyBalance energy() const;
 
     [[nodiscard]] double generations() const { return static_cast<double>(generation_ + 1); }
-    /// From 0.
+    /// Counts from 0.
     [[nodiscard]] std::uint64_t generation() const { return generation_; }
     /// What was solved last counts from now on as one generation more.
     void begin_generation();

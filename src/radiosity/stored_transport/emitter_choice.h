@@ -48,12 +48,12 @@ class EmitterChoice {
         /// just those: what such a ray brings varies more than what one finds by chance.
         [[nodiscard]] bool pays() const { return sum * sum <= 4 * square_found; }
     };
-    /// For choose(). `bright`: the bits of emitters from which light has reached the receiver, a
-    /// patch.
+    /// Prepares choose(). `bright`: the bits of emitters from which light has reached the receiver,
+    /// a patch.
     void weigh(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const;
-    /// The same for a point with a unit normal, in the local frame.
+    /// Does the same for a point with a unit normal, in the local frame.
     void weigh(const Vec3& point, const Vec3& normal, Cut& cut) const;
-    /// Of the emitter at this place; others have the same if there are many.
+    /// Returns the bit of the emitter at this place; others have the same if there are many.
     [[nodiscard]] static std::uint64_t bit_of(std::uint32_t place) {
         return std::uint64_t{1} << place % 64;
     }
@@ -105,7 +105,7 @@ class EmitterChoice {
     std::vector<double> radius_;       ///< of each patch, from its centre
     std::vector<double> light_;        ///< of each emitter, see light_of
     std::vector<std::uint32_t> part_of_emitter_, part_; ///< of emitters by place, of patches
-    /// By order_: centre, normal, four corners, area, side, light.
+    /// Holds, in the order of order_, the centre, normal, four corners, area, side, light.
     std::array<std::vector<double>, 21> arrays_;
 };
 

@@ -61,7 +61,7 @@ class TargetAim {
     TargetAim(const Mesh& mesh, const TransportSystem& system, std::span<const double> weight);
 
     [[nodiscard]] bool has_target() const { return !weight_.empty(); }
-    /// From the first few rays, of which nothing is concluded but what is important.
+    /// Starts from the first few rays, of which nothing is concluded but what is important.
     void begin(const ExchangeMatrix& factors, const Workers& workers);
     /// After a step: parts of the scene (linked_parts.h) without a patch of the target are not
     /// needed, as far as the target is lit. What is important is found out once more, and later
@@ -69,12 +69,12 @@ class TargetAim {
     void step_done(const ExchangeMatrix& factors, std::span<const std::uint32_t> part,
                    const std::vector<bool>& lit, const Workers& workers);
 
-    /// Of the rays of each patch (importance_of_rays); 0: it needs no more.
+    /// Is that of the rays of each patch (importance_of_rays); 0: it needs no more.
     [[nodiscard]] std::span<const double> importance() const { return of_rays_; }
     /// What the squared error of a patch's own light counts, times its area and reflectance
     /// squared, where it errs for itself, as by shadow rays: m_k with c = 1.
     [[nodiscard]] double counts_alone(std::uint32_t patch) const;
-    /// Of lit patches, those that need no more rays.
+    /// Counts the lit patches that need no more rays.
     [[nodiscard]] std::size_t unneeded() const { return unneeded_; }
 
     void save(StateWriter& state) const;

@@ -19,7 +19,7 @@ struct LinkedParts {
 /// Two patches are of one part if a ray has passed between them, or between each of them and a
 /// third. Parts are numbered in the order of their first patches. O(entries).
 [[nodiscard]] LinkedParts find_linked_parts(const ExchangeMatrix& factors);
-/// The same of several sets of rays.
+/// Finds the same from several batches of rays.
 [[nodiscard]] LinkedParts find_linked_parts(std::span<const RayCounts> sets);
 
 } // namespace hemilux

@@ -29,7 +29,7 @@ struct RayGoal {
     double aim = 0;
 };
 
-/// Of the solution so far.
+/// Is the error of the solution so far.
 struct ErrorSoFar {
     double relative = 0;               ///< as it is reported
     double variance = 0;               ///< in any unit
@@ -60,7 +60,7 @@ class RayPlan {
     /// Less room than this is not worth a step.
     static constexpr double least_growth = 1.19;
 
-    /// In all until the next step ends.
+    /// Counts them from the start until the next step ends.
     [[nodiscard]] const PlannedRays& rays() const { return now_.rays; }
     [[nodiscard]] bool at_most() const;
     /// Whether the first step was planned.
@@ -81,8 +81,8 @@ class RayPlan {
     void weigh_emitters(std::span<const double> variance, const std::vector<bool>& lit);
 
     void save(StateWriter& state) const;
-    /// Of a plan made with the same arguments. Throws StateError for what save() cannot have
-    /// written.
+    /// Takes the state of a plan made with the same arguments. Throws StateError for what save()
+    /// cannot have written.
     void load(StateReader& state);
 
   private:

@@ -12,7 +12,7 @@ namespace hemilux {
 class ExchangeMatrix;
 class Workers;
 
-/// By patch.
+/// Each has an entry for each patch.
 struct RowSpread {
     std::vector<Vec3> variance; ///< of the light over the directions [(W/m2)^2]
     /// Light of the direction that most of it comes from: mean, weighted by itself [W/m2].
