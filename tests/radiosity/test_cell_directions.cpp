@@ -73,6 +73,32 @@ TEST_CASE("directions into each cell follow the cosine, and starts are uniform")
     }
 }
 
+TEST_CASE("directions into small cells follow the cosine too, depths 3 to 5") {
+    const Hemisphere hemisphere(5);
+    const CellDirections directions(hemisphere, false);
+    // All of level 3, and as many of levels 4 and 5, from the pole to the horizon.
+    std::vector<std::uint16_t> cells;
+    for (const int level : {3, 4, 5}) {
+        const std::size_t first = Hemisphere::cells_up_to(level - 1);
+        const std::size_t count = Hemisphere::cells_up_to(level) - first;
+        for (std::size_t c = 0; c < count; c += count / 256)
+            cells.push_back(static_cast<std::uint16_t>(first + c));
+    }
+    REQUIRE(cells.size() == 3 * 256);
+    double worst = 1;
+    for (const std::uint16_t c : cells) {
+        const SphericalTriangle& shape = hemisphere.cells()[c].shape;
+        Stream stream(directions, c, hash_words({c, 2}));
+        const double p = chi_square(2000, even, [&] {
+                             const auto u = shape.inverse(stream.direction(stream.next()));
+                             REQUIRE(u);
+                             return part_of(u->x, u->y);
+                         }).p_value;
+        worst = std::min(worst, p);
+    }
+    CHECK(worst > sidak(significance, cells.size()));
+}
+
 TEST_CASE("where a sample starts tells nothing of where it goes") {
     const Hemisphere hemisphere(1);
     const CellDirections directions(hemisphere, false);

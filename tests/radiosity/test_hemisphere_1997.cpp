@@ -11,6 +11,7 @@
 #include "support/directions.h"
 #include "support/scenes.h"
 #include "support/solve.h"
+#include "support/step_rays.h"
 
 #include <cmath>
 #include <numbers>
@@ -265,35 +266,6 @@ TEST_CASE("As printed, rays that count carry energy in the step that finds them"
 
 namespace {
 
-/// Keeps the rays whose nearest facets are asked for.
-class Recorder final : public Tracer {
-  public:
-    explicit Recorder(const Tracer& tracer) : tracer_(tracer) {}
-    [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override {
-        return tracer_.closest(ray);
-    }
-    [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target) const override {
-        return tracer_.occluded(ray, target);
-    }
-    [[nodiscard]] std::uint32_t count(const Ray& ray) const override { return tracer_.count(ray); }
-    void closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const override {
-        recorded.insert(recorded.end(), rays.begin(), rays.end());
-        tracer_.closest_stream(rays, out);
-    }
-    mutable std::vector<Ray> recorded;
-
-  private:
-    const Tracer& tracer_;
-};
-
-/// A room whose surfaces absorb all, so that each step is one bounce.
-Scene black_room() {
-    Scene scene = test::room_with_block();
-    for (Material& material : scene.materials)
-        material.reflectance = Vec3(0.0);
-    return scene;
-}
-
 bool is_on(const Polygon& part, const Vec3& point) {
     const auto& c = part.corner;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -304,46 +276,25 @@ bool is_on(const Polygon& part, const Vec3& point) {
     return true;
 }
 
-/// The rays of a step from one patch.
-struct StepRays {
-    std::uint32_t patch;
-    std::vector<Ray> rays;
-    [[nodiscard]] std::size_t into(const Frame& frame, const PrivateCell& cell) const {
-        return static_cast<std::size_t>(std::ranges::count_if(rays, [&](const Ray& ray) {
-            return is_on(cell.origins, ray.origin) &&
-                   cell.shape.contains(frame.to_local(ray.direction));
-        }));
-    }
-};
+std::size_t rays_into(const std::vector<Ray>& rays, const Frame& frame, const PrivateCell& cell) {
+    return static_cast<std::size_t>(std::ranges::count_if(rays, [&](const Ray& ray) {
+        return is_on(cell.origins, ray.origin) &&
+               cell.shape.contains(frame.to_local(ray.direction));
+    }));
+}
 
-std::vector<StepRays> rays_of_step(const Model& model, const SolveOptions& options,
-                                   std::uint32_t step) {
-    const Recorder recorder(model.bvh);
-    Monitor monitor;
-    const SolverInput input{model.mesh, recorder, options, monitor};
-    const auto solver = find_method("hemisphere-1997")->make(input);
-    for (std::uint32_t k = 0; k <= step; ++k) {
-        if (k > 0) // the first step has the pilot's rays before its own
-            recorder.recorded.clear();
-        REQUIRE(solver->step());
-    }
-    std::vector<StepRays> result;
-    for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i) {
-        if (!(model.mesh.material(i).emission.x > 0))
-            continue;
-        result.push_back({i, {}});
-        for (const Ray& ray : recorder.recorded)
-            if (ray.from == model.mesh.patches()[i].facet)
-                result.back().rays.push_back(ray);
-    }
-    REQUIRE_FALSE(result.empty());
-    return result;
+std::vector<test::StepRays> rays_of_step(const Model& model, const SolveOptions& options,
+                                         std::uint32_t step) {
+    test::Steps steps(model, *find_method("hemisphere-1997"), options);
+    for (std::uint32_t k = 0; k < step; ++k)
+        (void)steps.next();
+    return steps.next();
 }
 
 } // namespace
 
 TEST_CASE("End to end, every private cell gets its equal number of rays") {
-    const Model model(black_room());
+    const Model model(test::black(test::room_with_block()));
     for (const auto& numbers : {Subdivision1997Options{}, {1, 2, 1}, {3, 0, 4}}) {
         SolveOptions options;
         options.rays = 40;
@@ -353,14 +304,14 @@ TEST_CASE("End to end, every private cell gets its equal number of rays") {
         for (const std::uint32_t step : {1u, 2u}) {
             const Allocation allocation = allocator.allocate(step);
             const auto cells = static_cast<double>(allocation.cells.size());
-            for (const StepRays& from : rays_of_step(model, options, step)) {
+            for (const test::StepRays& from : rays_of_step(model, options, step)) {
                 const Frame frame = model.mesh.hemisphere_frame(from.patch);
                 const double expected = double(from.rays.size()) / cells;
                 std::size_t sum = 0;
                 double worst = 0;
                 for (const std::uint16_t cell : allocation.cells) {
                     const auto own = allocator.strategy->private_cell(from.patch, cell);
-                    const std::size_t rays = from.into(frame, *own);
+                    const std::size_t rays = rays_into(from.rays, frame, *own);
                     worst = std::max(worst, std::abs(double(rays) - expected));
                     sum += rays;
                 }
@@ -374,7 +325,7 @@ TEST_CASE("End to end, every private cell gets its equal number of rays") {
 }
 
 TEST_CASE("End to end, as printed: rays by chance and rays that count") {
-    const Model model(black_room());
+    const Model model(test::black(test::room_with_block()));
     SolveOptions options;
     options.rays = 700;
     options.threads = 1;
@@ -385,13 +336,13 @@ TEST_CASE("End to end, as printed: rays by chance and rays that count") {
         const std::size_t cells = allocation.cells.size();
         const auto by_chance =
             static_cast<std::size_t>(std::max(1.0, std::round(options.rays / double(cells))));
-        for (const StepRays& from : rays_of_step(model, options, step)) {
+        for (const test::StepRays& from : rays_of_step(model, options, step)) {
             const Frame frame = model.mesh.hemisphere_frame(from.patch);
             std::size_t expected = 0;
             for (const std::uint16_t cell : allocation.cells) {
                 const auto own = allocator.strategy->private_cell(from.patch, cell);
                 expected += by_chance + own->given;
-                CHECK(from.into(frame, *own) >= by_chance);
+                CHECK(rays_into(from.rays, frame, *own) >= by_chance);
                 for (std::uint32_t g = 0; g < own->given; ++g)
                     CHECK(std::ranges::any_of(from.rays, [&](const Ray& ray) {
                         return ray.origin == own->origins.centre() &&
