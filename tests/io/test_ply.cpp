@@ -1,5 +1,5 @@
 #include "io/files/error.h"
-#include "io/results/ply.h"
+#include "io/meshes/ply.h"
 #include "radiosity/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"

@@ -4,8 +4,11 @@
 
 #include "app/command_line/arguments.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/names.h"
 #include "app/settings/numbers.h"
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +39,23 @@ Option add_number(Command command, const std::string& name, const std::string& t
     };
     return add_parsed(command, name, type, help, "a number " + range.text(), parse,
                       [&target](double value) { target = value; });
+}
+
+/// An option whose values are the names of an enumeration, in its order.
+template <class Choice, std::size_t count>
+Option add_choice(Command command, const std::string& name, Choice& target,
+                  const std::array<const char*, count>& names, const std::string& help) {
+    std::string type;
+    for (const char* const choice : names)
+        type += (type.empty() ? "" : "|") + std::string(choice);
+    return command.add_value(name, type, help, [&target, &names, name](const std::string& text) {
+        const auto found = std::ranges::find(names, text);
+        if (found == names.end())
+            throw UsageError(
+                name + ": " +
+                unknown_name("choice", text, std::vector<std::string>(names.begin(), names.end())));
+        target = static_cast<Choice>(found - names.begin());
+    });
 }
 
 template <class Whole, class Target>

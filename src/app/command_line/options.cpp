@@ -138,17 +138,17 @@ void add_method_options(Command command, SolveOptions& options) {
         .group("Method");
     add_division_options(command, options);
     command
-        .add_value("--guide", "NAME",
-                   "what guides " + guided_methods() + ": density, pyramid, visible or learned [density]",
-                   [&options](const std::string& name) {
-                       const auto found = std::ranges::find(guide_names, name);
-                       if (found == guide_names.end()) {
-                           const std::vector<std::string> names(guide_names.begin(),
-                                                                guide_names.end());
-                           throw UsageError("--guide: " + unknown_name("guide", name, names));
-                       }
-                       options.guide = static_cast<Guide>(found - guide_names.begin());
-                   })
+        .add_value(
+            "--guide", "NAME",
+            "what guides " + guided_methods() + ": density, pyramid, visible or learned [density]",
+            [&options](const std::string& name) {
+                const auto found = std::ranges::find(guide_names, name);
+                if (found == guide_names.end()) {
+                    const std::vector<std::string> names(guide_names.begin(), guide_names.end());
+                    throw UsageError("--guide: " + unknown_name("guide", name, names));
+                }
+                options.guide = static_cast<Guide>(found - guide_names.begin());
+            })
         .group("Method");
     command.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased")
         .group("Method");
@@ -178,8 +178,8 @@ void add_stop_options(Command command, StopRule& stop) {
 void add_output_options(Command command, SolveSettings& settings) {
     add_parsed(
         command, "-o,--output", "FILE",
-        "picture .png .hdr, mesh .ply, patches .csv, statistics .json; repeatable",
-        "a file name that ends with .png, .hdr, .ply, .csv or .json",
+        "picture .png .hdr, mesh .glb .ply, patches .csv, statistics .json; repeatable",
+        "a file name that ends with .png, .hdr, .ply, .glb, .csv or .json",
         [](const std::string& path) { return parse_output(path); },
         [&settings](const Output& value) { settings.outputs.push_back(value); })
         .repeatable()
@@ -191,6 +191,14 @@ void add_output_options(Command command, SolveSettings& settings) {
     command
         .add_flag("--every-step", settings.every_step,
                   "also write the pictures after every step, as NAME-0001.png and so on")
+        .group(output_group);
+    add_choice(command, "--bake", settings.bake, bake_names,
+               "what .glb and .ply files hold: radiosity: what surfaces send; irradiance: what "
+               "arrives, for viewers with textures of their own [radiosity]")
+        .group(output_group);
+    add_choice(command, "--ply-colours", settings.ply_colours, ply_colour_names,
+               "colours of .ply files: linear: the light itself as float; shown: 8 bits as "
+               "pictures show it, with the light as further properties [linear]")
         .group(output_group);
     add_view_options(command, settings.view);
 }

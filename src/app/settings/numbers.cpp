@@ -64,6 +64,19 @@ std::optional<Vec3> parse_colour(std::string_view text, const NumberRange& range
     return channels == 3 ? std::optional(colour) : std::nullopt;
 }
 
+std::optional<Exposure> parse_exposure(std::string_view text) {
+    constexpr NumberRange stops{.low = -100, .high = 100};
+    const bool in_stops = text.ends_with("ev") || text.ends_with("EV");
+    if (in_stops)
+        text.remove_suffix(2);
+    if (in_stops && text.starts_with('+') && !text.starts_with("+-"))
+        text.remove_prefix(1);
+    const std::optional<double> value = parse_number(text);
+    if (!value || !(in_stops ? stops : positive).contains(*value))
+        return std::nullopt;
+    return in_stops ? Exposure{.stops = *value} : Exposure{.factor = *value};
+}
+
 std::optional<PixelSize> parse_size(std::string_view text) {
     const std::size_t cross = text.find('x');
     if (cross == std::string_view::npos)

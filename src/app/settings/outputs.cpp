@@ -22,6 +22,7 @@ std::optional<Output> parse_output(std::string_view path) {
         std::to_array<std::pair<std::string_view, OutputKind>>({{".png", OutputKind::png},
                                                                 {".hdr", OutputKind::hdr},
                                                                 {".ply", OutputKind::ply},
+                                                                {".glb", OutputKind::glb},
                                                                 {".csv", OutputKind::csv},
                                                                 {".json", OutputKind::json}});
     const std::string extension = extension_of(std::string(path));
