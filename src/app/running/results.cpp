@@ -5,6 +5,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/view.h"
 #include "app/terminal/log.h"
+#include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/meshes/glb.h"
@@ -132,6 +133,9 @@ RunFiles check_files(const SolveSettings& settings) {
         throw UsageError("nothing would be written; add an output such as -o picture.png");
     if (settings.every_step && std::ranges::none_of(settings.outputs, is_picture, &Output::kind))
         throw UsageError("--every-step is for pictures; add -o picture.png");
+    if (settings.every_step && std::ranges::find(settings.outputs, standard_output,
+                                                 &Output::path) != settings.outputs.end())
+        throw UsageError("--every-step names a file for each step; -o - has no name");
     const auto& [checkpoint, resumed, every] = settings.checkpoint;
     if (!checkpoint.empty())
         written.emplace_back("checkpoint", checkpoint);

@@ -27,7 +27,7 @@ struct Output {
 }
 
 /// The kind of output by the extension of the path, in small or capital letters; empty if it is
-/// unknown.
+/// unknown. "-" is a patch table on standard output, and "-.ply" another kind there.
 [[nodiscard]] std::optional<Output> parse_output(std::string_view path);
 
 /// Throws OutputError where no file can be made or replaced at the path, links being followed.

@@ -146,6 +146,7 @@ struct CompareSettings {
 
 struct InfoSettings {
     SceneSettings scene;
+    bool json = false; ///< one object instead of lines of text
     Verbosity verbosity = Verbosity::normal;
 };
 
