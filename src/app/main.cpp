@@ -10,6 +10,7 @@
 #include "io/files/printable.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <new>
 #include <string>
@@ -46,6 +47,15 @@ std::vector<std::string> arguments_of(int argc, const char* const* argv) {
     return words;
 }
 
+/// What a result depends on. Where it goes, how many threads work and what is reported meanwhile
+/// would give files of the same result different bytes.
+Provenance provenance(const Command& command, std::uint64_t seed) {
+    constexpr auto beside = std::to_array<std::string_view>(
+        {"--output", "--stats", "--steps-log", "--error-map", "--points-output", "--every-step",
+         "--threads", "--memory", "--checkpoint", "--every", "--resume", "--quiet", "--verbose"});
+    return {"hemilux " HEMILUX_VERSION, "hemilux " + command.text_given(beside), seed};
+}
+
 /// `advice` names the help of the subcommand, where one is asked for.
 int run_program(std::vector<std::string> words, std::string& advice) {
     Arguments program("hemilux",
@@ -72,10 +82,14 @@ int run_program(std::vector<std::string> words, std::string& advice) {
             throw OutputError("standard output", "cannot be written");
         return exit_done;
     }
-    if (solve_command.parsed())
+    if (solve_command.parsed()) {
+        solve_settings.from = provenance(solve_command, solve_settings.options.seed);
         return solve(solve_settings);
-    if (compare_command.parsed())
+    }
+    if (compare_command.parsed()) {
+        compare_settings.from = provenance(compare_command, compare_settings.options.seed);
         return compare(compare_settings);
+    }
     if (density_command.parsed())
         return density(density_settings);
     if (formfactors_command.parsed())

@@ -43,6 +43,7 @@ const std::vector<std::string> rooms{
     "io/gltf",
     "io/results",
     "io/pictures",
+    "io/meshes",
     "io/drawings",
     "app/settings",
     "app/terminal",
@@ -78,8 +79,9 @@ bool may_include_system(const std::string& file, const std::string& header) {
         return layer == "io" && source;
     if (header == "nlohmann/json_fwd.hpp")
         return layer == "io";
-    if (begins("nlohmann/")) // these two take long to compile: few files include them
-        return file == "io/results/statistics.cpp" || file == "io/gltf/json_value.cpp";
+    if (begins("nlohmann/")) // these take long to compile: few files include them
+        return file == "io/results/statistics.cpp" || file == "io/results/scene_info_json.cpp" ||
+               file == "io/meshes/glb.cpp" || file == "io/gltf/json_value.cpp";
     if (begins("CLI/"))
         return file == "app/command_line/arguments.cpp";
     if (header == "immintrin.h" || header == "sys/mman.h")

@@ -80,9 +80,34 @@ TEST_CASE("outputs and picture sizes") {
     CHECK(parse_output("b.HDR")->kind == OutputKind::hdr);
     for (const char* path : {"", "png", "a.txt", "a.png.gz", ".png", "dir.png/file"})
         CHECK_FALSE(parse_output(path).has_value());
+    CHECK(parse_output("-")->kind == OutputKind::csv);
+    CHECK(parse_output("-.PLY")->path == "-");
+    CHECK(parse_output("./-.ply")->path == "./-.ply");
+    CHECK(parse_output("a-.ply")->path == "a-.ply");
+    CHECK_FALSE(parse_output("-.txt").has_value());
     CHECK(parse_size("800x600")->width == 800);
     for (const char* text : {"", "800", "x", "0x600", "800x", "800x600x2", "-1x5", "99999x1"})
         CHECK_FALSE(parse_size(text).has_value());
+}
+
+TEST_CASE("shares, times and exposures have units") {
+    CHECK(parse_share("1%") == .01);
+    CHECK(parse_share(".025") == .025);
+    CHECK(parse_share("150%") == 1.5);
+    CHECK(parse_seconds("90") == 90);
+    CHECK(parse_seconds("90s") == 90);
+    CHECK(parse_seconds("1.5m") == 90);
+    CHECK(parse_seconds("2h") == 7200);
+    for (const char* text : {"", "%", "s", "1 %", "2d", "2ms", "1h30m", "1e308h"}) {
+        CHECK_FALSE(parse_share(text).has_value());
+        CHECK_FALSE(parse_seconds(text).has_value());
+    }
+    CHECK(parse_exposure("2.5")->factor == 2.5);
+    CHECK(parse_exposure("+1.5ev")->stops == 1.5);
+    CHECK(parse_exposure("-2EV")->stops == -2);
+    CHECK_FALSE(parse_exposure("0ev")->factor.has_value());
+    for (const char* text : {"", "ev", "0", "-1", "+1", "++1ev", "+-1ev", "101ev", "1e"})
+        CHECK_FALSE(parse_exposure(text).has_value());
 }
 
 TEST_CASE("figures for people") {

@@ -37,7 +37,63 @@ std::vector<glm::vec3> short_rows_of_hdr(const std::string& path, std::size_t pi
     return result;
 }
 
+/// The CRC of a PNG chunk by division of polynomials, bit after bit from the lowest.
+std::uint32_t crc_of(const std::string& bytes) {
+    std::uint32_t remainder = 0xffffffff;
+    for (const char c : bytes)
+        for (int bit = 0; bit < 8; ++bit) {
+            const bool odd = ((remainder ^ static_cast<unsigned char>(c) >> bit) & 1u) != 0;
+            remainder = remainder >> 1 ^ (odd ? 0xedb88320 : 0);
+        }
+    return ~remainder;
+}
+
+std::uint32_t big_endian_at(const std::string& file, std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        value = value << 8 | static_cast<unsigned char>(file.at(at + i));
+    return value;
+}
+
+/// The contents of the chunks of a PNG, each with its type in front.
+std::vector<std::string> chunks_of(const std::string& file) {
+    std::vector<std::string> chunks;
+    for (std::size_t at = 8; at < file.size();) {
+        const std::size_t length = big_endian_at(file, at);
+        chunks.push_back(file.substr(at + 4, 4 + length));
+        CHECK(big_endian_at(file, at + 8 + length) == crc_of(chunks.back()));
+        at += 12 + length;
+    }
+    return chunks;
+}
+
 } // namespace
+
+TEST_CASE("a PNG says how it was made") {
+    const TemporaryFolder folder;
+    const Image image = gradient(9, 5);
+    write_png(folder.path("a.png"), image, 1, {"hemilux 1", "hemilux solve k\xC3\xBC.obj\n", 42});
+    const auto chunks = chunks_of(content_of(folder.path("a.png")));
+    REQUIRE(chunks.size() == 6);
+    CHECK(chunks[0].starts_with("IHDR"));
+    CHECK(chunks[1] == std::string("tEXtSoftware\0hemilux 1", 22));
+    CHECK(chunks[2] == std::string("tEXtCommand\0hemilux solve k??.obj?", 34));
+    CHECK(chunks[3] == std::string("tEXtSeed\x00", 9) + "42");
+    CHECK(chunks[5] == "IEND");
+    write_png(folder.path("b.png"), image, 1);
+    CHECK(chunks_of(content_of(folder.path("b.png"))).size() == 3);
+    CHECK(read_png(folder.path("a.png")).bytes == read_png(folder.path("b.png")).bytes);
+}
+
+TEST_CASE("the header of an HDR file says how it was made") {
+    const TemporaryFolder folder;
+    const Image image = gradient(4, 2);
+    write_hdr(folder.path("a.hdr"), image, {"hemilux 1", "hemilux solve a.obj", 42});
+    CHECK_THAT(content_of(folder.path("a.hdr")),
+               Catch::StartsWith("#?RADIANCE\nSOFTWARE=hemilux 1\nhemilux solve a.obj\nSEED=42\n"));
+    write_hdr(folder.path("b.hdr"), image);
+    CHECK(short_rows_of_hdr(folder.path("a.hdr"), 8) == short_rows_of_hdr(folder.path("b.hdr"), 8));
+}
 
 TEST_CASE("the sRGB curve has its published values") {
     CHECK(srgb_from_linear(0) == 0);

@@ -1,11 +1,13 @@
 #include "io/files/error.h"
-#include "io/results/ply.h"
+#include "io/meshes/ply.h"
+#include "io/pictures/image.h"
 #include "radiosity/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <set>
 
@@ -102,6 +104,34 @@ TEST_CASE("triangles stay triangles in a PLY, and neighbours share vertices") {
     }
     CHECK(used.size() == ply.vertices.size());
     CHECK(ply.vertices.size() == ply.faces.size() / 2 + 2);
+}
+
+TEST_CASE("a PLY for viewers holds what a picture shows, and the light beside it") {
+    const TemporaryFolder folder;
+    const Mesh mesh(furnace_box(1, 0.5));
+    const CornerClasses classes = find_corner_classes(mesh);
+    const Vec3 light(0.5, 0.25, 2);
+    write_ply(folder.path("a.ply"), mesh, classes,
+              {std::vector<Vec3>(classes.position.size(), light), Bake::irradiance, Display(0.5)},
+              PlyColours::shown);
+    const std::string file = content_of(folder.path("a.ply")), end = "end_header\n";
+    std::size_t at = file.find(end) + end.size();
+    CHECK_THAT(file, Catch::Contains("property uchar red\nproperty uchar green\n"
+                                     "property uchar blue\nproperty float quality\n"
+                                     "property float irradiance_red\n"));
+    REQUIRE(count_in(file, "vertex") == classes.position.size());
+    for (std::size_t k = 0; k < classes.position.size(); ++k) {
+        at += 3 * sizeof(double);
+        for (int channel = 0; channel < 3; ++channel)
+            CHECK(take<std::uint8_t>(file, at) ==
+                  std::lround(255 * srgb_from_linear(static_cast<float>(light[channel] / 2))));
+        CHECK(take<float>(file, at) == Approx(0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722 * 2));
+        for (int channel = 0; channel < 3; ++channel)
+            CHECK(take<float>(file, at) == Approx(light[channel]));
+    }
+    for (std::size_t face = 0; face < mesh.patches().size(); ++face)
+        at += take<std::uint8_t>(file, at) * sizeof(std::uint32_t);
+    CHECK(at == file.size());
 }
 
 TEST_CASE("a PLY that cannot be written is an OutputError") {

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 #include <utility>
 
@@ -80,6 +81,20 @@ std::string refused(const CLI::App& program, const CLI::ParseError& error) {
     if (dynamic_cast<const CLI::ExtrasError*>(&error) && !left.empty())
         return "'" + left.front() + "' was not expected; an option's value follows its name";
     return message;
+}
+
+/// A word as a shell takes it.
+std::string quoted(const std::string& word) {
+    const auto is_plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view("_./:=,+-%@").find(static_cast<char>(c)) != std::string_view::npos;
+    };
+    if (!word.empty() && std::ranges::all_of(word, is_plain))
+        return word;
+    std::string text = "'";
+    for (const char c : word)
+        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
 }
 
 } // namespace
@@ -164,6 +179,25 @@ void Command::after_parsing(std::function<void()> action) const {
 }
 
 bool Command::given(const std::string& option) const { return app_->count(option) > 0; }
+
+std::string Command::text_given(std::span<const std::string_view> except) const {
+    std::string text = app_->get_name();
+    for (const CLI::Option* const option : app_->get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || std::ranges::find(except, name) != except.end())
+            continue;
+        const std::string words = option->get_positional() ? " " : " " + name + " ";
+        if (option->get_items_expected_max() == 0)
+            text += " " + name;
+        else if (option->get_delimiter() != '\0')
+            text += words + quoted(CLI::detail::join(option->results(),
+                                                     std::string(1, option->get_delimiter())));
+        else
+            for (const std::string& value : option->results())
+                text += words + quoted(value);
+    }
+    return text;
+}
 
 bool Command::parsed() const { return app_->parsed(); }
 

@@ -4,7 +4,9 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -61,6 +63,9 @@ class Command {
 
     /// Whether the option was given.
     [[nodiscard]] bool given(const std::string& option) const;
+    /// What was given, in the order of --help, as a shell takes it; without the options of these
+    /// names.
+    [[nodiscard]] std::string text_given(std::span<const std::string_view> except) const;
     /// Whether the subcommand was named.
     [[nodiscard]] bool parsed() const;
 

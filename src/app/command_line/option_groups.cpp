@@ -219,8 +219,20 @@ void add_camera_options(Command command, ViewSettings& view) {
 
 void add_view_options(Command command, ViewSettings& view) {
     add_camera_options(command, view);
-    add_number(command, "--exposure", "X", view.exposure, positive,
-               "factor on the light of .png pictures [automatic]")
+    add_parsed(
+        command, "--exposure", "X|STOPSev",
+        "factor on the light of .png pictures; as +1.5ev in stops from the automatic one "
+        "[automatic]",
+        "a number above 0, or stops from -100 to 100 such as +1.5ev",
+        [](const std::string& text) { return parse_exposure(text); },
+        [&view](const Exposure& value) {
+            view.exposure = value.factor;
+            view.stops = value.stops;
+        })
+        .group(output_group);
+    add_choice(command, "--tone", view.tone, tone_names,
+               "how .png pictures show light above 0.8 of the screen's: neutral: compressed, with "
+               "its hue; srgb: cut at 1 in each channel [neutral]")
         .group(output_group);
 }
 

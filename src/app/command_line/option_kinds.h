@@ -4,8 +4,11 @@
 
 #include "app/command_line/arguments.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/names.h"
 #include "app/settings/numbers.h"
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +39,51 @@ Option add_number(Command command, const std::string& name, const std::string& t
     };
     return add_parsed(command, name, type, help, "a number " + range.text(), parse,
                       [&target](double value) { target = value; });
+}
+
+/// A relative error above 0. One of 1 or more without a % sign is a slip: 1 for 1 %.
+template <class Target>
+Option add_error(Command command, const std::string& name, Target& target,
+                 const std::string& help) {
+    const auto parse = [name](const std::string& text) {
+        const std::optional<double> value = parse_share(text);
+        if (value && *value >= 1 && !text.ends_with('%'))
+            throw UsageError(name + ": was " + text + " % meant? Write " + text +
+                             "%; without the sign, 1 is an error of 100 %");
+        return value && positive.contains(*value) ? value : std::nullopt;
+    };
+    return add_parsed(command, name, "X|PERCENT%", help, "an error above 0 such as 1% or .01",
+                      parse, [&target](double value) { target = value; });
+}
+
+/// A time: seconds, or a number with s, m or h.
+template <class Target>
+Option add_seconds(Command command, const std::string& name, Target& target,
+                   const NumberRange& range, const std::string& help) {
+    const auto parse = [range](const std::string& text) {
+        const std::optional<double> value = parse_seconds(text);
+        return value && range.contains(*value) ? value : std::nullopt;
+    };
+    return add_parsed(command, name, "SECONDS", help,
+                      "a time " + range.text() + " such as 90, 90s, 2m or 1h", parse,
+                      [&target](double value) { target = value; });
+}
+
+/// An option whose values are the names of an enumeration, in its order.
+template <class Choice, std::size_t count>
+Option add_choice(Command command, const std::string& name, Choice& target,
+                  const std::array<const char*, count>& names, const std::string& help) {
+    std::string type;
+    for (const char* const choice : names)
+        type += (type.empty() ? "" : "|") + std::string(choice);
+    return command.add_value(name, type, help, [&target, &names, name](const std::string& text) {
+        const auto found = std::ranges::find(names, text);
+        if (found == names.end())
+            throw UsageError(
+                name + ": " +
+                unknown_name("choice", text, std::vector<std::string>(names.begin(), names.end())));
+        target = static_cast<Choice>(found - names.begin());
+    });
 }
 
 template <class Whole, class Target>

@@ -138,17 +138,17 @@ void add_method_options(Command command, SolveOptions& options) {
         .group("Method");
     add_division_options(command, options);
     command
-        .add_value("--guide", "NAME",
-                   "what guides " + guided_methods() + ": density, pyramid, visible or learned [density]",
-                   [&options](const std::string& name) {
-                       const auto found = std::ranges::find(guide_names, name);
-                       if (found == guide_names.end()) {
-                           const std::vector<std::string> names(guide_names.begin(),
-                                                                guide_names.end());
-                           throw UsageError("--guide: " + unknown_name("guide", name, names));
-                       }
-                       options.guide = static_cast<Guide>(found - guide_names.begin());
-                   })
+        .add_value(
+            "--guide", "NAME",
+            "what guides " + guided_methods() + ": density, pyramid, visible or learned [density]",
+            [&options](const std::string& name) {
+                const auto found = std::ranges::find(guide_names, name);
+                if (found == guide_names.end()) {
+                    const std::vector<std::string> names(guide_names.begin(), guide_names.end());
+                    throw UsageError("--guide: " + unknown_name("guide", name, names));
+                }
+                options.guide = static_cast<Guide>(found - guide_names.begin());
+            })
         .group("Method");
     command.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased")
         .group("Method");
@@ -164,10 +164,10 @@ void add_stop_options(Command command, StopRule& stop) {
     add_whole<std::uint32_t>(command, "--steps", stop.steps, 1,
                              std::numeric_limits<std::uint32_t>::max(), "after N steps")
         .group(group);
-    add_number(command, "--time", "SECONDS", stop.seconds, positive, "after a time of solving")
+    add_seconds(command, "--time", stop.seconds, positive,
+                "after a time of solving; 2m and 1h are minutes and hours")
         .group(group);
-    add_number(command, "--error", "X", stop.error, positive,
-               "at an estimated relative error, e.g. .01")
+    add_error(command, "--error", stop.error, "at an estimated relative error, e.g. 1% or .01")
         .group(group);
     add_whole<std::uint64_t>(
         command, "--max-rays", stop.rays, 1, std::numeric_limits<std::uint64_t>::max(),
@@ -178,8 +178,8 @@ void add_stop_options(Command command, StopRule& stop) {
 void add_output_options(Command command, SolveSettings& settings) {
     add_parsed(
         command, "-o,--output", "FILE",
-        "picture .png .hdr, mesh .ply, patches .csv, statistics .json; repeatable",
-        "a file name that ends with .png, .hdr, .ply, .csv or .json",
+        "picture .png .hdr, mesh .glb .ply, patches .csv, statistics .json; repeatable",
+        "a file name that ends with .png, .hdr, .ply, .glb, .csv or .json",
         [](const std::string& path) { return parse_output(path); },
         [&settings](const Output& value) { settings.outputs.push_back(value); })
         .repeatable()
@@ -191,6 +191,14 @@ void add_output_options(Command command, SolveSettings& settings) {
     command
         .add_flag("--every-step", settings.every_step,
                   "also write the pictures after every step, as NAME-0001.png and so on")
+        .group(output_group);
+    add_choice(command, "--bake", settings.bake, bake_names,
+               "what .glb and .ply files hold: radiosity: what surfaces send; irradiance: what "
+               "arrives, for viewers with textures of their own [radiosity]")
+        .group(output_group);
+    add_choice(command, "--ply-colours", settings.ply_colours, ply_colour_names,
+               "colours of .ply files: linear: the light itself as float; shown: 8 bits as "
+               "pictures show it, with the light as further properties [linear]")
         .group(output_group);
     add_view_options(command, settings.view);
 }
@@ -267,8 +275,8 @@ void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
         .add_text("--checkpoint", "FILE", checkpoint.path,
                   "keep what was computed in a file, after steps and at the end")
         .group(group);
-    add_number(command, "--every", "SECONDS", checkpoint.every, non_negative,
-               "of the time between two checkpoints; 0: after each step [60]")
+    add_seconds(command, "--every", checkpoint.every, non_negative,
+                "of the time between two checkpoints; 0: after each step [60]")
         .group(group);
     command
         .add_text("--resume", "FILE", checkpoint.resumed,
@@ -296,8 +304,8 @@ void add_budget_options(Command command, CompareSettings& settings) {
     const std::string group = "Budget of each run of each method, one of the two";
     const Option rays = add_number(command, "--budget-rays", "N", settings.budget.rays, positive,
                                    "rays, density rays included [64 steps]");
-    const Option seconds = add_number(command, "--budget-time", "SECONDS", settings.budget.seconds,
-                                      positive, "its own time, preprocessing included");
+    const Option seconds = add_seconds(command, "--budget-time", settings.budget.seconds, positive,
+                                       "its own time, preprocessing included");
     rays.group(group);
     seconds.group(group).excludes(rays);
     add_whole<std::uint32_t>(command, "--runs", settings.runs, 1, 1000,
@@ -334,8 +342,8 @@ void add_reference_options(Command command, CompareSettings& settings) {
                        settings.reference = text == method ? std::string() : text;
                    })
         .group(comparison_group);
-    add_number(command, "--reference-error", "X", settings.reference_error, positive,
-               "estimated relative error of the " + method + " method [.002]")
+    add_error(command, "--reference-error", settings.reference_error,
+              "estimated relative error of the " + method + " method [.002]")
         .group(comparison_group);
     command
         .add_flag("--total", settings.total,
@@ -379,6 +387,7 @@ Examples:
 constexpr const char* info_examples = R"(Examples:
   hemilux info room.obj
   hemilux info room.obj --max-edge .1
+  hemilux info room.obj --json
 )";
 
 constexpr const char* exit_codes = R"(
@@ -466,6 +475,8 @@ Command add_info_command(Arguments& program, InfoSettings& settings) {
     const Command command = program.add_command(
         "info", "what was read from a scene, what is doubtful in it, what it does not need");
     add_scene_options(command, settings.scene);
+    command.add_flag("--json", settings.json, "one JSON object instead of lines of text")
+        .group(output_group);
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(std::string(info_examples) + exit_codes);
     return command;

@@ -74,17 +74,17 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
                            comparison.settings.options.threads, time);
     };
     const Image truth = picture(reference.radiosity);
-    const double exposure = exposure_of(view, truth);
-    const auto write = [&](const std::string& name, const Image& image, double factor) {
+    const Display display = display_of(view, truth);
+    const auto write = [&](const std::string& name, const Image& image, const Display& shown) {
         const std::string path = path_in(comparison, name);
-        report.attempt(path, [&] { write_png(path, image, factor); });
+        report.attempt(path, [&] { write_png(path, image, shown, comparison.settings.from); });
     };
-    write("reference.png", truth, exposure);
+    write("reference.png", truth, display);
     std::vector<std::vector<float>> differences;
     for (const MethodRuns& result : results) {
         const Image image = picture(result.runs.front().radiosity);
-        write(result.variant.name + ".png", image, exposure);
-        differences.push_back(luminance_difference(image, truth, exposure));
+        write(result.variant.name + ".png", image, display);
+        differences.push_back(luminance_difference(image, truth, display.exposure));
     }
     const DifferenceScale scale = common_scale(differences);
     for (std::size_t i = 0; i < results.size(); ++i)

@@ -7,7 +7,7 @@
 #include "app/terminal/log.h"
 #include "io/files/error.h"
 #include "io/files/printable.h"
-#include "io/scene_files/inspect.h"
+#include "io/results/scene_info_json.h"
 
 #include <iostream>
 
@@ -15,35 +15,37 @@ namespace hemilux {
 
 namespace {
 
-void print(const std::string& text) { std::cout << printable_message(text); }
-
-/// The scene as it is solved; prints what its sides are like.
-Scene with_sides(Scene scene, Sides sides) {
-    if (sides == Sides::both) {
-        print(describe_both_sides(scene));
-        return scene;
-    }
-    const Orientation found = find_orientation(scene);
-    print(describe(found, scene, sides));
-    if (sides == Sides::automatic)
-        turn_faces(scene, found);
-    return scene;
+std::string describe(const SceneReport& report, const Scene& scene, const SceneSettings& asked) {
+    std::string text = describe(report.info);
+    if (scene.facets.empty())
+        return text;
+    text += report.sides ? describe(*report.sides, scene, asked.sides) : describe_both_sides(scene);
+    if (asked.mesh.max_edge > 0 || asked.mesh.two_sided)
+        text += "patches             " + std::to_string(report.patches) + " (as divided)\n";
+    return text + describe(report.left_out);
 }
 
 } // namespace
 
 int info(const InfoSettings& settings) {
-    ReadResult read = load_scene(settings.scene, {});
+    const SceneSettings& asked = settings.scene;
+    const ReadResult read = load_scene(asked, {});
     for (const std::string& warning : read.warnings)
         log_line(settings.verbosity, Verbosity::normal, "warning: " + warning);
-    print(describe(inspect(read)));
+    SceneReport report{
+        .info = inspect(read), .sides = {}, .left_out = {}, .warnings = read.warnings};
     if (!read.scene.facets.empty()) {
-        const Mesh mesh =
-            divide_scene(with_sides(std::move(read.scene), settings.scene.sides), settings.scene);
-        if (settings.scene.mesh.max_edge > 0 || settings.scene.mesh.two_sided)
-            std::cout << "patches             " << mesh.patches().size() << " (as divided)\n";
-        print(describe(left_out(find_needs(mesh))));
+        Scene scene = read.scene;
+        if (asked.sides != Sides::both)
+            report.sides = find_orientation(scene);
+        if (asked.sides == Sides::automatic)
+            turn_faces(scene, *report.sides);
+        const Mesh mesh = divide_scene(std::move(scene), asked);
+        report.patches = mesh.patches().size();
+        report.left_out = left_out(find_needs(mesh));
     }
+    std::cout << (settings.json ? to_json(report)
+                                : printable_message(describe(report, read.scene, asked)));
     std::cout.flush();
     if (!std::cout)
         throw OutputError("standard output", "cannot be written");

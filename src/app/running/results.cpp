@@ -5,10 +5,11 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/view.h"
 #include "app/terminal/log.h"
+#include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
+#include "io/meshes/glb.h"
 #include "io/pictures/image.h"
-#include "io/results/ply.h"
 #include "io/results/smooth.h"
 #include "radiosity/sampling/workers.h"
 
@@ -40,7 +41,7 @@ class SharedClasses {
 class Picture {
   public:
     Picture(const SolveSettings& settings, const Results& results, SharedClasses& classes)
-        : view_(settings.view), verbosity_(settings.verbosity),
+        : view_(settings.view), verbosity_(settings.verbosity), from_(settings.from),
           gather_(settings.gather_pictures ? settings.gather : 0), results_(results),
           classes_(classes), time_(results.interrupted) {}
 
@@ -52,10 +53,7 @@ class Picture {
             image_ = render();
         if (time_.is_over())
             throw Interrupted();
-        if (output.kind == OutputKind::hdr)
-            write_hdr(output.path, *image_);
-        else
-            write_png(output.path, *image_, exposure_of(view_, *image_));
+        write_picture(output, *image_, view_, from_);
     }
 
   private:
@@ -75,6 +73,7 @@ class Picture {
 
     const ViewSettings& view_;
     Verbosity verbosity_;
+    const Provenance& from_;
     unsigned gather_; ///< rays at a point; 0: pictures interpolate
     const Results& results_;
     SharedClasses& classes_;
@@ -83,16 +82,27 @@ class Picture {
     std::optional<Image> image_;
 };
 
-void write_output(const Output& output, const Results& results, SharedClasses& classes,
-                  Picture& picture) {
+void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,
+                const CornerClasses& classes) {
+    VertexLight light{baked_light(results.mesh, classes, results.solution, settings.bake),
+                      settings.bake};
+    light.display = display_of(settings.view, results.mesh, classes, light.of_class);
+    if (output.kind == OutputKind::glb)
+        write_glb(output.path, results.mesh, classes, light, settings.from);
+    else
+        write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
+}
+
+void write_output(const SolveSettings& settings, const Output& output, const Results& results,
+                  SharedClasses& classes, Picture& picture) {
     const Solution& solution = results.solution;
     switch (output.kind) {
     case OutputKind::png:
     case OutputKind::hdr:
         return picture.write(output);
     case OutputKind::ply:
-        return write_ply(output.path, results.mesh, solution.radiosity, classes.get(),
-                         solution.slope);
+    case OutputKind::glb:
+        return write_mesh(settings, output, results, classes.get());
     case OutputKind::csv:
         return write_patch_table(output.path, results.mesh, solution.radiosity,
                                  solution.standard_error, Workers(results.statistics.threads),
@@ -123,6 +133,9 @@ RunFiles check_files(const SolveSettings& settings) {
         throw UsageError("nothing would be written; add an output such as -o picture.png");
     if (settings.every_step && std::ranges::none_of(settings.outputs, is_picture, &Output::kind))
         throw UsageError("--every-step is for pictures; add -o picture.png");
+    if (settings.every_step && std::ranges::find(settings.outputs, standard_output,
+                                                 &Output::path) != settings.outputs.end())
+        throw UsageError("--every-step names a file for each step; -o - has no name");
     const auto& [checkpoint, resumed, every] = settings.checkpoint;
     if (!checkpoint.empty())
         written.emplace_back("checkpoint", checkpoint);
@@ -169,7 +182,8 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     std::vector<WriteReport> reports(settings.outputs.size());
     const auto write = [&](std::size_t k) {
         const Output& output = settings.outputs[k];
-        reports[k].attempt(output.path, [&] { write_output(output, results, classes, picture); });
+        reports[k].attempt(output.path,
+                           [&] { write_output(settings, output, results, classes, picture); });
     };
     // All pictures are one, made by all threads; meanwhile each of the tables has one. A single
     // thread writes the tables first, as a signal may end the pictures.

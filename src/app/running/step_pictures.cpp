@@ -31,10 +31,7 @@ void StepPictures::write(std::span<const Vec3> radiosity, std::uint32_t step) {
                                     settings_.options.threads, time);
             if (!view_.exposure)
                 view_.exposure = auto_exposure(*image);
-            if (output.kind == OutputKind::hdr)
-                write_hdr(path, *image);
-            else
-                write_png(path, *image, *view_.exposure);
+            write_picture({path, output.kind}, *image, view_, settings_.from);
         });
     }
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace hemilux {
 
@@ -62,6 +63,41 @@ std::optional<Vec3> parse_colour(std::string_view text, const NumberRange& range
     if (channels == 1)
         return Vec3(colour[0]);
     return channels == 3 ? std::optional(colour) : std::nullopt;
+}
+
+std::optional<double> parse_share(std::string_view text) {
+    const bool in_hundredths = text.ends_with('%');
+    if (in_hundredths)
+        text.remove_suffix(1);
+    const std::optional<double> value = parse_number(text);
+    return value && in_hundredths ? *value / 100 : value;
+}
+
+std::optional<double> parse_seconds(std::string_view text) {
+    static constexpr auto units =
+        std::to_array<std::pair<char, double>>({{'s', 1}, {'m', 60}, {'h', 3600}});
+    double unit = 1;
+    for (const auto& [letter, seconds] : units)
+        if (text.ends_with(letter)) {
+            unit = seconds;
+            text.remove_suffix(1);
+            break;
+        }
+    const std::optional<double> value = parse_number(text);
+    return value && std::isfinite(unit * *value) ? std::optional(unit * *value) : std::nullopt;
+}
+
+std::optional<Exposure> parse_exposure(std::string_view text) {
+    constexpr NumberRange stops{.low = -100, .high = 100};
+    const bool in_stops = text.ends_with("ev") || text.ends_with("EV");
+    if (in_stops)
+        text.remove_suffix(2);
+    if (in_stops && text.starts_with('+') && !text.starts_with("+-"))
+        text.remove_prefix(1);
+    const std::optional<double> value = parse_number(text);
+    if (!value || !(in_stops ? stops : positive).contains(*value))
+        return std::nullopt;
+    return in_stops ? Exposure{.stops = *value} : Exposure{.factor = *value};
 }
 
 std::optional<PixelSize> parse_size(std::string_view text) {

@@ -33,6 +33,19 @@ inline constexpr NumberRange non_negative{.low = 0, .high = no_limit};
 /// Reads "r,g,b", or one number for all three; empty if a channel is missing or out of the range.
 [[nodiscard]] std::optional<Vec3> parse_colour(std::string_view text, const NumberRange& range);
 
+/// Reads a share: "2.5%" or ".025"; any finite number.
+[[nodiscard]] std::optional<double> parse_share(std::string_view text);
+/// Reads a time in seconds: "90", "90s", "1.5m" or "1h"; any finite number.
+[[nodiscard]] std::optional<double> parse_seconds(std::string_view text);
+
+/// An exposure: a factor, or how often the automatic one is doubled.
+struct Exposure {
+    std::optional<double> factor = {};
+    double stops = 0;
+};
+/// Reads a factor above 0, or stops from -100 to 100 such as "+1.5ev".
+[[nodiscard]] std::optional<Exposure> parse_exposure(std::string_view text);
+
 /// A picture's width and height in pixels.
 struct PixelSize {
     int width, height;

@@ -2,6 +2,7 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
+#include "io/files/atomic_file.h"
 #include "io/files/error.h"
 
 #include <algorithm>
@@ -22,16 +23,22 @@ std::optional<Output> parse_output(std::string_view path) {
         std::to_array<std::pair<std::string_view, OutputKind>>({{".png", OutputKind::png},
                                                                 {".hdr", OutputKind::hdr},
                                                                 {".ply", OutputKind::ply},
+                                                                {".glb", OutputKind::glb},
                                                                 {".csv", OutputKind::csv},
                                                                 {".json", OutputKind::json}});
-    const std::string extension = extension_of(std::string(path));
+    const fs::path name(path);
+    const bool is_stream = name.stem() == standard_output && !name.has_parent_path();
+    const std::string extension =
+        path == standard_output ? ".csv" : extension_of(std::string(path));
     for (const auto& [known, kind] : kinds)
         if (extension == known)
-            return Output{std::string(path), kind};
+            return Output{std::string(is_stream ? standard_output : path), kind};
     return std::nullopt;
 }
 
 void check_writable(const std::string& path) {
+    if (path == standard_output)
+        return;
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (fs::is_directory(status))

@@ -11,7 +11,7 @@
 
 namespace hemilux {
 
-enum class OutputKind { png, hdr, ply, csv, json };
+enum class OutputKind { png, hdr, ply, glb, csv, json };
 
 /// A file that the user asked for.
 struct Output {
@@ -22,9 +22,12 @@ struct Output {
 [[nodiscard]] constexpr bool is_picture(OutputKind kind) {
     return kind == OutputKind::png || kind == OutputKind::hdr;
 }
+[[nodiscard]] constexpr bool is_mesh(OutputKind kind) {
+    return kind == OutputKind::ply || kind == OutputKind::glb;
+}
 
 /// The kind of output by the extension of the path, in small or capital letters; empty if it is
-/// unknown.
+/// unknown. "-" is a patch table on standard output, and "-.ply" another kind there.
 [[nodiscard]] std::optional<Output> parse_output(std::string_view path);
 
 /// Throws OutputError where no file can be made or replaced at the path, links being followed.

@@ -5,6 +5,8 @@
 #include "app/settings/numbers.h"
 #include "app/settings/outputs.h"
 #include "app/settings/overrides.h"
+#include "io/files/provenance.h"
+#include "io/meshes/ply.h"
 #include "io/pictures/camera.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solver.h"
@@ -50,6 +52,8 @@ struct ViewSettings {
     bool uses_camera_of_scene = true; ///< where there is one and none was given
     PixelSize size{800, 600};
     std::optional<double> exposure; ///< empty: from the picture
+    double stops = 0;               ///< the exposure is doubled so often
+    Tone tone = Tone::neutral;
 };
 
 /// --points and --points-output: where the light is to be known, and the table of it.
@@ -92,6 +96,9 @@ struct SolveSettings {
     StopRule stop;            ///< as given; the method's own rule stands in for an empty one
     ViewSettings view;
     std::vector<Output> outputs;
+    Bake bake = Bake::radiosity;                 ///< what mesh files hold
+    PlyColours ply_colours = PlyColours::linear; ///< and how .ply files do
+    Provenance from;                             ///< of the files
     /// Paths; empty: not asked for.
     std::string statistics, steps_log, error_map;
     bool every_step = false;         ///< pictures also after every step
@@ -131,6 +138,7 @@ struct CompareSettings {
     double reference_error = .002; ///< estimated error at which it is good enough
     bool total = false;            ///< errors are those of the light itself, division included
     ViewSettings view;
+    Provenance from; ///< of the files
     std::string folder;
     std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
     Verbosity verbosity = Verbosity::normal;
@@ -138,6 +146,7 @@ struct CompareSettings {
 
 struct InfoSettings {
     SceneSettings scene;
+    bool json = false; ///< one object instead of lines of text
     Verbosity verbosity = Verbosity::normal;
 };
 

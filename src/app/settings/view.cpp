@@ -1,9 +1,15 @@
 #include "app/settings/view.h"
 
 #include "app/settings/exit_code.h"
+<<<<<<< HEAD
 #include "app/settings/text.h"
+=======
+#include "io/meshes/baked_light.h"
+>>>>>>> 59fabd8 (Baked light as .glb, PLY with colours that viewers show, and a tone curve that keeps hue)
 #include "io/pictures/render.h"
 #include "radiosity/scene/mesh.h"
+
+#include <cmath>
 
 namespace hemilux {
 
@@ -50,8 +56,24 @@ Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& trac
                    .give_up = [&time] { return time.is_over(); }});
 }
 
-double exposure_of(const ViewSettings& view, const Image& image) {
-    return view.exposure ? *view.exposure : auto_exposure(image);
+void write_picture(const Output& output, const Image& image, const ViewSettings& view,
+                   const Provenance& from) {
+    if (output.kind == OutputKind::hdr)
+        write_hdr(output.path, image, from);
+    else
+        write_png(output.path, image, display_of(view, image), from);
+}
+
+Display display_of(const ViewSettings& view, const Image& image) {
+    return {std::exp2(view.stops) * (view.exposure ? *view.exposure : auto_exposure(image)),
+            view.tone};
+}
+
+Display display_of(const ViewSettings& view, const Mesh& mesh, const CornerClasses& classes,
+                   std::span<const Vec3> of_class) {
+    return {std::exp2(view.stops) *
+                (view.exposure ? *view.exposure : auto_exposure(mesh, classes, of_class)),
+            view.tone};
 }
 
 } // namespace hemilux

@@ -43,7 +43,14 @@ class PictureTime {
                                 const CornerClasses* classes = nullptr, unsigned gather = 0,
                                 std::span<const Slope> slope = {});
 
-/// The factor given, or one chosen for the picture.
-[[nodiscard]] double exposure_of(const ViewSettings& view, const Image& image);
+/// A .png or .hdr file. Throws OutputError.
+void write_picture(const Output& output, const Image& image, const ViewSettings& view,
+                   const Provenance& from);
+
+/// How a picture is shown: with the factor given, or one chosen for it.
+[[nodiscard]] Display display_of(const ViewSettings& view, const Image& image);
+/// The same of the light of a mesh's vertices, by class of corners.
+[[nodiscard]] Display display_of(const ViewSettings& view, const Mesh& mesh,
+                                 const CornerClasses& classes, std::span<const Vec3> of_class);
 
 } // namespace hemilux

@@ -68,7 +68,30 @@ bool wait_until_writable(int descriptor) {
     return true;
 }
 
-AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path) {
+namespace {
+
+/// Whether standard output cannot be opened once more under its name, or would be another file.
+bool takes_standard_output_itself() {
+    struct stat status {};
+    return ::fstat(STDOUT_FILENO, &status) == 0 &&
+           (S_ISREG(status.st_mode) || S_ISSOCK(status.st_mode));
+}
+
+} // namespace
+
+AtomicFile::AtomicFile(const std::string& path)
+    : path_(path == standard_output ? "standard output" : path),
+      target_(path == standard_output ? "/dev/stdout" : path) {
+    if (path == standard_output) {
+        if (takes_standard_output_itself())
+            descriptor_ = ::dup(STDOUT_FILENO);
+        else
+            open_pipe();
+        if (descriptor_ < 0)
+            fail("open");
+        return;
+    }
+
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (fs::is_directory(status))

@@ -8,6 +8,9 @@
 
 namespace hemilux {
 
+/// The path that stands for standard output, which is written directly.
+inline constexpr std::string_view standard_output = "-";
+
 class AtomicFile {
   public:
     /// Opens the temporary file. A path that names something else than a regular file (a pipe, a

@@ -2,6 +2,7 @@
 
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
+#include "io/pictures/picture_provenance.h"
 
 #include <algorithm>
 #include <array>
@@ -104,21 +105,29 @@ double auto_exposure(const Image& image) {
     return aim / std::min(value_at(percentile), contrast * value_at(0.5));
 }
 
-void write_png(const std::string& path, const Image& image, double exposure) {
+std::uint8_t srgb_byte(float linear) {
     static const ByteTable table;
+    return table.of(linear);
+}
+
+void write_png(const std::string& path, const Image& image, const Display& display,
+               const Provenance& from) {
     std::vector<std::uint8_t> bytes(3 * image.pixels.size());
     std::uint8_t* byte = bytes.data();
-    for (const glm::vec3& pixel : image.pixels)
+    for (const glm::vec3& pixel : image.pixels) {
+        const glm::vec3 shown = display(pixel);
         for (int channel = 0; channel < 3; ++channel)
-            *byte++ = table.of(static_cast<float>(exposure * static_cast<double>(pixel[channel])));
+            *byte++ = srgb_byte(shown[channel]);
+    }
     std::string file;
     if (!stbi_write_png_to_func(append, &file, image.width, image.height, 3, bytes.data(),
                                 3 * image.width))
         throw OutputError(path, "cannot encode the picture");
+    add_to_png(file, from);
     write_atomically(path, file);
 }
 
-void write_hdr(const std::string& path, const Image& image) {
+void write_hdr(const std::string& path, const Image& image, const Provenance& from) {
     std::vector<float> values;
     values.reserve(3 * image.pixels.size());
     for (const glm::vec3& pixel : image.pixels)
@@ -127,6 +136,7 @@ void write_hdr(const std::string& path, const Image& image) {
     std::string file;
     if (!stbi_write_hdr_to_func(append, &file, image.width, image.height, 3, values.data()))
         throw OutputError(path, "cannot encode the picture");
+    add_to_hdr(file, from);
     write_atomically(path, file);
 }
 

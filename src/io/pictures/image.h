@@ -1,8 +1,12 @@
 #pragma once
 // Pictures: linear light in memory; PNG for the eye (sRGB, 8 bits), Radiance HDR for numbers.
 
+#include "io/files/provenance.h"
+#include "io/pictures/tone.h"
+
 #include <glm/glm.hpp>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -32,6 +36,8 @@ struct Image {
 
 /// The transfer curve of sRGB (IEC 61966-2-1), from linear [0,1] to encoded [0,1]; clamps.
 [[nodiscard]] float srgb_from_linear(float linear);
+/// 255 times that, rounded.
+[[nodiscard]] std::uint8_t srgb_byte(float linear);
 /// The inverse of srgb_from_linear().
 [[nodiscard]] float linear_from_srgb(float encoded);
 
@@ -40,10 +46,12 @@ struct Image {
 /// for a black picture.
 [[nodiscard]] double auto_exposure(const Image& image);
 
-/// Writes 8 bits per channel through the sRGB curve, after multiplication by `exposure`. Throws
+/// Writes 8 bits per channel through the sRGB curve, as `display` shows the light; with tEXt chunks
+/// Software, Command and Seed where the provenance is known. Throws OutputError.
+void write_png(const std::string& path, const Image& image, const Display& display,
+               const Provenance& from = {});
+/// Writes Radiance RGBE, which is linear; the provenance as lines of the header. Throws
 /// OutputError.
-void write_png(const std::string& path, const Image& image, double exposure);
-/// Writes Radiance RGBE, which is linear. Throws OutputError.
-void write_hdr(const std::string& path, const Image& image);
+void write_hdr(const std::string& path, const Image& image, const Provenance& from = {});
 
 } // namespace hemilux

@@ -190,25 +190,31 @@ CornerClasses find_corner_classes(const Mesh& mesh) {
     return result;
 }
 
-std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
-                         std::span<const Vec3> radiosity, std::span<const Slope> slope) {
+std::vector<Vec3>
+smooth(const Mesh& mesh, const CornerClasses& classes,
+       const std::function<Vec3(std::uint32_t patch, const Vec3& corner)>& value) {
     std::vector<Vec3> sum(classes.position.size(), Vec3(0.0));
     std::vector<double> weight(classes.position.size(), 0.0);
-    for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
         const Polygon& shape = mesh.patches()[i].shape;
         for (std::size_t c = 0; c < static_cast<std::size_t>(shape.size()); ++c) {
             constexpr double tiny = 1e-6; // a corner of a sliver has a value too
             const double angle = corner_angle(shape, c) + tiny;
-            sum[classes.of_patch[i][c]] +=
-                angle * (slope.empty()
-                             ? radiosity[i]
-                             : radiosity_at(mesh, i, radiosity[i], slope[i], shape.corner[c]));
+            sum[classes.of_patch[i][c]] += angle * value(i, shape.corner[c]);
             weight[classes.of_patch[i][c]] += angle;
         }
     }
     for (std::size_t k = 0; k < sum.size(); ++k)
         sum[k] /= weight[k];
     return sum;
+}
+
+std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
+                         std::span<const Vec3> radiosity, std::span<const Slope> slope) {
+    const PatchLight light(radiosity, slope);
+    return smooth(mesh, classes, [&](std::uint32_t patch, const Vec3& corner) {
+        return radiosity_at(mesh, light, patch, corner);
+    });
 }
 
 std::array<double, 4> corner_weights(const Polygon& shape, const Vec3& point) {

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,11 @@ inline constexpr double crease_angle = 31;
 [[nodiscard]] std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
                                        std::span<const Vec3> radiosity,
                                        std::span<const Slope> slope = {});
+
+/// The same of any value that patches have in their corners.
+[[nodiscard]] std::vector<Vec3>
+smooth(const Mesh& mesh, const CornerClasses& classes,
+       const std::function<Vec3(std::uint32_t patch, const Vec3& corner)>& value);
 
 /// Weights of the corners for a point of the polygon: barycentric in a triangle, the inverse of the
 /// bilinear map in a quad. Linear along edges, so that neighbours agree there.

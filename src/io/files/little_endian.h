@@ -1,0 +1,23 @@
+#pragma once
+// Numbers as bytes of a file, lowest byte first, whatever the machine's order is.
+
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <string>
+
+namespace hemilux {
+
+template <std::unsigned_integral Bits>
+void append_bits(std::string& bytes, Bits bits) {
+    for (std::size_t i = 0; i < sizeof bits; ++i)
+        bytes += static_cast<char>(static_cast<unsigned char>(bits >> (8 * i)));
+}
+inline void append_number(std::string& bytes, double value) {
+    append_bits(bytes, std::bit_cast<std::uint64_t>(value));
+}
+inline void append_number(std::string& bytes, float value) {
+    append_bits(bytes, std::bit_cast<std::uint32_t>(value));
+}
+
+} // namespace hemilux

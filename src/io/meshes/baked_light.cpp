@@ -1,0 +1,58 @@
+#include "io/meshes/baked_light.h"
+
+#include "io/pictures/image.h"
+#include "radiosity/scene/mesh.h"
+
+namespace hemilux {
+namespace {
+
+Vec3 irradiance(const Material& material, const Vec3& radiosity) {
+    Vec3 result(0.0);
+    for (int channel = 0; channel < 3; ++channel)
+        if (const double rho = material.reflectance[channel]; rho > 0)
+            result[channel] = (radiosity[channel] - material.emission[channel]) / rho;
+    return result;
+}
+
+double shown_area(const Mesh& mesh, const Patch& patch) {
+    return mesh.material(patch).is_far ? 0 : patch.area;
+}
+
+Vec3 mean_of_corners(const Polygon& shape, const std::array<std::uint32_t, 4>& classes,
+                     std::span<const Vec3> of_class) {
+    const auto corners = static_cast<std::size_t>(shape.size());
+    Vec3 sum(0.0);
+    for (std::size_t c = 0; c < corners; ++c)
+        sum += of_class[classes[c]];
+    return sum / static_cast<double>(corners);
+}
+
+} // namespace
+
+std::vector<Vec3> baked_light(const Mesh& mesh, const CornerClasses& classes,
+                              const PatchLight& light, Bake bake) {
+    return smooth(mesh, classes, [&](std::uint32_t patch, const Vec3& corner) {
+        const Vec3 radiosity = radiosity_at(mesh, light, patch, corner);
+        return bake == Bake::radiosity ? radiosity : irradiance(mesh.material(patch), radiosity);
+    });
+}
+
+/// By a picture of one row, whose pixels are places at equal distances of area.
+double auto_exposure(const Mesh& mesh, const CornerClasses& classes,
+                     std::span<const Vec3> of_class) {
+    constexpr int places = 20'000;
+    double area = 0, passed = 0;
+    for (const Patch& patch : mesh.patches())
+        area += shown_area(mesh, patch);
+    Image row(places, 1);
+    int next = 0;
+    for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
+        const Patch& patch = mesh.patches()[i];
+        passed += shown_area(mesh, patch);
+        for (; next < places && (next + .5) * area < passed * places; ++next)
+            row.at(next, 0) = mean_of_corners(patch.shape, classes.of_patch[i], of_class);
+    }
+    return auto_exposure(row);
+}
+
+} // namespace hemilux

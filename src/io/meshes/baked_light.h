@@ -1,0 +1,37 @@
+#pragma once
+// The light that a mesh file holds, by vertex.
+
+#include "io/pictures/tone.h"
+#include "io/results/smooth.h"
+#include "radiosity/final_gather/linear_light.h"
+
+#include <array>
+#include <vector>
+
+namespace hemilux {
+
+/// As --bake names them, in this order.
+enum class Bake {
+    radiosity, ///< B, what a surface sends: what pictures show
+    irradiance ///< (B - E) / rho, what arrives: for viewers that multiply by textures of their own
+};
+inline constexpr std::array<const char*, 2> bake_names = {"radiosity", "irradiance"};
+
+/// Light of each class of corners, smoothed [W/m2]. Where a channel reflects nothing, its
+/// irradiance is not known and 0 stands for it.
+[[nodiscard]] std::vector<Vec3> baked_light(const Mesh& mesh, const CornerClasses& classes,
+                                            const PatchLight& light, Bake bake);
+
+/// The exposure that auto_exposure() chooses where each surface shows as much as it has area; suns
+/// and skies do not count. `of_class` is by class of corners.
+[[nodiscard]] double auto_exposure(const Mesh& mesh, const CornerClasses& classes,
+                                   std::span<const Vec3> of_class);
+
+/// The light of the vertices of a file, and how it is shown.
+struct VertexLight {
+    std::vector<Vec3> of_class; ///< [W/m2]
+    Bake bake = Bake::radiosity;
+    Display display = {};
+};
+
+} // namespace hemilux

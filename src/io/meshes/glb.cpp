@@ -1,0 +1,216 @@
+#include "io/meshes/glb.h"
+
+#include "io/files/atomic_file.h"
+#include "io/files/error.h"
+#include "io/files/little_endian.h"
+#include "radiosity/scene/mesh.h"
+
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace hemilux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int float_component = 5126, uint_component = 5125; // names of OpenGL's constants
+constexpr int vertex_target = 34962, index_target = 34963;
+/// Position, colour and light of a vertex, one after the other.
+constexpr std::size_t vector_bytes = 3 * sizeof(float), vertex_bytes = 3 * vector_bytes;
+
+/// A mesh of one group.
+struct Part {
+    std::uint32_t group;
+    std::vector<std::uint32_t> vertices; ///< classes of corners
+    std::vector<std::uint32_t> indices;  ///< of vertices, three a triangle
+};
+
+/// Vertices are numbered within each group as they first occur.
+class PartBuilder {
+  public:
+    explicit PartBuilder(const CornerClasses& classes)
+        : classes_(classes), number_(classes.position.size()), of_(classes.position.size(), none) {}
+
+    Part build(std::uint32_t group, const Mesh& mesh, std::span<const std::uint32_t> patches) {
+        Part part{group, {}, {}};
+        for (const std::uint32_t i : patches) {
+            const auto& corner = classes_.of_patch[i];
+            for (const std::size_t c : {0, 1, 2})
+                add(part, corner[c]);
+            if (!mesh.patches()[i].shape.is_triangle())
+                for (const std::size_t c : {0, 2, 3})
+                    add(part, corner[c]);
+        }
+        return part;
+    }
+
+  private:
+    void add(Part& part, std::uint32_t vertex) {
+        if (of_[vertex] != part.group) {
+            of_[vertex] = part.group;
+            number_[vertex] = static_cast<std::uint32_t>(part.vertices.size());
+            part.vertices.push_back(vertex);
+        }
+        part.indices.push_back(number_[vertex]);
+    }
+
+    const CornerClasses& classes_;
+    std::vector<std::uint32_t> number_, of_; ///< of a class: its number in the group that had it
+};
+
+std::vector<Part> parts_of(const Mesh& mesh, const CornerClasses& classes) {
+    std::vector<std::vector<std::uint32_t>> patches(mesh.scene().groups.size());
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
+        if (const Patch& patch = mesh.patches()[i]; !mesh.material(patch).is_far)
+            patches[mesh.scene().facets[patch.facet].group].push_back(i);
+    PartBuilder builder(classes);
+    std::vector<Part> parts;
+    for (std::uint32_t group = 0; group < patches.size(); ++group)
+        if (!patches[group].empty())
+            parts.push_back(builder.build(group, mesh, patches[group]));
+    return parts;
+}
+
+void append(std::string& bytes, const glm::vec3& vector) {
+    for (int axis = 0; axis < 3; ++axis)
+        append_number(bytes, vector[axis]);
+}
+
+/// The JSON and the buffer of a file: all vertices, then all indices.
+class Document {
+  public:
+    Document(const Mesh& mesh, const CornerClasses& classes, const VertexLight& light)
+        : mesh_(mesh), classes_(classes), light_(light) {}
+
+    void add(const Part& part) {
+        const int first = static_cast<int>(accessors_.size());
+        add_vertices(part);
+        add_indices(part);
+        const std::string name = light_.bake == Bake::radiosity ? "_RADIOSITY" : "_IRRADIANCE";
+        const std::string& group = mesh_.scene().groups[part.group];
+        const Vec3 centre = mesh_.frame().centre;
+        nodes_.push_back({{"name", group},
+                          {"mesh", meshes_.size()},
+                          {"translation", {centre.x, centre.y, centre.z}}});
+        meshes_.push_back(
+            {{"name", group},
+             {"primitives",
+              Json::array({{{"attributes",
+                             {{"POSITION", first}, {"COLOR_0", first + 1}, {name, first + 2}}},
+                            {"indices", first + 3},
+                            {"material", 0}}})}});
+    }
+
+    [[nodiscard]] std::string json(const Provenance& from) const {
+        Json asset{{"version", "2.0"}, {"generator", from.program}};
+        if (!from.command.empty())
+            asset["extras"] = {{"command", from.command}, {"seed", from.seed}};
+        std::vector<std::size_t> roots;
+        for (std::size_t node = 0; node < nodes_.size(); ++node)
+            roots.push_back(node);
+        const Json view_of_vertices{{"buffer", 0},
+                                    {"byteOffset", 0},
+                                    {"byteLength", vertices_.size()},
+                                    {"byteStride", vertex_bytes},
+                                    {"target", vertex_target}};
+        const Json view_of_indices{{"buffer", 0},
+                                   {"byteOffset", vertices_.size()},
+                                   {"byteLength", indices_.size()},
+                                   {"target", index_target}};
+        const Json scene{{"nodes", roots}, {"extras", {{"exposure", light_.display.exposure}}}};
+        const Json unlit{{"name", "light"},
+                         {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
+        const Json buffer{{"byteLength", vertices_.size() + indices_.size()}};
+        const Json all{{"asset", asset},
+                       {"extensionsUsed", Json::array({"KHR_materials_unlit"})},
+                       {"scene", 0},
+                       {"scenes", Json::array({scene})},
+                       {"nodes", nodes_},
+                       {"meshes", meshes_},
+                       {"materials", Json::array({unlit})},
+                       {"accessors", accessors_},
+                       {"bufferViews", Json::array({view_of_vertices, view_of_indices})},
+                       {"buffers", Json::array({buffer})}};
+        // A name that is not UTF-8 must not cost the user the file.
+        return all.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+
+    [[nodiscard]] const std::string& vertices() const { return vertices_; }
+    [[nodiscard]] const std::string& indices() const { return indices_; }
+
+  private:
+    void add_vertices(const Part& part) {
+        const std::size_t begin = vertices_.size();
+        glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+        for (const std::uint32_t vertex : part.vertices) {
+            const glm::vec3 position(classes_.position[vertex] / mesh_.frame().scale);
+            const glm::vec3 light(light_.of_class[vertex]);
+            low = glm::min(low, position);
+            high = glm::max(high, position);
+            append(vertices_, position);
+            append(vertices_, light_.display(light));
+            append(vertices_, light);
+        }
+        for (const std::size_t vector : {0, 1, 2})
+            accessors_.push_back({{"bufferView", 0},
+                                  {"byteOffset", begin + vector * vector_bytes},
+                                  {"componentType", float_component},
+                                  {"count", part.vertices.size()},
+                                  {"type", "VEC3"}});
+        Json& positions = accessors_[accessors_.size() - 3];
+        positions["min"] = {low.x, low.y, low.z};
+        positions["max"] = {high.x, high.y, high.z};
+    }
+
+    void add_indices(const Part& part) {
+        accessors_.push_back({{"bufferView", 1},
+                              {"byteOffset", indices_.size()},
+                              {"componentType", uint_component},
+                              {"count", part.indices.size()},
+                              {"type", "SCALAR"}});
+        for (const std::uint32_t index : part.indices)
+            append_bits(indices_, index);
+    }
+
+    const Mesh& mesh_;
+    const CornerClasses& classes_;
+    const VertexLight& light_;
+    std::string vertices_, indices_;
+    Json accessors_ = Json::array(), nodes_ = Json::array(), meshes_ = Json::array();
+};
+
+/// A chunk of a binary file without its bytes.
+std::string chunk_header(std::size_t bytes, std::string_view type) {
+    std::string header;
+    append_bits(header, static_cast<std::uint32_t>(bytes));
+    return header + std::string(type);
+}
+
+} // namespace
+
+void write_glb(const std::string& path, const Mesh& mesh, const CornerClasses& classes,
+               const VertexLight& light, const Provenance& from) {
+    Document document(mesh, classes, light);
+    for (const Part& part : parts_of(mesh, classes))
+        document.add(part);
+    std::string json = document.json(from);
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
+    const std::size_t buffer = document.vertices().size() + document.indices().size();
+    const std::size_t length = header_bytes + 2 * chunk_header_bytes + json.size() + buffer;
+    if (length > std::numeric_limits<std::uint32_t>::max())
+        throw OutputError(path, "would be longer than the 4 GiB of a .glb file");
+    std::string header("glTF");
+    append_bits(header, std::uint32_t{2});
+    append_bits(header, static_cast<std::uint32_t>(length));
+    AtomicFile file(path);
+    file.write(header + chunk_header(json.size(), "JSON"));
+    file.write(json);
+    file.write(chunk_header(buffer, std::string_view("BIN\0", 4)));
+    file.write(document.vertices());
+    file.write(document.indices());
+    file.commit();
+}
+
+} // namespace hemilux

@@ -1,0 +1,80 @@
+#include "io/meshes/ply.h"
+
+#include "io/files/atomic_file.h"
+#include "io/files/little_endian.h"
+#include "io/pictures/image.h"
+#include "radiosity/scene/mesh.h"
+
+namespace hemilux {
+namespace {
+
+std::string light_properties(const std::string& prefix) {
+    std::string text;
+    for (const char* const channel : {"red", "green", "blue"})
+        text += "property float " + prefix + channel + "\n";
+    return text;
+}
+
+std::string header(std::size_t vertices, std::size_t faces, Bake bake, PlyColours colours) {
+    const std::string name = bake_names[static_cast<std::size_t>(bake)];
+    const std::string unit = bake == Bake::radiosity ? " [W/m2 leaving]" : " [W/m2 arriving]";
+    return "ply\nformat binary_little_endian 1.0\n"
+           "comment " +
+           name + unit + ", linear, as vertex " +
+           (colours == PlyColours::linear ? "colours" : "properties; colours in sRGB") +
+           "\nelement vertex " + std::to_string(vertices) +
+           "\nproperty double x\nproperty double y\nproperty double z\n" +
+           (colours == PlyColours::linear
+                ? light_properties("")
+                : "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                  "property float quality\n" +
+                      light_properties(name + "_")) +
+           "element face " + std::to_string(faces) +
+           "\nproperty list uchar uint vertex_indices\nend_header\n";
+}
+
+void append_colour(std::string& record, const Vec3& light, const Display& display,
+                   PlyColours colours) {
+    const glm::vec3 linear(light);
+    if (colours == PlyColours::shown) {
+        const glm::vec3 shown = display(linear);
+        for (int channel = 0; channel < 3; ++channel)
+            append_bits(record, srgb_byte(shown[channel]));
+        append_number(record, luminance(linear));
+    }
+    for (int channel = 0; channel < 3; ++channel)
+        append_number(record, linear[channel]);
+}
+
+} // namespace
+
+void write_ply(const std::string& path, const Mesh& mesh, const CornerClasses& classes,
+               const VertexLight& light, PlyColours colours) {
+    AtomicFile file(path);
+    file.write(header(classes.position.size(), mesh.patches().size(), light.bake, colours));
+    std::string record;
+    for (std::size_t k = 0; k < classes.position.size(); ++k) {
+        record.clear();
+        const Vec3 position = mesh.frame().to_world(classes.position[k]);
+        for (int axis = 0; axis < 3; ++axis)
+            append_number(record, position[axis]);
+        append_colour(record, light.of_class[k], light.display, colours);
+        file.write(record);
+    }
+    for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
+        record.clear();
+        const auto corners = static_cast<std::size_t>(mesh.patches()[i].shape.size());
+        record += static_cast<char>(corners);
+        for (std::size_t c = 0; c < corners; ++c)
+            append_bits(record, classes.of_patch[i][c]);
+        file.write(record);
+    }
+    file.commit();
+}
+
+void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity) {
+    const CornerClasses classes = find_corner_classes(mesh);
+    write_ply(path, mesh, classes, {baked_light(mesh, classes, radiosity, Bake::radiosity)});
+}
+
+} // namespace hemilux

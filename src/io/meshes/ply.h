@@ -1,0 +1,27 @@
+#pragma once
+// The mesh with its light as vertex colours, for viewers and baking: PLY (Turk 1994), binary little
+// endian.
+
+#include "io/meshes/baked_light.h"
+
+#include <span>
+#include <string>
+
+namespace hemilux {
+
+/// As --ply-colours names them, in this order.
+enum class PlyColours {
+    linear, ///< float red, green, blue: the light [W/m2]
+    shown   ///< uchar red, green, blue: what a screen shows; then the luminance as float quality,
+            ///< and the light as float radiosity_red, ..._green, ..._blue, or irradiance_red, ...
+};
+inline constexpr std::array<const char*, 2> ply_colour_names = {"linear", "shown"};
+
+/// Writes vertices x, y, z (double, world units) and their colours; faces are the patches, in the
+/// mesh's order. Patches share a vertex where they share its light. Throws OutputError.
+void write_ply(const std::string& path, const Mesh& mesh, const CornerClasses& classes,
+               const VertexLight& light, PlyColours colours = PlyColours::linear);
+/// The same with the radiosity of patches, smoothed over corners.
+void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity);
+
+} // namespace hemilux

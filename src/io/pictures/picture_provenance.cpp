@@ -1,0 +1,60 @@
+#include "io/pictures/picture_provenance.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace hemilux {
+namespace {
+
+/// CRC-32 of ISO 3309, as PNG has it: bit by bit, as the texts are short.
+std::uint32_t crc32(std::string_view bytes) {
+    std::uint32_t crc = ~0u;
+    for (const char c : bytes) {
+        crc ^= static_cast<unsigned char>(c);
+        for (int bit = 0; bit < 8; ++bit)
+            crc = crc >> 1 ^ ((crc & 1u) != 0 ? 0xedb88320u : 0u);
+    }
+    return ~crc;
+}
+
+std::string big_endian(std::uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8)
+        bytes += static_cast<char>(static_cast<unsigned char>(value >> shift));
+    return bytes;
+}
+
+/// One line of ASCII.
+std::string plain_line(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text;
+}
+
+std::string text_chunk(std::string_view keyword, const std::string& text) {
+    std::string content("tEXt");
+    content += keyword;
+    content += '\0';
+    content += plain_line(text);
+    return big_endian(static_cast<std::uint32_t>(content.size() - 4)) + content +
+           big_endian(crc32(content));
+}
+
+} // namespace
+
+void add_to_png(std::string& file, const Provenance& from) {
+    constexpr std::size_t signature = 8, header_chunk = 25;
+    if (!from.program.empty())
+        file.insert(signature + header_chunk, text_chunk("Software", from.program) +
+                                                  text_chunk("Command", from.command) +
+                                                  text_chunk("Seed", std::to_string(from.seed)));
+}
+
+void add_to_hdr(std::string& file, const Provenance& from) {
+    if (!from.program.empty())
+        file.insert(file.find('\n') + 1, "SOFTWARE=" + plain_line(from.program) + "\n" +
+                                             plain_line(from.command) +
+                                             "\nSEED=" + std::to_string(from.seed) + "\n");
+}
+
+} // namespace hemilux

@@ -1,0 +1,93 @@
+// Results for other programs: on standard output, as JSON, with where they come from.
+
+#include "app/check_fails.h"
+#include "app/program.h"
+#include "support/catch.h"
+
+#include <nlohmann/json.hpp>
+
+using namespace test;
+
+namespace {
+
+const std::string run = "solve room.obj --steps 2 --size 40x30 ";
+
+} // namespace
+
+TEST_CASE("a result goes to standard output, and what is said to stderr") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place.hemilux(run + "-q -o a.csv -o a.ply -o a.glb -o a.png").code == 0);
+    const auto table = place.hemilux(run + "-o -");
+    CHECK(table.code == 0);
+    CHECK(table.out == place.read("a.csv"));
+    CHECK_THAT(table.err, Catch::Contains("estimated error"));
+    for (const char* kind : {"ply", "glb", "png"})
+        CHECK(place.hemilux(run + "-q -o -." + kind).out == place.read(std::string("a.") + kind));
+    CHECK(place.hemilux(run + "-q -o - | cat").out == place.read("a.csv"));
+    REQUIRE(place.hemilux(run + "-q -o - > b.csv").code == 0); // a file, not replaced
+    CHECK(place.read("b.csv") == place.read("a.csv"));
+    REQUIRE(place.hemilux(run + "-q -o - >> b.csv").code == 0);
+    CHECK(place.read("b.csv") == place.read("a.csv") + place.read("a.csv"));
+    CHECK_FALSE(place.has("-"));
+    check_fails(place, 1, run + "-o - -o -.ply", "named twice");
+    check_fails(place, 1, run + "-o -.png --every-step", "-o - has no name");
+}
+
+TEST_CASE("the same result has the same bytes, with what it depends on") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place.hemilux(run + "-t 1 -o a.png -o a.hdr -o a.glb --stats s.json").code == 0);
+    REQUIRE(place.hemilux(run + "-o b.png -o b.hdr -o b.glb -q --threads 3").code == 0);
+    for (const std::string kind : {".png", ".hdr", ".glb"}) {
+        CHECK(place.read("a" + kind) == place.read("b" + kind));
+        CHECK_THAT(place.read("a" + kind),
+                   Catch::Contains("hemilux solve room.obj --steps 2 --size 40x30"));
+    }
+    REQUIRE(place.hemilux(run + "-o c.png --emission 'lamp=9,8,7' --seed 5").code == 0);
+    CHECK_THAT(place.read("c.png"), Catch::Contains("--emission lamp=9,8,7 --seed 5"));
+}
+
+TEST_CASE("an error of 1 asks whether 1 % was meant") {
+    const Workplace place;
+    place.write_room();
+    check_fails(place, 1, "solve room.obj -o a.png --error 1", "was 1 % meant? Write 1%");
+    check_fails(place, 1, "compare room.obj -o a --reference-error 2", "was 2 % meant?");
+    REQUIRE(place.hemilux("solve room.obj -q -o a.csv --error 3%").code == 0);
+    REQUIRE(place.hemilux("solve room.obj -q -o b.csv --error .03 --time 2m").code == 0);
+    CHECK(place.read("a.csv") == place.read("b.csv"));
+}
+
+TEST_CASE("tones and stops change pictures alone where light is bright") {
+    const Workplace place;
+    place.write_room();
+    const std::string with = run + "-q --exposure ";
+    REQUIRE(place.hemilux(with + "1e-3 -o a.png").code == 0);
+    REQUIRE(place.hemilux(with + "1 -o b.png -o b.hdr").code == 0);
+    REQUIRE(place.hemilux(with + "1 -o c.png -o c.hdr --tone srgb").code == 0);
+    REQUIRE(place.hemilux(run + "-q -o d.png --exposure 0ev").code == 0);
+    REQUIRE(place.hemilux(run + "-q -o e.png --exposure +1ev").code == 0);
+    const auto data = [&](const std::string& name) {
+        const std::string file = place.read(name);
+        return file.substr(file.find("IDAT"));
+    };
+    CHECK(data("b.png") != data("c.png"));
+    CHECK(data("d.png") != data("e.png"));
+    check_fails(place, 1, run + "-o a.png --tone srbg", "did you mean 'srgb'?");
+}
+
+TEST_CASE("info answers other programs in JSON") {
+    const Workplace place;
+    place.write_room();
+    const auto outcome = place.hemilux("info room.obj --json --max-edge .5");
+    REQUIRE(outcome.code == 0);
+    const auto json = nlohmann::json::parse(outcome.out);
+    CHECK(json["faces"] == 24);
+    CHECK(json["groups"] == 3);
+    CHECK(json["patches"] > 24);
+    CHECK(json["emitting_materials"] == nlohmann::json::array({"lamp"}));
+    CHECK(json["sides"]["faces_looking_away"] == 0);
+    CHECK(json["emitted_power"].size() == 3);
+    const auto both = place.hemilux("info room.obj --json --sides both");
+    CHECK(nlohmann::json::parse(both.out)["sides"].is_null());
+}
