@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 #if defined(__GLIBC__)
@@ -46,6 +47,21 @@ std::vector<std::string> arguments_of(int argc, const char* const* argv) {
     return words;
 }
 
+/// As a shell takes it.
+std::string shell_command(const std::vector<std::string>& words) {
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                       "0123456789-_./,:=+%@";
+    std::string command = "hemilux";
+    for (const std::string& word : words) {
+        const bool is_plain = !word.empty() && word.find_first_not_of(plain) == word.npos;
+        std::string quoted;
+        for (const char c : word)
+            quoted += c == '\'' ? "'\\''" : std::string(1, c);
+        command += is_plain ? " " + word : " '" + quoted + "'";
+    }
+    return command;
+}
+
 /// `advice` names the help of the subcommand, where one is asked for.
 int run_program(std::vector<std::string> words, std::string& advice) {
     Arguments program("hemilux",
@@ -67,6 +83,7 @@ int run_program(std::vector<std::string> words, std::string& advice) {
     for (const std::string& subcommand : program.commands())
         if (!words.empty() && words.front() == subcommand)
             advice = "\nhemilux " + words.front() + " --help tells what can be asked for.";
+    solve_settings.command_line = shell_command(words);
     if (const std::string text = program.parse(std::move(words)); !text.empty()) {
         if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
             throw OutputError("standard output", "cannot be written");

@@ -93,7 +93,8 @@ struct SolveSettings {
     ViewSettings view;
     std::vector<Output> outputs;
     /// Paths; empty: not asked for.
-    std::string statistics, steps_log, error_map;
+    std::string statistics, steps_log, error_map, report;
+    std::string command_line;        ///< what the user typed, for the report
     bool every_step = false;         ///< pictures also after every step
     std::string reference;           ///< path of a patch table; empty: none
     std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
