@@ -28,16 +28,17 @@ function logAxis(numbers, from, to) {
   return { place, ticks: ticksBetween(low, high) };
 }
 
-/** The chart of `curves`, each { name, kind, points: [{ x, y, text }] }; null without a point. */
-function errorChart(curves, xLabel) {
-  const width = 720, height = 380, left = 64, right = 20, top = 34, bottom = 52;
+/** The chart of `curves`, each { name, kind, points: [{ x, y, text }] }, so many pixels wide; null without a
+    point. */
+function errorChart(curves, xLabel, width) {
+  const height = Math.round(clamp(0.55 * width, 240, 400)), left = 64, right = 20, top = 34, bottom = 52;
   const drawn = curves.map((curve) => ({ ...curve, points: curve.points.filter(({ x, y }) => x > 0 && y > 0) }))
     .filter((curve) => curve.points.length > 0);
   const all = drawn.flatMap((curve) => curve.points);
   if (all.length === 0) return null;
   const x = logAxis(all.map((point) => point.x), left, width - right);
   const y = logAxis(all.map((point) => point.y), height - bottom, top);
-  const svg = svgElement("svg", { viewBox: `0 0 ${width} ${height}`, class: "chart", role: "img",
+  const svg = svgElement("svg", { width, height, class: "chart", role: "img",
     "aria-label": `Error against ${xLabel}; the table has the numbers` });
   for (const tick of x.ticks)
     svg.append(svgElement("line", { class: "grid", x1: x.place(tick), x2: x.place(tick), y1: top, y2: height - bottom }),

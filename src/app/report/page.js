@@ -25,7 +25,7 @@ function shortCount(x) {
 function fillTable(table, heads, rows) {
   const cell = (value, index) =>
     value instanceof Node ? element("td", {}, value)
-      : heads ? element("td", known(value) ? { text: String(value), class: "number" } : { text: value ?? "" })
+      : heads ? element("td", known(value) ? { text: value > 9999 ? grouped(value) : String(value), class: "number" } : { text: value ?? "" })
       : element(index === 0 ? "th" : "td", index === 0 ? { text: value, scope: "row" } : { text: value });
   table.replaceChildren();
   if (heads)
@@ -34,12 +34,18 @@ function fillTable(table, heads, rows) {
   return table;
 }
 
-/** A colour of light, as a small square beside its numbers. */
-function lightText(light, unit, brightness) {
+/** Three numbers of a colour, on one line where there is room. */
+const channels = (light, digits = 4) =>
+  element("span", { class: "channels" }, ...light.map((x) => element("span", { text: number(x, digits) })));
+
+/** A colour of light, its numbers after a small square. */
+function lightText(light, brightness) {
   if (!light) return "unknown";
   const bytes = light.map((x) => Math.round(255 * clamp((x ?? 0) * brightness, 0, 1) ** (1 / 2.2)));
   const swatch = element("span", { class: "swatch", style: `background: rgb(${bytes})`, "aria-hidden": "true" });
-  return element("span", {}, swatch, " " + light.map((x) => number(x)).join("  ") + unit);
+  const text = channels(light);
+  text.prepend(swatch);
+  return text;
 }
 
 // ---- Layers: what colours the surfaces ----
@@ -230,17 +236,16 @@ function describePatch(run, i) {
   if (i === null) return at("patch").replaceChildren(element("p", { class: "hint", text: "Click a surface, or enter a number." }));
   at("number").value = i;
   const light = triple(run.radiosity, i), material = run.materials[run.material[i]];
-  const colour = (value, unit, brightness) => lightText(value, unit, brightness);
   const rows = [
     ["Patch", String(i)], ["Face", String(run.face[i])], ["Material", material.name],
-    ["Group", run.groups[run.group[i]] ?? ""], ["Area", number(run.area[i]) + " m²"],
-    ["Radiosity", colour(light, " W/m²", run.brightness)],
-    ["Standard error", run.error ? triple(run.error, i).map((x) => number(x, 3)).join("  ") + " W/m²" : "0"],
-    ["Irradiance", colour(irradianceFrom(run, i, light), " W/m²", run.brightness / 2)],
-    ["Reflectance", colour(reflectanceOf(run, i), "", 1)],
-    ["Emission", emissionOf(run, i).map((x) => number(x)).join("  ") + " W/m²"],
+    ["Group", run.groups[run.group[i]] ?? ""], ["Area [m²]", number(run.area[i])],
+    ["Radiosity [W/m²]", lightText(light, run.brightness)],
+    ...(run.error ? [["Standard error [W/m²]", channels(triple(run.error, i), 3)],
+      ["of the mean light", percent(relativeError(run, i))]] : []),
+    ["Irradiance [W/m²]", lightText(irradianceFrom(run, i, light), run.brightness / 2)],
+    ["Reflectance", lightText(reflectanceOf(run, i), 1)],
+    ["Emission [W/m²]", channels(emissionOf(run, i))],
   ];
-  if (run.error) rows.splice(7, 0, ["… of mean light", percent(relativeError(run, i))]);
   if (run.hits) rows.push(["Rays that hit", grouped(run.hits[i])]);
   at("patch").replaceChildren(fillTable(element("table"), null, rows));
 }
@@ -248,12 +253,13 @@ function describePatch(run, i) {
 // ---- Texts, tables and the chart ----
 
 function showFigures({ statistics }) {
-  const give = known(statistics.estimated_error_uncertainty)
-    ? " ± " + percent(statistics.estimated_error_uncertainty) : "";
+  const { estimated_error: error, estimated_error_uncertainty: uncertainty } = statistics;
+  const errorText = known(error) && known(uncertainty)
+    ? `${number(100 * error, 3)} ± ${number(100 * uncertainty, 2)} %` : percent(error);
   const figures = [
     ["patches", grouped(statistics.patches)], ["method", statistics.method],
     ["steps", grouped(statistics.steps)], ["energy rays", shortCount(statistics.rays_energy)],
-    ["estimated error", percent(statistics.estimated_error) + give],
+    ["estimated error", errorText],
     ["light within patches differs by", percent(statistics.error_division)], ["in all", number(statistics.seconds_total, 3) + " s"],
   ];
   for (const [name, value] of figures)
@@ -270,11 +276,13 @@ function showSteps({ steps }) {
     const curve = (name, kind, key) => ({ name, kind, points: steps.filter((step) => known(step[key])).map((step) => ({
       x: step[axis], y: step[key],
       text: `step ${step.step}: ${percent(step[key])} after ${shortCount(step.rays)} rays, ${number(step.seconds, 3)} s` })) });
+    const width = Math.max(300, at("chart").clientWidth);
     const chart = errorChart([curve("estimated error", "estimated", "estimated_error"),
-      ...(withTruth ? [curve("true error", "true", "true_error")] : [])], axis);
+      ...(withTruth ? [curve("true error", "true", "true_error")] : [])], axis, width);
     at("chart").replaceChildren(chart ?? element("p", { class: "hint", text: "No step has a known error." }));
   };
   at("axis").addEventListener("change", draw);
+  addEventListener("resize", draw);
   draw();
 }
 
@@ -287,9 +295,10 @@ function flatRows(object, prefix = "") {
 }
 
 function showTexts(run) {
-  document.title = run.scene + " – hemilux report";
-  at("title").textContent = run.scene;
-  at("version").textContent = run.version + ", seed " + run.statistics.seed;
+  const name = run.scene.split("/").pop();
+  document.title = name + " – hemilux report";
+  at("title").textContent = name;
+  at("version").textContent = `version ${run.version}, seed ${run.statistics.seed}, threads: ${run.statistics.threads}`;
   at("command").textContent = run.command;
   at("warnings-section").hidden = run.warnings.length === 0;
   at("warnings").append(...run.warnings.map((text) => element("li", { text })));
@@ -299,7 +308,7 @@ function showTexts(run) {
     : fillTable(element("table"), ["what", "why", "saved"], leftOut.map(({ what, why, saved }) => [what, why, saved])));
   fillTable(at("statistics"), null, flatRows(run.statistics));
   fillTable(at("materials"), ["name", "reflectance", "emission [W/m²]"], run.materials.map((material) =>
-    [material.name, lightText(material.reflectance, "", 1), material.emission.map((x) => number(x)).join("  ")]));
+    [material.name, lightText(material.reflectance, 1), channels(material.emission)]));
 }
 
 /** Fills the page; returns the view of the scene, null where the browser cannot show it. */
