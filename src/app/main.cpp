@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 #if defined(__GLIBC__)
@@ -51,8 +52,9 @@ std::vector<std::string> arguments_of(int argc, const char* const* argv) {
 /// would give files of the same result different bytes.
 Provenance provenance(const Command& command, std::uint64_t seed) {
     constexpr auto beside = std::to_array<std::string_view>(
-        {"--output", "--stats", "--steps-log", "--error-map", "--points-output", "--every-step",
-         "--threads", "--memory", "--checkpoint", "--every", "--resume", "--quiet", "--verbose"});
+        {"--output", "--stats", "--steps-log", "--error-map", "--points-output", "--report",
+         "--every-step", "--threads", "--memory", "--checkpoint", "--every", "--resume", "--quiet",
+         "--verbose"});
     return {"hemilux " HEMILUX_VERSION, "hemilux " + command.text_given(beside), seed};
 }
 

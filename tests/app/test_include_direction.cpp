@@ -48,6 +48,7 @@ const std::vector<std::string> rooms{
     "app/settings",
     "app/terminal",
     "app/loading",
+    "app/report",
     "app/running",
     "app/commands",
     "app/command_line",
@@ -81,7 +82,8 @@ bool may_include_system(const std::string& file, const std::string& header) {
         return layer == "io";
     if (begins("nlohmann/")) // these take long to compile: few files include them
         return file == "io/results/statistics.cpp" || file == "io/results/scene_info_json.cpp" ||
-               file == "io/meshes/glb.cpp" || file == "io/gltf/json_value.cpp";
+               file == "io/meshes/glb.cpp" || file == "io/gltf/json_value.cpp" ||
+               file == "app/report/run_data.cpp";
     if (begins("CLI/"))
         return file == "app/command_line/arguments.cpp";
     if (header == "immintrin.h" || header == "sys/mman.h")

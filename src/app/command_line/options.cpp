@@ -3,6 +3,7 @@
 #include "app/command_line/option_groups.h"
 #include "app/command_line/option_kinds.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/extension.h"
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
 
@@ -269,6 +270,19 @@ void add_error_map_option(Command command, SolveSettings& settings) {
         .group(output_group);
 }
 
+void add_report_option(Command command, std::string& report) {
+    add_parsed(
+        command, "--report", "FILE.html",
+        "a page for a browser: the lit scene to turn around, the numbers of each patch, how the "
+        "run went",
+        "a file name that ends with .html",
+        [](const std::string& path) {
+            return extension_of(path) == ".html" ? std::optional(path) : std::nullopt;
+        },
+        [&report](const std::string& path) { report = path; })
+        .group(output_group);
+}
+
 void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
     const std::string group = "Checkpoints";
     command
@@ -442,6 +456,7 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_output_options(command, settings);
     add_point_options(command, settings);
     add_error_map_option(command, settings);
+    add_report_option(command, settings.report);
     add_checkpoint_options(command, settings.checkpoint);
     add_comparison_options(command, settings);
     add_verbosity_options(command, settings.verbosity);

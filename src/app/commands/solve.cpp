@@ -115,28 +115,41 @@ Method method_as_run(const SolveSettings& settings) {
     return method;
 }
 
+/// What a user must know of a run that has ended.
+std::vector<std::string> warnings_of(const SolveSettings& settings, const Results& results,
+                                     const RunNotes& notes, bool interrupted) {
+    std::vector<std::string> warnings = notes.texts(results.statistics.error_sampling, interrupted);
+    if (!interrupted)
+        warnings.push_back(whole_error_note(settings, results.statistics));
+    warnings.push_back(lost_light_of(settings, results));
+    std::erase(warnings, std::string());
+    return warnings;
+}
+
+constexpr const char* no_step_warning =
+    "the time ended before the first step was done; the outputs hold emission alone; a longer "
+    "--time or fewer --rays give a solution";
+
 /// The last words; returns the exit code. `seconds_before`: of the run that this one goes on with.
-int finish(const SolveSettings& settings, const Results& results, const WriteReport& of_steps,
+int finish(const SolveSettings& settings, Results results, const WriteReport& of_steps,
            const std::optional<Reference>& reference, const RunNotes& notes, bool interrupted,
            const Stopwatch& started, double seconds_before) {
-    const std::string lost_light = lost_light_of(settings, results);
+    const std::vector<std::string> warnings = warnings_of(settings, results, notes, interrupted);
+    const bool no_step = results.solution.steps == 0 && !interrupted;
+    std::vector<std::string> all(results.warnings.begin(), results.warnings.end());
+    all.insert(all.end(), warnings.begin(), warnings.end());
+    if (no_step)
+        all.emplace_back(no_step_warning);
+    results.warnings = all;
     results.statistics.seconds_analysis =
         std::max(0.0, started.seconds() + seconds_before - seconds_of_stages(results.statistics));
     WriteReport report = write_results(settings, results, started);
     report.add(of_steps);
     log_line(settings.verbosity, Verbosity::normal, run_text(results.statistics));
-    for (const std::string& note : notes.texts(results.statistics.error_sampling, interrupted))
-        log_line(settings.verbosity, Verbosity::normal, "warning: " + note);
-    if (const std::string note = whole_error_note(settings, results.statistics);
-        !note.empty() && !interrupted)
-        log_line(settings.verbosity, Verbosity::normal, "warning: " + note);
-    if (!lost_light.empty())
-        log_line(settings.verbosity, Verbosity::normal, "warning: " + lost_light);
-    if (results.solution.steps == 0 && !interrupted)
-        log_line(
-            settings.verbosity, Verbosity::quiet,
-            "warning: the time ended before the first step was done; the outputs hold emission "
-            "alone; a longer --time or fewer --rays give a solution");
+    for (const std::string& warning : warnings)
+        log_line(settings.verbosity, Verbosity::normal, "warning: " + warning);
+    if (no_step)
+        log_line(settings.verbosity, Verbosity::quiet, std::string("warning: ") + no_step_warning);
     log_line(settings.verbosity, Verbosity::verbose, memory_text(results.statistics));
     if (reference) {
         const Solution& solution = results.solution;
@@ -220,7 +233,8 @@ void SolveRun::read_scene() {
     loaded_ = load_mesh(settings_.scene, files, settings_.options, methods, settings_.verbosity,
                         bytes_of_outputs());
     check_distances(settings_, points_, mesh());
-    if (std::ranges::any_of(settings_.outputs, is_picture, &Output::kind))
+    if (!settings_.report.empty() ||
+        std::ranges::any_of(settings_.outputs, is_picture, &Output::kind))
         settings_.view = view_of(settings_.view, *loaded_, settings_.verbosity);
     check_camera(settings_.view, mesh());
     check_exact(settings_.options, mesh().patches().size());
@@ -348,9 +362,11 @@ int SolveRun::write() {
     const bool interrupted = !completed_ && !fault_;
     SolveSettings shown = settings_;
     shown.view.camera = camera_;
-    const int code = finish(
-        shown, {mesh(), tracer(), *solution_, statistics_, rows_, points_, monitor_.interrupted},
-        of_steps_, reference_, *notes_, interrupted, started_, resumed_ ? resumed_->seconds : 0);
+    const int code = finish(shown,
+                            {mesh(), tracer(), *solution_, statistics_, rows_, points_,
+                             loaded_->warnings, monitor_.interrupted},
+                            of_steps_, reference_, *notes_, interrupted, started_,
+                            resumed_ ? resumed_->seconds : 0);
     if (interrupted)
         end_at_once(code);
     if (!fault_ || code != exit_done)

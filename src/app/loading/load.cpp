@@ -145,15 +145,16 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
     check_memory(need, settings.memory, settings.path);
     const Stopwatch dividing;
     SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, verbosity);
-    LoadedMesh loaded{std::move(sided.mesh),      std::move(sided.made),      seconds,
-                      dividing.seconds(),         std::move(read.face_lines), read.camera,
-                      std::move(read.camera_name)};
-    if (!loaded.mesh.is_laid_apart())
-        log_line(
-            verbosity, Verbosity::normal,
-            "warning: " + settings.path +
-                ": very many faces lie over each other in one plane; for some of them it was not "
-                "found out which of two covers the other, and rays meet either");
+    LoadedMesh loaded{std::move(sided.mesh),       std::move(sided.made),      seconds,
+                      dividing.seconds(),          std::move(read.face_lines), read.camera,
+                      std::move(read.camera_name), std::move(read.warnings)};
+    if (!loaded.mesh.is_laid_apart()) {
+        loaded.warnings.push_back(
+            settings.path +
+            ": very many faces lie over each other in one plane; for some of them it was not "
+            "found out which of two covers the other, and rays meet either");
+        log_line(verbosity, Verbosity::normal, "warning: " + loaded.warnings.back());
+    }
     log_line(verbosity, Verbosity::verbose, mesh_text(loaded.mesh));
     return loaded;
 }

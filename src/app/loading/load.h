@@ -34,6 +34,7 @@ struct LoadedMesh {
     std::vector<std::uint32_t> face_lines; ///< ReadResult
     std::optional<Camera> camera;          ///< the same
     std::string camera_name;
+    std::vector<std::string> warnings; ///< that were logged
 };
 /// The view asked for; with the camera of the file, which is reported, where none was asked for.
 [[nodiscard]] ViewSettings view_of(const ViewSettings& asked, const LoadedMesh& loaded,

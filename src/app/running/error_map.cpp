@@ -28,7 +28,8 @@ void limit_to_most(std::vector<double>& errors) {
 } // namespace
 
 void write_error_map(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, statistics, steps, points, interrupted] = results;
+    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
+        results;
     const PictureTime time(interrupted);
     const Camera camera = camera_of(settings.view, mesh, tracer, solution.radiosity);
     std::vector<double> errors =

@@ -28,7 +28,8 @@ void check_distances(const SolveSettings& settings, std::span<const NamedPoint> 
 }
 
 void write_points(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, statistics, steps, points, interrupted] = results;
+    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
+        results;
     std::vector<Sensor> sensors;
     for (const NamedPoint& point : points)
         sensors.push_back(

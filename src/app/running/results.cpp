@@ -1,5 +1,6 @@
 #include "app/running/results.h"
 
+#include "app/report/report_page.h"
 #include "app/running/error_map.h"
 #include "app/running/point_table.h"
 #include "app/settings/exit_code.h"
@@ -58,7 +59,8 @@ class Picture {
 
   private:
     [[nodiscard]] Image render() {
-        const auto& [mesh, tracer, solution, statistics, steps, points, interrupted] = results_;
+        const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
+            results_;
         const Camera camera = camera_of(view_, mesh, tracer, solution.radiosity);
         if (!view_.camera)
             log_line(verbosity_, Verbosity::verbose, "pictures are seen by " + camera_text(camera));
@@ -112,6 +114,15 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
     }
 }
 
+void write_report(const SolveSettings& settings, const Results& results) {
+    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
+        results;
+    write_report_page(settings.report, {mesh, solution, statistics, steps, warnings,
+                                        settings.scene.path, settings.from.command,
+                                        camera_of(settings.view, mesh, tracer, solution.radiosity),
+                                        settings.view.exposure});
+}
+
 } // namespace
 
 RunFiles check_files(const SolveSettings& settings) {
@@ -121,6 +132,7 @@ RunFiles check_files(const SolveSettings& settings) {
     for (const auto& [role, path] : {std::pair("file of --points-output", settings.points.output),
                                      std::pair("file of --error-map", settings.error_map),
                                      std::pair("file of --stats", settings.statistics),
+                                     std::pair("file of --report", settings.report),
                                      std::pair("file of --steps-log", settings.steps_log)})
         if (!path.empty())
             written.emplace_back(role, path);
@@ -227,6 +239,8 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     if (!settings.steps_log.empty())
         report.attempt(settings.steps_log,
                        [&] { write_steps_log(settings.steps_log, results.steps); });
+    if (!settings.report.empty())
+        report.attempt(settings.report, [&] { write_report(settings, results); });
     return report;
 }
 

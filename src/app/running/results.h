@@ -23,7 +23,8 @@ struct Results {
     Statistics& statistics; ///< all but the seconds of outputs
     std::span<const StepRow> steps;
     std::span<const NamedPoint> points;
-    const StopFlag& interrupted; ///< pictures are then left out where they take long
+    std::span<const std::string> warnings; ///< of reading and of the run
+    const StopFlag& interrupted;           ///< pictures are then left out where they take long
 };
 
 /// The files of the run, as far as they are known before the scene is read. Throws UsageError where

@@ -100,7 +100,7 @@ struct SolveSettings {
     PlyColours ply_colours = PlyColours::linear; ///< and how .ply files do
     Provenance from;                             ///< of the files
     /// Paths; empty: not asked for.
-    std::string statistics, steps_log, error_map;
+    std::string statistics, steps_log, error_map, report;
     bool every_step = false;         ///< pictures also after every step
     std::string reference;           ///< path of a patch table; empty: none
     std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`

@@ -1,11 +1,8 @@
 #include "app/settings/view.h"
 
 #include "app/settings/exit_code.h"
-<<<<<<< HEAD
 #include "app/settings/text.h"
-=======
 #include "io/meshes/baked_light.h"
->>>>>>> 59fabd8 (Baked light as .glb, PLY with colours that viewers show, and a tone curve that keeps hue)
 #include "io/pictures/render.h"
 #include "radiosity/scene/mesh.h"
 

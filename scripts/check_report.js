@@ -1,0 +1,95 @@
+// Runs at the end of a page of --report, put there by check_report.sh: does by itself what a user would,
+// and writes a line for each thing that holds or does not.
+"use strict";
+{
+  const lines = [];
+  const check = (what, holds) => lines.push((holds ? "holds: " : "FAILS: ") + what);
+  const view = hemiluxPage, { canvas, gl, run } = view;
+  const rows = () => [...document.querySelectorAll("#patch tr")].map((row) => [...row.cells].map((cell) => cell.textContent));
+  const pixels = () => {
+    view.draw();
+    const bytes = new Uint8Array(4 * canvas.width * canvas.height);
+    gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    return bytes;
+  };
+  const colours = (bytes) => new Set(new Uint32Array(bytes.buffer)).size;
+  const brightness = (bytes) => bytes.reduce((sum, byte) => sum + byte, 0);
+  const differ = (a, b) => a.some((byte, k) => byte !== b[k]);
+  const key = (name, shiftKey = false) =>
+    canvas.dispatchEvent(new KeyboardEvent("keydown", { key: name, shiftKey, bubbles: true, cancelable: true }));
+  const pointer = (type, x, y, pointerId = 1) => canvas.dispatchEvent(new PointerEvent(type,
+    { clientX: x, clientY: y, pointerId, button: 0, buttons: type === "pointerup" ? 0 : 1, bubbles: true }));
+
+  canvas.setPointerCapture = () => {}; // refuses pointers of scripts
+  const first = pixels();
+  check("the canvas shows many colours", colours(first) > 50);
+
+  const box = canvas.getBoundingClientRect();
+  const middle = [box.left + box.width / 2, box.top + box.height / 2];
+  pointer("pointerdown", ...middle);
+  pointer("pointerup", ...middle);
+  const chosen = view.selected;
+  check("a click selects a patch", chosen !== null && rows()[0][1] === String(chosen));
+  check("its numbers are those of the data", chosen !== null &&
+    rows().some(([name, value]) => name === "Material" && value === run.materials[run.material[chosen]].name) &&
+    rows().some(([name, value]) => name === "Radiosity [W/m²]" && value.includes(number(run.radiosity[3 * chosen]))));
+  check("the patch is marked", differ(first, pixels()));
+  key("Escape");
+  check("Escape lets it go", view.selected === null && !differ(first, pixels()));
+  key("Enter");
+  check("Enter takes the patch in the middle", view.selected === chosen);
+  key("Escape");
+
+  pointer("pointerdown", ...middle);
+  pointer("pointermove", middle[0] + 60, middle[1]);
+  pointer("pointerup", middle[0] + 60, middle[1]);
+  check("a drag turns and selects nothing", view.selected === null && differ(first, pixels()));
+  key("Home");
+  check("Home gives the first view back", !differ(first, pixels()));
+  for (const [name, shift] of [["ArrowLeft"], ["ArrowUp"], ["ArrowRight", true], ["+"]]) {
+    key(name, shift);
+    check((shift ? "Shift and " : "") + name + " changes the view", differ(first, pixels()));
+    key("Home");
+  }
+  pointer("pointerdown", middle[0] - 40, middle[1], 1);
+  pointer("pointerdown", middle[0] + 40, middle[1], 2);
+  pointer("pointermove", middle[0] + 90, middle[1], 2);
+  pointer("pointerup", middle[0] - 40, middle[1], 1);
+  pointer("pointerup", middle[0] + 90, middle[1], 2);
+  check("a pinch goes nearer and selects nothing", view.selected === null && differ(first, pixels()));
+  key("Home");
+
+  const slider = document.getElementById("exposure");
+  slider.value = 2;
+  slider.dispatchEvent(new Event("input"));
+  check("the slider brightens", brightness(pixels()) > brightness(first));
+  slider.value = 0;
+  slider.dispatchEvent(new Event("input"));
+
+  const select = document.getElementById("layer");
+  for (const option of [...select.options].slice(1)) {
+    select.value = option.value;
+    select.dispatchEvent(new Event("change"));
+    const after = pixels();
+    check("layer " + option.text + " is drawn", colours(after) > 3 && differ(first, after));
+  }
+  select.value = 0;
+  select.dispatchEvent(new Event("change"));
+  check("the first layer comes back", !differ(first, pixels()));
+
+  const dots = document.querySelectorAll("#chart circle").length;
+  const errors = run.steps.filter((step) => step.estimated_error > 0).length +
+    run.steps.filter((step) => step.true_error > 0).length;
+  check("the chart has a dot for each error", dots === errors || (errors > 100 && dots > 50));
+  check("the table has a row for each step", document.querySelectorAll("#steps tbody tr").length === run.steps.length);
+  document.getElementById("number").value = run.patches - 1;
+  document.getElementById("choose").requestSubmit();
+  check("a number chooses a patch", view.selected === run.patches - 1);
+  key("Escape");
+  check("nothing is loaded from elsewhere", performance.getEntriesByType("resource").length === 0);
+  check("no name has become HTML", document.querySelectorAll("main img, main b, main i").length === 0 &&
+    window.hostile === undefined);
+  check("nothing is wider than the window",
+    document.documentElement.scrollWidth <= document.documentElement.clientWidth);
+  document.body.replaceChildren(element("pre", { id: "check", text: "\n" + lines.join("\n") + "\nall checks ran\n" }));
+}

@@ -1,0 +1,73 @@
+#!/bin/sh
+# Opens pages of `solve --report` in headless Chromium: no console message, a canvas that is not blank, clicks,
+# keys, layers and the chart work, in a wide and in a narrow window.
+#   check_report.sh HEMILUX [FOLDER]     FOLDER: where pages and screenshots are kept
+# Exit code 77 where there is no Chromium.
+set -eu
+[ $# -ge 1 ] || { sed -n '2,6s/^# \{0,1\}//p' "$0" >&2; exit 1; }
+browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||
+    { echo "no Chromium: pages are not checked" >&2; exit 77; }
+hemilux=$(realpath "$1")
+root=$(cd "$(dirname "$0")/.." && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+folder=${2:-$scratch/pages}
+mkdir -p "$folder"
+folder=$(cd "$folder" && pwd)
+
+look() { # options of the browser and the page
+    HOME=$scratch timeout 120 "$browser" --headless --no-sandbox --disable-gpu --use-gl=angle \
+        --use-angle=swiftshader --enable-unsafe-swiftshader --enable-logging=stderr \
+        --hide-scrollbars --virtual-time-budget=3000 --user-data-dir="$scratch/profile" "$@" 2>"$scratch/log"
+}
+
+# Names that would end an element or begin one, and quotes.
+cd "$scratch"
+cat >hostile.mtl <<'MTL'
+newmtl </script><script>hostile=1</script><img/src=x/onerror=hostile=1>"'&amp;
+Kd .5 .5 .5
+newmtl <!--<script>
+Kd .8 .2 .2
+Ke 5 5 5
+MTL
+cat >hostile.obj <<'OBJ'
+mtllib hostile.mtl
+v 0 0 0
+v 1 0 0
+v 1 0 1
+v 0 0 1
+v 0 1 0
+v 1 1 0
+v 1 1 1
+v 0 1 1
+g </script><b>"group"</b>
+usemtl </script><script>hostile=1</script><img/src=x/onerror=hostile=1>"'&amp;
+f 4 3 2 1
+f 1 2 6 5
+g ]]>'<i>
+usemtl <!--<script>
+f 5 6 7 8
+OBJ
+"$hemilux" solve -t 1 "$root/examples/scenes/office_3576.obj" -q --steps 5 --report "$folder/office.html"
+"$hemilux" solve -t 1 hostile.obj -q --max-edge .1 --steps 3 --report "$folder/hostile.html"
+"$hemilux" solve -t 1 "$root/examples/scenes/room_1002.obj" -q --steps 3 --sky 1 --report "$folder/sky.html"
+
+status=0
+[ "$(wc -c <"$folder/office.html")" -lt 3000000 ] || { echo "FAILS: the page is too large"; status=1; }
+for page in office hostile sky; do
+    sed '/^<\/body>/,$d' "$folder/$page.html" >checked.html
+    { echo '<script>'; cat "$root/scripts/check_report.js"; echo '</script></body></html>'; } >>checked.html
+    for size in 1360,1000 500,900; do
+        echo "== $page, window of $size"
+        look --window-size=$size --dump-dom "file://$scratch/checked.html" >dom || status=1
+        grep -E '^(holds|FAILS|all)' dom || true
+        if grep -q '^FAILS' dom || ! grep -q '^all checks ran' dom; then status=1; fi
+        if grep CONSOLE log | grep -v 'GPU stall due to ReadPixels'; then status=1; fi
+    done
+done
+if [ $# -ge 2 ]; then
+    look --window-size=1360,2000 --screenshot="$folder/light.png" "file://$folder/office.html"
+    look --window-size=1360,2000 --blink-settings=preferredColorScheme=0 --screenshot="$folder/dark.png" "file://$folder/office.html"
+    look --window-size=500,2400 --screenshot="$folder/phone.png" "file://$folder/office.html"
+fi
+exit $status

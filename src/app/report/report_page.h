@@ -1,0 +1,30 @@
+#pragma once
+// The file of --report: one page of HTML that shows a solved scene to turn around, its patches'
+// numbers and how the run went. It needs a browser with WebGL, and no network.
+//
+// The page is page.html with the style page.css, the scripts *.js and the data. JSON holds
+// all that is not a number by patch (run_data.h). Numbers by patch or vertex are arrays of
+// little-endian bytes in base64, each in an element whose id names it:
+//
+//   position     float32 x 3  of each vertex, world units, relative to `centre` of the JSON
+//   light        float32 x 3  radiosity of each vertex, smoothed as in smooth.h
+//   corners      uint32  x 4  vertices of each patch; triangle: [3] == [2]
+//   area         float32
+//   radiosity    float32 x 3
+//   error        float32 x 3  standard error of the radiosity; absent where it is zero, may be NaN
+//   face, material, group  uint32; material and group count in the JSON's lists
+//   hits         float32      rays that hit the patch; absent where they are not counted
+//   reflectance, emission  float32 x 3, where there are textures: means over each patch
+//
+// That is 75 bytes a patch and 24 a vertex, and base64 makes 4 of 3.
+
+#include "app/report/run_data.h"
+
+#include <string>
+
+namespace hemilux {
+
+/// Writes the page, array by array. Throws OutputError and Interrupted.
+void write_report_page(const std::string& path, const ReportContent& content);
+
+} // namespace hemilux
