@@ -38,6 +38,14 @@ bool is_pipe(const std::string& path) {
     return ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
 }
 
+/// Opened once more under its name, a socket is refused and a file is written from its beginning,
+/// whatever the shell has appended to.
+bool is_written_as_it_is_open(int descriptor) {
+    struct stat status {};
+    return ::fstat(descriptor, &status) == 0 &&
+           (S_ISREG(status.st_mode) || S_ISSOCK(status.st_mode));
+}
+
 std::atomic<const std::atomic<bool>*> ends_waits{nullptr};
 
 /// A wait for another process, in short pauses: a signal may reach any thread at any moment, so
@@ -68,22 +76,11 @@ bool wait_until_writable(int descriptor) {
     return true;
 }
 
-namespace {
-
-/// Whether standard output cannot be opened once more under its name, or would be another file.
-bool takes_standard_output_itself() {
-    struct stat status {};
-    return ::fstat(STDOUT_FILENO, &status) == 0 &&
-           (S_ISREG(status.st_mode) || S_ISSOCK(status.st_mode));
-}
-
-} // namespace
-
 AtomicFile::AtomicFile(const std::string& path)
     : path_(path == standard_output ? "standard output" : path),
       target_(path == standard_output ? "/dev/stdout" : path) {
     if (path == standard_output) {
-        if (takes_standard_output_itself())
+        if (is_written_as_it_is_open(STDOUT_FILENO))
             descriptor_ = ::dup(STDOUT_FILENO);
         else
             open_pipe();
