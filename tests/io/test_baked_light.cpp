@@ -12,12 +12,12 @@ TEST_CASE("baked irradiance is what a surface reflects over its reflectance") {
         box_room({0, 0, 0}, {1, 2, 3}, 2, {{"wall", rho, emission}}, {0, 0, 0, 0, 0, 0}));
     const CornerClasses classes = find_corner_classes(mesh);
     const std::vector<Vec3> radiosity(mesh.patches().size(), emission + rho * arriving);
-    for (const Vec3& light : baked_light(mesh, classes, radiosity, Bake::irradiance)) {
+    for (const Vec3& light : baked_light(mesh, classes, PatchLight(radiosity), Bake::irradiance)) {
         CHECK(light.r == Approx(2));
         CHECK(light.g == Approx(4));
         CHECK(light.b == 0); // not known
     }
-    for (const Vec3& light : baked_light(mesh, classes, radiosity, Bake::radiosity))
+    for (const Vec3& light : baked_light(mesh, classes, PatchLight(radiosity), Bake::radiosity))
         CHECK(light.r == Approx(4));
 }
 
@@ -31,7 +31,8 @@ TEST_CASE("the exposure of a mesh counts surfaces by their areas, without the sk
         std::vector<Vec3> light;
         for (const Patch& patch : mesh.patches())
             light.push_back(Vec3(patch.material == 0 ? 0.4 : 0.1));
-        return auto_exposure(mesh, classes, baked_light(mesh, classes, light, Bake::radiosity));
+        return auto_exposure(mesh, classes,
+                             baked_light(mesh, classes, PatchLight(light), Bake::radiosity));
     };
     CHECK(exposure() == Approx(0.8 / 0.4));
     scene.materials[0].is_far = true;

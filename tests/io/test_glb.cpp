@@ -71,8 +71,8 @@ std::vector<Vec3> some_light(const Mesh& mesh) {
 }
 
 VertexLight vertex_light(const Mesh& mesh, const CornerClasses& classes, const Display& display) {
-    return {baked_light(mesh, classes, some_light(mesh), Bake::radiosity), Bake::radiosity,
-            display};
+    return {baked_light(mesh, classes, PatchLight(some_light(mesh)), Bake::radiosity),
+            Bake::radiosity, display};
 }
 
 } // namespace
