@@ -1,4 +1,5 @@
 // Pictures whose light is gathered, and where the seconds of a run went.
+#include "app/picture_file.h"
 #include "app/program.h"
 #include "app/running.h"
 #include "app/statistics_file.h"
@@ -8,6 +9,7 @@
 #include <string>
 
 using Catch::Contains;
+using test::picture_of;
 using test::Running;
 using test::statistic;
 using test::wait_for;
@@ -21,12 +23,12 @@ TEST_CASE("pictures are gathered, unless --no-gather; those of steps are not") {
     REQUIRE(place.hemilux(common + "--gather 16 -t 1 -o b.png -o b.hdr").code == 0);
     REQUIRE(place.hemilux(common + "--gather 17 -o c.png").code == 0);
     REQUIRE(place.hemilux(common + "--no-gather -o d.hdr --every-step -o d.png").code == 0);
-    CHECK(place.read("a.png") == place.read("b.png"));
-    CHECK(place.read("a.png") != place.read("c.png"));
-    CHECK(place.read("a.png") != place.read("d.png"));
-    CHECK(place.read("b.hdr") != place.read("d.hdr"));
-    CHECK(place.read("a-0001.png") == place.read("d-0001.png"));
-    CHECK(place.read("d-0001.png") == place.read("d.png"));
+    CHECK(picture_of(place, "a.png") == picture_of(place, "b.png"));
+    CHECK(picture_of(place, "a.png") != picture_of(place, "c.png"));
+    CHECK(picture_of(place, "a.png") != picture_of(place, "d.png"));
+    CHECK(picture_of(place, "b.hdr") != picture_of(place, "d.hdr"));
+    CHECK(picture_of(place, "a-0001.png") == picture_of(place, "d-0001.png"));
+    CHECK(picture_of(place, "d-0001.png") == picture_of(place, "d.png"));
     for (const char* bad : {"--gather 0", "--gather 1025", "--gather x", "--gather -3"}) {
         const auto outcome = place.hemilux(common + "-o e.png " + bad);
         CHECK(outcome.code == 1);
