@@ -136,7 +136,7 @@ TEST_CASE("a report has the numbers of the tables") {
     for (const auto& [list, index] : {std::pair("materials", "material"), {"groups", "group"}}) {
         const std::vector<std::uint32_t> numbers = words_of(page, index);
         REQUIRE(numbers.size() == patches);
-        CHECK(std::ranges::all_of(numbers, [&](auto n) { return n < run[list].size(); }));
+        CHECK(*std::ranges::max_element(numbers) < run[list].size());
     }
 }
 
