@@ -2,7 +2,7 @@
 # its style and its scripts, one after the other.
 function(hemilux_embed_report output folder)
   set(report_script "")
-  foreach(script data camera scene chart page)
+  foreach(script data text camera scene chart layers steering page)
     list(APPEND scripts ${folder}/${script}.js)
   endforeach()
   foreach(file IN LISTS scripts)

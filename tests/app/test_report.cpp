@@ -126,7 +126,7 @@ TEST_CASE("a report has the numbers of the tables") {
         }
 
     CHECK(run["scene"] == "room.obj");
-    CHECK_THAT(run["command"].get<std::string>(), Contains("hemilux solve room.obj -q --max-edge"));
+    CHECK_THAT(run["command"].get<std::string>(), Contains("--max-edge .1"));
     CHECK(run["camera"]["eye"] == Json({1, 2, 3}));
     CHECK(run["camera"]["fov"] == 70);
     CHECK(run["steps"].size() == 3);
@@ -136,7 +136,7 @@ TEST_CASE("a report has the numbers of the tables") {
     for (const auto& [list, index] : {std::pair("materials", "material"), {"groups", "group"}}) {
         const std::vector<std::uint32_t> numbers = words_of(page, index);
         REQUIRE(numbers.size() == patches);
-        CHECK(std::ranges::all_of(numbers, [&](auto n) { return n < run[list].size(); }));
+        CHECK(*std::ranges::max_element(numbers) < run[list].size());
     }
 }
 

@@ -3,10 +3,10 @@
 #include "app/report/assets.h"
 #include "app/report/base64.h"
 #include "io/files/atomic_file.h"
+#include "io/files/little_endian.h"
 #include "io/results/smooth.h"
 #include "radiosity/scene/mesh.h"
 
-#include <bit>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -14,13 +14,8 @@
 namespace hemilux {
 namespace {
 
-void append(std::string& bytes, std::uint32_t word) {
-    for (int shift = 0; shift < 32; shift += 8)
-        bytes += static_cast<char>(static_cast<unsigned char>(word >> shift));
-}
-void append(std::string& bytes, double value) {
-    append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value)));
-}
+void append(std::string& bytes, std::uint32_t word) { append_bits(bytes, word); }
+void append(std::string& bytes, double value) { append_number(bytes, static_cast<float>(value)); }
 void append(std::string& bytes, const Vec3& v) {
     for (int i = 0; i < 3; ++i)
         append(bytes, v[i]);

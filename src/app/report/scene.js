@@ -7,8 +7,8 @@ const vertexShader = `
   varying vec3 light;
   void main() { light = colour; gl_Position = camera * vec4(position, 1.0); }`;
 
-// Light is multiplied by the exposure. Above 0.8 the largest channel goes smoothly towards 1, and the
-// others with it, so that hues remain. Then it becomes sRGB (IEC 61966-2-1). Tints are sRGB already.
+// Light is multiplied by the exposure, and goes through the curve of pictures with --tone neutral
+// (io/pictures/tone.h), which keeps hues. Then it becomes sRGB (IEC 61966-2-1). Tints are sRGB already.
 const fragmentShader = `
   precision highp float;
   varying vec3 light;
@@ -19,8 +19,11 @@ const fragmentShader = `
   }
   void main() {
     vec3 c = max(light * exposure, 0.0);
-    float most = max(c.r, max(c.g, c.b));
-    if (most > 0.8) c *= (1.0 - 0.04 / (most - 0.6)) / most;
+    float peak = max(c.r, max(c.g, c.b));
+    if (peak > 0.8) {
+      float compressed = 1.0 - 0.04 / (peak - 0.6);
+      c = mix(vec3(compressed), c * compressed / peak, 1.0 / (0.15 * (peak - compressed) + 1.0));
+    }
     gl_FragColor = vec4(exposure > 0.0 ? srgb(c) : light, alpha);
   }`;
 
