@@ -36,10 +36,10 @@ class PartBuilder {
         Part part{group, {}, {}};
         for (const std::uint32_t i : patches) {
             const auto& corner = classes_.of_patch[i];
-            for (const std::size_t c : {0, 1, 2})
+            for (const std::size_t c : {0u, 1u, 2u})
                 add(part, corner[c]);
             if (!mesh.patches()[i].shape.is_triangle())
-                for (const std::size_t c : {0, 2, 3})
+                for (const std::size_t c : {0u, 2u, 3u})
                     add(part, corner[c]);
         }
         return part;
@@ -152,7 +152,7 @@ class Document {
             append(vertices_, light_.display(light));
             append(vertices_, light);
         }
-        for (const std::size_t vector : {0, 1, 2})
+        for (const std::size_t vector : {0u, 1u, 2u})
             accessors_.push_back({{"bufferView", 0},
                                   {"byteOffset", begin + vector * vector_bytes},
                                   {"componentType", float_component},
