@@ -1,6 +1,7 @@
 // `hemilux solve --report`: the page has the numbers of the tables, and no name breaks it.
 #include "app/check_fails.h"
 #include "app/report/base64.h"
+#include "app/running.h"
 #include "io/results/tables.h"
 #include "support/catch.h"
 
@@ -182,6 +183,19 @@ TEST_CASE("warnings stand in a report, and unknown errors are null") {
     const Json run = Json::parse(element_of(place.read("a.html"), "run"));
     CHECK_THAT(run["warnings"].dump(), Contains("the run ended before the error of"));
     CHECK(run["steps"][0]["estimated_error"].is_null());
+}
+
+TEST_CASE("a report of an interrupted run says so") {
+    const Workplace place;
+    place.write_room();
+    test::Running run(place, "solve room.obj --steps 4000000000 -v --report a.html",
+                      place.path("stderr.txt").c_str());
+    REQUIRE(test::wait_for(place, "stderr.txt", "step 2:"));
+    run.interrupt();
+    CHECK(run.wait() == 130);
+    const Json json = Json::parse(element_of(place.read("a.html"), "run"));
+    CHECK_THAT(json["warnings"].back().get<std::string>(),
+               Contains("the run was interrupted after " + json["statistics"]["steps"].dump()));
 }
 
 TEST_CASE("--report takes a file name that ends with .html and is no other file of the run") {

@@ -140,6 +140,9 @@ int finish(const SolveSettings& settings, Results results, const WriteReport& of
     all.insert(all.end(), warnings.begin(), warnings.end());
     if (no_step)
         all.emplace_back(no_step_warning);
+    if (interrupted)
+        all.push_back("the run was interrupted after " +
+                      counted(results.solution.steps, "step", "steps"));
     results.warnings = all;
     results.statistics.seconds_analysis =
         std::max(0.0, started.seconds() + seconds_before - seconds_of_stages(results.statistics));
