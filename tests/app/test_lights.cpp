@@ -103,4 +103,7 @@ TEST_CASE("Sun and sky are not in the way of the camera, nor of the scene's size
     CHECK(run.code == 0);
     const auto info = place.hemilux("info ground.obj --sky 1");
     CHECK_THAT(info.out, Contains("2 0 2"));
+    // Nor are they divided.
+    CHECK_THAT(place.hemilux("info ground.obj --sky 1 --sun 0,-1,0,1 --max-edge 1").out,
+               Contains("patches             36 (as divided)"));
 }

@@ -143,7 +143,8 @@ double patches_of(const Scene& scene, const MeshOptions& options) {
     for (const Facet& facet : scene.facets) {
         const double sides = options.two_sided || facet.two_sided ? 2 : 1;
         const auto [along, across] = lengths_of(scene, facet);
-        patches += options.max_edge > 0
+        const bool is_divided = options.max_edge > 0 && !scene.materials[facet.material].is_far;
+        patches += is_divided
                        ? sides * pieces(along, options.max_edge) * pieces(across, options.max_edge)
                        : sides;
     }

@@ -205,8 +205,10 @@ void Mesh::lay_apart() {
 
 void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
     const Polygon shape = polygon_of(vertices_, corners_[f]);
-    const double max_edge = options.max_edge > 0 ? options.max_edge * frame_.scale
-                                                 : std::numeric_limits<double>::infinity();
+    const bool is_whole =
+        !(options.max_edge > 0) || scene_.materials[scene_.facets[f].material].is_far;
+    const double max_edge =
+        is_whole ? std::numeric_limits<double>::infinity() : options.max_edge * frame_.scale;
     Division division{};
     division.first_patch = static_cast<std::uint32_t>(patches_.size());
     const std::size_t room = options.max_patches - std::min(options.max_patches, patches_.size());

@@ -18,8 +18,8 @@
 namespace hemilux {
 
 struct MeshOptions {
-    /// Divide facets until no edge is longer [m]; 0 keeps each facet as one patch. Halving it gives
-    /// about four times as many patches.
+    /// Divide facets until no edge is longer [m]; 0 keeps each facet as one patch, as those of a
+    /// sun and a sky stay in any case. Halving it gives about four times as many patches.
     double max_edge = 0;
     /// Give every facet a patch on its back too.
     bool two_sided = false;
