@@ -87,8 +87,9 @@ TEST_CASE("A run with --for goes on from its checkpoint, and from no other") {
     const Workplace place;
     place.write_room();
     place.write("p.txt", ".6 .6 0 0 0 1\n");
-    const std::string run = "solve room.obj -q --max-edge .25 --for points:p.txt " +
-                            GENERATE(std::string(), "--method hemisphere ", "--method monte-carlo ");
+    const std::string run =
+        "solve room.obj -q --max-edge .25 --for points:p.txt " +
+        GENERATE(std::string(), "--method hemisphere ", "--method monte-carlo ");
     REQUIRE(place.hemilux(run + "--steps 4 -o whole.csv -t 1").code == 0);
     REQUIRE(place.hemilux(run + "--steps 2 -o parts.csv --checkpoint saved -t 2").code == 0);
     REQUIRE(place.hemilux(run + "--steps 4 -o parts.csv --resume saved -t 2").code == 0);

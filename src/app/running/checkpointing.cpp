@@ -76,7 +76,8 @@ void check_checkpoint_options(const SolveSettings& settings) {
                          std::string(settings.method->name) +
                          " does not keep its state; these do: " + resumable_methods());
     if (settings.options.one_shot)
-        throw UsageError("--checkpoint and --resume: a run with --one-shot does not keep its state");
+        throw UsageError(
+            "--checkpoint and --resume: a run with --one-shot does not keep its state");
     if (!asked.resumed.empty() && settings.every_step &&
         !(settings.view.camera && settings.view.exposure))
         throw UsageError("--every-step after --resume needs --camera and --exposure, which the "

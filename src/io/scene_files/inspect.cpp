@@ -63,7 +63,8 @@ void sum_areas(const Scene& scene, SceneInfo& info) {
             shape.corner[i] = (scene.vertices[facet.vertex[i]] - info.bounds.low) * scale;
         const double area = std::ldexp(shape.area(), 2 * exponent);
         info.total_area += area;
-        info.emitted_power += area * (facet.two_sided ? 2.0 : 1.0) * scene.materials[facet.material].emission;
+        info.emitted_power +=
+            area * (facet.two_sided ? 2.0 : 1.0) * scene.materials[facet.material].emission;
     }
 }
 
