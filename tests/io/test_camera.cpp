@@ -203,24 +203,10 @@ TEST_CASE("An object under the sky is looked at from outside, and all of it is s
     Scene scene;
     scene.materials = {{"leg", Vec3(0.5), Vec3(0)}};
     scene.groups = {"table"};
-    const auto block = [&](const Vec3& low, const Vec3& high) {
-        for (const int axis : {0, 1, 2})
-            for (const bool upper : {false, true}) {
-                const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-                std::array<Vec3, 4> corner{low, low, low, low};
-                corner[1][u] = corner[2][u] = high[u];
-                corner[2][v] = corner[3][v] = high[v];
-                for (Vec3& c : corner)
-                    c[axis] = upper ? high[axis] : low[axis];
-                if (!upper)
-                    std::swap(corner[1], corner[3]);
-                add_quad(scene, corner[0], corner[1], corner[2], corner[3], 1, 1, 0);
-            }
-    };
-    block({0, 0.9, 0}, {2, 1, 1});
+    add_block(scene, {0, 0.9, 0}, {2, 1, 1});
     for (const double x : {0.0, 1.9})
         for (const double z : {0.0, 0.9})
-            block({x, 0, z}, {x + 0.1, 0.9, z + 0.1});
+            add_block(scene, {x, 0, z}, {x + 0.1, 0.9, z + 0.1});
     const Box bounds = bounds_of(scene);
     add_sky(scene, "sky", bounds, Vec3(1));
     const Mesh mesh(std::move(scene));

@@ -43,17 +43,6 @@ double depth_in(const Pyramid& pyramid, const Vec3& point) {
 
 Vec3 random_point(Rng& rng) { return {rng.uniform() - .5, rng.uniform() - .5, rng.uniform() - .5}; }
 
-/// A tiny cube facing all sides.
-void add_cube(Scene& scene, const Vec3& centre, double half) {
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {-1.0, 1.0}) {
-            Vec3 n(0.0), u(0.0), v(0.0);
-            n[axis] = side * half, u[(axis + 1) % 3] = half, v[(axis + 2) % 3] = side * half;
-            const Vec3 c = centre + n;
-            test::add_quad(scene, c - u - v, c + u - v, c + u + v, c - u + v, 1, 1, 0);
-        }
-}
-
 /// A patch of ground under the open sky, a lamp beside it, and far above eight tiny cubes in the
 /// given direction of the ground's own hemisphere, its first patch.
 Scene ground_and_crowd(const Vec3& direction) {
@@ -65,10 +54,10 @@ Scene ground_and_crowd(const Vec3& direction) {
     scene.facets.back().material = 0;
     const Frame frame = Model(scene).mesh.hemisphere_frame(0);
     for (int corner = 0; corner < 8; ++corner)
-        add_cube(scene,
-                 3.0 * frame.to_world(direction) +
-                     .03 * Vec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1),
-                 .01);
+        test::add_cube(scene,
+                       3.0 * frame.to_world(direction) +
+                           .03 * Vec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1),
+                       .01);
     return scene;
 }
 

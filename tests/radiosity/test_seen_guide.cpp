@@ -57,17 +57,6 @@ std::vector<Vec3> even_light(const Model& model) {
     return std::vector<Vec3>(model.mesh.patches().size(), Vec3(1.0));
 }
 
-/// A tiny cube facing all sides.
-void add_cube(Scene& scene, const Vec3& centre, double half) {
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {-1.0, 1.0}) {
-            Vec3 n(0.0), u(0.0), v(0.0);
-            n[axis] = side * half, u[(axis + 1) % 3] = half, v[(axis + 2) % 3] = side * half;
-            const Vec3 c = centre + n;
-            test::add_quad(scene, c - u - v, c + u - v, c + u + v, c - u + v, 1, 1, 0);
-        }
-}
-
 constexpr std::size_t patches_of_crowd = 8 * 6;
 const Vec3 place_of_crowd(.43, .37, .61);
 
@@ -76,8 +65,9 @@ Scene room_with_crowd() {
     const Material wall{"wall", Vec3(.7), Vec3(0.0)}, lamp{"lamp", Vec3(.7), Vec3(1.0)};
     Scene scene = test::box_room(Vec3(0.0), Vec3(1.0), 3, {wall, lamp}, {0, 1, 0, 0, 0, 0});
     for (int corner = 0; corner < 8; ++corner)
-        add_cube(scene, place_of_crowd + .015 * Vec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1),
-                 .004);
+        test::add_cube(scene,
+                       place_of_crowd + .015 * Vec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1),
+                       .004);
     return scene;
 }
 
@@ -249,7 +239,7 @@ TEST_CASE("Guided by what is seen where there is nothing to see") {
         test::box_room(Vec3(0.0), Vec3(1.0), 2, {black, lamp}, {0, 1, 0, 0, 0, 0});
     const Scene dark = test::furnace_box(2, .5, 0);
     Scene speck = room_with_crowd();
-    add_cube(speck, Vec3(.5), 1e-9);
+    test::add_cube(speck, Vec3(.5), 1e-9);
     for (const Scene& scene : {one_patch, black_room, dark, speck})
         for (const Guide guide : {Guide::visible, Guide::learned}) {
             const Model model(scene);

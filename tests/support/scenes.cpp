@@ -51,6 +51,18 @@ void add_quad(Scene& scene, const Vec3& a, const Vec3& b, const Vec3& c, const V
                       material);
 }
 
+void add_block(Scene& scene, const Vec3& low, const Vec3& high) {
+    const Vec3 centre = .5 * (low + high), half = .5 * (high - low);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            const int across = (axis + 1) % 3, along = (axis + 2) % 3;
+            Vec3 n(0.0), u(0.0), v(0.0);
+            n[axis] = side * half[axis], u[across] = half[across], v[along] = side * half[along];
+            const Vec3 c = centre + n;
+            add_quad(scene, c - u - v, c + u - v, c + u + v, c - u + v, 1, 1, 0);
+        }
+}
+
 Scene box_room(const Vec3& low, const Vec3& high, std::uint32_t n,
                const std::vector<Material>& materials, const std::array<std::uint32_t, 6>& side) {
     Scene scene = with_materials(materials);

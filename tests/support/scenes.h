@@ -10,6 +10,13 @@ namespace hemilux::test {
 void add_quad(Scene& scene, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
               std::uint32_t n, std::uint32_t m, std::uint32_t material);
 
+/// The outside of the axis-aligned box from `low` to `high`, a quad a side, of the material 0.
+void add_block(Scene& scene, const Vec3& low, const Vec3& high);
+/// The same of a cube.
+inline void add_cube(Scene& scene, const Vec3& centre, double half) {
+    add_block(scene, centre - half, centre + half);
+}
+
 /// The inside of the axis-aligned box from `low` to `high`, n x n quads a side. Sides in the order
 /// -y (floor), +y (ceiling), -x, +x, -z, +z; material[side].
 [[nodiscard]] Scene box_room(const Vec3& low, const Vec3& high, std::uint32_t n,

@@ -5,6 +5,7 @@
 #include "io/gltf/lights.h"
 #include "io/gltf/primitives.h"
 #include "io/gltf/uri.h"
+#include "io/scene_files/emitter_shapes.h"
 #include "io/scene_files/polygon_division.h"
 #include "io/textures/texture_files.h"
 #include "radiosity/sides/shells.h"
@@ -361,10 +362,7 @@ void Reader::add_camera(const Instance& instance) {
 }
 
 void Reader::add_lights() {
-    Box bounds;
-    for (const Facet& facet : result_.scene.facets)
-        for (const std::uint32_t v : facet.vertex)
-            bounds.include(result_.scene.vertices[v]);
+    const Box bounds = bounds_of(result_.scene);
     std::array<std::size_t, 3> count{};
     for (const Instance& instance : instances_) {
         const Node& node = document_.nodes[instance.node];
