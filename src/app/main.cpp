@@ -1,11 +1,13 @@
 // The command-line program: hemilux SUBCOMMAND ...
 
+#include "app/command_line/generated_texts.h"
 #include "app/command_line/options.h"
 #include "app/commands/commands.h"
 #include "app/commands/density.h"
 #include "app/commands/formfactors.h"
 #include "app/running/signals.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/names.h"
 #include "io/files/error.h"
 #include "io/files/printable.h"
 
@@ -58,6 +60,19 @@ Provenance provenance(const Command& command, std::uint64_t seed) {
     return {"hemilux " HEMILUX_VERSION, "hemilux " + command.text_given(beside), seed};
 }
 
+/// The answer to --print, made from what was declared.
+std::string printed(const Arguments& program, const std::string& name) {
+    const std::vector<std::string> names = {"man", "bash", "zsh", "fish"};
+    if (std::ranges::find(names, name) == names.end())
+        throw UsageError("--print: " + unknown_name("choice", name, names));
+    if (name == names.front())
+        return manual_page(program.described(), "hemilux " HEMILUX_VERSION);
+    std::vector<std::string> method_names;
+    for (const Method* const method : methods())
+        method_names.emplace_back(method->name);
+    return completions(name, program.described(), method_names);
+}
+
 /// `advice` names the help of the subcommand, where one is asked for.
 int run_program(std::vector<std::string> words, std::string& advice) {
     Arguments program("hemilux",
@@ -75,6 +90,9 @@ int run_program(std::vector<std::string> words, std::string& advice) {
     const Command density_command = add_density_command(program, density_settings);
     const Command formfactors_command = add_formfactors_command(program, formfactor_settings);
     add_info_command(program, info_settings);
+    program.program().add_answer(
+        "--print", "man|bash|zsh|fish", "Print the manual page, or the completions of a shell",
+        [&program](const std::string& name) { return printed(program, name); });
     program.program().end_help_with("hemilux SUBCOMMAND --help tells more.");
     for (const std::string& subcommand : program.commands())
         if (!words.empty() && words.front() == subcommand)

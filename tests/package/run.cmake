@@ -1,6 +1,6 @@
 # Installs the library from build folder BUILD, then configures, builds and runs the consumer beside
-# this file against what was installed, as a user would; then the same with the program that
-# docs/library.md prints. Nothing but BUILD/package_test is written.
+# this file against what was installed, as a user would, by find_package and by pkg-config; then the
+# same with the program that docs/library.md prints. Nothing but BUILD/package_test is written.
 cmake_minimum_required(VERSION 3.22)
 set(work ${BUILD}/package_test)
 file(REMOVE_RECURSE ${work})
@@ -29,6 +29,18 @@ function(build_and_run source build program)
 endfunction()
 
 build_and_run(${CMAKE_CURRENT_LIST_DIR} ${work}/build consumer)
+
+# The same by pkg-config, where that is.
+find_program(pkg_config pkg-config)
+if(pkg_config)
+  file(GLOB_RECURSE description ${work}/installed/hemilux.pc)
+  cmake_path(GET description PARENT_PATH folder)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${folder}
+    ${pkg_config} --cflags --libs "hemilux >= 0.1" OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${FLAGS} ${CMAKE_CURRENT_LIST_DIR}/consumer.cpp ${flags}")
+  step(${COMPILER} ${flags} -o ${work}/by_pkg_config)
+  step(${work}/by_pkg_config)
+endif()
 
 file(READ ${CMAKE_CURRENT_LIST_DIR}/../../docs/library.md page)
 foreach(block "cmake;CMakeLists.txt" "cpp;first.cpp")

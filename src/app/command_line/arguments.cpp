@@ -83,6 +83,24 @@ std::string refused(const CLI::App& program, const CLI::ParseError& error) {
     return message;
 }
 
+CommandText described(const CLI::App& command) {
+    CommandText text{command.get_name(), command.get_description(), {}, command.get_footer()};
+    for (const CLI::Option* const option : command.get_options()) {
+        OptionText of_option{
+            {}, {}, option->get_description(), option->get_group(), option->get_expected_max() > 1};
+        if (option->get_items_expected_max() > 0)
+            of_option.type = option->get_type_name();
+        for (const std::string& name : option->get_snames())
+            of_option.names.push_back("-" + name);
+        for (const std::string& name : option->get_lnames())
+            of_option.names.push_back("--" + name);
+        if (option->get_positional())
+            of_option.names.push_back(option->get_name(true));
+        text.options.push_back(std::move(of_option));
+    }
+    return text;
+}
+
 /// A word as a shell takes it.
 std::string quoted(const std::string& word) {
     const auto is_plain = [](unsigned char c) {
@@ -167,6 +185,14 @@ Option Command::add_version(const std::string& name, const std::string& version,
     return Option(*app_->set_version_flag(name, version, help));
 }
 
+Option Command::add_answer(const std::string& name, const std::string& type,
+                           const std::string& help,
+                           std::function<std::string(const std::string&)> answer) const {
+    return add_value(name, type, help, [answer = std::move(answer)](const std::string& text) {
+        throw CLI::CallForVersion(answer(text), 0);
+    });
+}
+
 Option Command::add_help(const std::string& name, const std::string& help) const {
     app_->set_help_flag(); // takes away the one that stands first
     return Option(*app_->set_help_flag(name, help));
@@ -214,6 +240,13 @@ Command Arguments::add_command(const std::string& name, const std::string& descr
 }
 
 std::vector<std::string> Arguments::commands() const { return names_of(all_subcommands(*app_)); }
+
+std::vector<CommandText> Arguments::described() const {
+    std::vector<CommandText> texts{hemilux::described(*app_)};
+    for (const CLI::App* const subcommand : all_subcommands(*app_))
+        texts.push_back(hemilux::described(*subcommand));
+    return texts;
+}
 
 std::string Arguments::parse(std::vector<std::string> words) {
     try {

@@ -34,6 +34,20 @@ class Option {
     CLI::Option* option_;
 };
 
+/// What was declared of an option.
+struct OptionText {
+    std::vector<std::string> names; ///< with their dashes; one without dashes: a positional
+    std::string type, help, group;  ///< type: empty where it takes no value
+    bool repeatable = false;
+};
+
+/// What was declared of a subcommand, or of the program itself.
+struct CommandText {
+    std::string name, description;
+    std::vector<OptionText> options;
+    std::string end; ///< of its help
+};
+
 /// A subcommand, or a program without any. Copies mean the same one; all of it, and what options
 /// write to, outlives the parsing. `type` is what --help says of an option's value.
 class Command {
@@ -55,6 +69,9 @@ class Command {
                       const std::string& help) const;
     Option add_version(const std::string& name, const std::string& version,
                        const std::string& help) const;
+    /// An option of one value whose answer is a text, as that of --help is.
+    Option add_answer(const std::string& name, const std::string& type, const std::string& help,
+                      std::function<std::string(const std::string&)> answer) const;
     /// --help stands where this is called, not first.
     Option add_help(const std::string& name, const std::string& help) const;
     /// The text that --help ends with.
@@ -85,6 +102,8 @@ class Arguments {
     /// One of the subcommands has to be named.
     Command add_command(const std::string& name, const std::string& description);
     [[nodiscard]] std::vector<std::string> commands() const;
+    /// The program, then its subcommands.
+    [[nodiscard]] std::vector<CommandText> described() const;
 
     /// Fills what the options write to. Returns the text that --help or --version asked for; empty
     /// where the program is to do its work. Throws UsageError, with the nearest name for one that

@@ -25,8 +25,7 @@ std::optional<std::string> drawing_path(const std::string& path) {
 /// Of the methods whose hemispheres can be drawn.
 void add_dividing_method(Command command, const Method*& method) {
     command
-        .add_value("--method", "NAME",
-                   "whose hemispheres: hemisphere or hemisphere-1997 [hemisphere]",
+        .add_value("--method", "hemisphere|hemisphere-1997", "whose hemispheres [hemisphere]",
                    [&method](const std::string& name) {
                        std::vector<std::string> names;
                        for (const Role role : {Role::paper, Role::forerunner}) {

@@ -54,7 +54,7 @@ void add_method_option(Command command, const Method*& method) {
             taken += "; " + std::string(other->name) + " where " + either(other->implied_by) +
                      " are given";
     command
-        .add_value("--method", "NAME", "how to solve, see below [" + taken + "]",
+        .add_value("--method", "METHOD", "how to solve, see below [" + taken + "]",
                    [&method](const std::string& name) { method = method_by_name(name); })
         .group("Method");
     command.after_parsing([command, &method] {
@@ -121,7 +121,7 @@ void add_methods_option(Command command, std::vector<MethodVariant>& list) {
         else if (variant.method->unbiased || variant.method->role == Role::standard)
             list.push_back(variant);
     command
-        .add_value("--methods", "NAME,NAME,...",
+        .add_value("--methods", "METHOD,METHOD,...",
                    "what to compare, see below; also " + with_guides + " [" +
                        std::string(method_of(Role::standard).name) + " and all that are unbiased]",
                    [&list](const std::string& text) { list = variants_from(text); })
@@ -138,18 +138,8 @@ void add_method_options(Command command, SolveOptions& options) {
                "mean rays per patch and step [64]")
         .group("Method");
     add_division_options(command, options);
-    command
-        .add_value(
-            "--guide", "NAME",
-            "what guides " + guided_methods() + ": density, pyramid, visible or learned [density]",
-            [&options](const std::string& name) {
-                const auto found = std::ranges::find(guide_names, name);
-                if (found == guide_names.end()) {
-                    const std::vector<std::string> names(guide_names.begin(), guide_names.end());
-                    throw UsageError("--guide: " + unknown_name("guide", name, names));
-                }
-                options.guide = static_cast<Guide>(found - guide_names.begin());
-            })
+    add_choice(command, "--guide", options.guide, guide_names,
+               "what guides " + guided_methods() + " [density]")
         .group("Method");
     command.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased")
         .group("Method");

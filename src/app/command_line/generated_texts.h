@@ -1,0 +1,22 @@
+#pragma once
+// Texts for other programs, made from the declarations that --help is made from.
+
+#include "app/command_line/arguments.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hemilux {
+
+/// A manual page (man macros of roff), with `version` in its foot line.
+[[nodiscard]] std::string manual_page(const std::vector<CommandText>& program,
+                                      const std::string& version);
+
+/// Completions of subcommands, options and values that are choices, for a shell: bash, zsh or fish.
+/// `methods` are the names that stand for METHOD. Empty for other shells.
+[[nodiscard]] std::string completions(std::string_view shell,
+                                      const std::vector<CommandText>& program,
+                                      const std::vector<std::string>& methods);
+
+} // namespace hemilux
