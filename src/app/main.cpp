@@ -1,5 +1,6 @@
 // The command-line program: hemilux SUBCOMMAND ...
 
+#include "app/command_line/config_words.h"
 #include "app/command_line/generated_texts.h"
 #include "app/command_line/options.h"
 #include "app/commands/commands.h"
@@ -56,7 +57,7 @@ Provenance provenance(const Command& command, std::uint64_t seed) {
     constexpr auto beside = std::to_array<std::string_view>(
         {"--output", "--stats", "--steps-log", "--error-map", "--points-output", "--report",
          "--every-step", "--threads", "--memory", "--checkpoint", "--every", "--resume", "--quiet",
-         "--verbose"});
+         "--verbose", "--config"});
     return {"hemilux " HEMILUX_VERSION, "hemilux " + command.text_given(beside), seed};
 }
 
@@ -71,6 +72,16 @@ std::string printed(const Arguments& program, const std::string& name) {
     for (const Method* const method : methods())
         method_names.emplace_back(method->name);
     return completions(name, program.described(), method_names);
+}
+
+/// What Arguments::parse returns. Throws InputError where a file of --config is to blame.
+std::string parsed(Arguments& program, const ConfigWords& config) {
+    try {
+        return program.parse(config.words());
+    } catch (const UsageError& error) {
+        config.explain(error.what());
+        throw;
+    }
 }
 
 /// `advice` names the help of the subcommand, where one is asked for.
@@ -97,13 +108,15 @@ int run_program(std::vector<std::string> words, std::string& advice) {
     for (const std::string& subcommand : program.commands())
         if (!words.empty() && words.front() == subcommand)
             advice = "\nhemilux " + words.front() + " --help tells what can be asked for.";
-    if (const std::string text = program.parse(std::move(words)); !text.empty()) {
+    const ConfigWords config(std::move(words), program.described());
+    if (const std::string text = parsed(program, config); !text.empty()) {
         if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
             throw OutputError("standard output", "cannot be written");
         return exit_done;
     }
     if (solve_command.parsed()) {
         solve_settings.from = provenance(solve_command, solve_settings.options.seed);
+        solve_settings.given = solve_command.options_given();
         return solve(solve_settings);
     }
     if (compare_command.parsed()) {

@@ -206,21 +206,31 @@ void Command::after_parsing(std::function<void()> action) const {
 
 bool Command::given(const std::string& option) const { return app_->count(option) > 0; }
 
+std::vector<GivenOption> Command::options_given() const {
+    std::vector<GivenOption> given;
+    for (const CLI::Option* const option : app_->get_options()) {
+        if (option->count() == 0)
+            continue;
+        GivenOption one{option->get_name(), {}};
+        if (option->get_items_expected_max() > 0)
+            one.values = option->results();
+        if (option->get_delimiter() != '\0')
+            one.values = {CLI::detail::join(one.values, std::string(1, option->get_delimiter()))};
+        given.push_back(std::move(one));
+    }
+    return given;
+}
+
 std::string Command::text_given(std::span<const std::string_view> except) const {
     std::string text = app_->get_name();
-    for (const CLI::Option* const option : app_->get_options()) {
-        const std::string name = option->get_name();
-        if (option->count() == 0 || std::ranges::find(except, name) != except.end())
+    for (const auto& [name, values] : options_given()) {
+        if (std::ranges::find(except, name) != except.end())
             continue;
-        const std::string words = option->get_positional() ? " " : " " + name + " ";
-        if (option->get_items_expected_max() == 0)
-            text += " " + name;
-        else if (option->get_delimiter() != '\0')
-            text += words + quoted(CLI::detail::join(option->results(),
-                                                     std::string(1, option->get_delimiter())));
-        else
-            for (const std::string& value : option->results())
-                text += words + quoted(value);
+        const std::string word = name.starts_with("-") ? " " + name : "";
+        if (values.empty())
+            text += word;
+        for (const std::string& value : values)
+            text += word + " " + quoted(value);
     }
     return text;
 }

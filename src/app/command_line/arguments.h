@@ -2,6 +2,8 @@
 // The arguments of a program: options with their help, subcommands, and what is said of a mistake.
 // CLI11 does the work. It takes long to compile, so arguments.cpp alone includes it.
 
+#include "io/results/statistics.h"
+
 #include <functional>
 #include <memory>
 #include <span>
@@ -80,7 +82,9 @@ class Command {
 
     /// Whether the option was given.
     [[nodiscard]] bool given(const std::string& option) const;
-    /// What was given, in the order of --help, as a shell takes it; without the options of these
+    /// What was given, in the order of --help.
+    [[nodiscard]] std::vector<GivenOption> options_given() const;
+    /// The same, as a shell takes it; without the options of these
     /// names.
     [[nodiscard]] std::string text_given(std::span<const std::string_view> except) const;
     /// Whether the subcommand was named.

@@ -111,6 +111,11 @@ void add_light_options(Command command, SceneSettings& scene) {
 Option add_scene_options(Command command, SceneSettings& scene) {
     command.add_text("SCENE", "FILE", scene.path, "the scene: .obj, .gltf, .glb or .stl")
         .required();
+    command
+        .add_text(
+            "--config", "FILE", scene.config,
+            "options from a TOML file, as error = \"1%\"; those of the command line come first")
+        .group("Scene");
     const Option max_edge =
         add_number(command, "--max-edge", "LENGTH", scene.mesh.max_edge, positive,
                    "divide faces until no edge is longer [not divided]");

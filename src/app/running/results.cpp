@@ -10,6 +10,7 @@
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/meshes/glb.h"
+#include "io/meshes/vtu.h"
 #include "io/pictures/image.h"
 #include "io/results/smooth.h"
 #include "radiosity/sampling/workers.h"
@@ -105,6 +106,8 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
     case OutputKind::ply:
     case OutputKind::glb:
         return write_mesh(settings, output, results, classes.get());
+    case OutputKind::vtu:
+        return write_vtu(output.path, results.mesh, classes.get(), solution, settings.from);
     case OutputKind::csv:
         return write_patch_table(output.path, results.mesh, solution.radiosity,
                                  solution.standard_error, Workers(results.statistics.threads),
@@ -158,6 +161,8 @@ RunFiles check_files(const SolveSettings& settings) {
         if (settings.every_step && is_picture(output.kind))
             files.write_steps(output.path);
     files.read("scene", settings.scene.path);
+    if (!settings.scene.config.empty())
+        files.read("file of --config", settings.scene.config);
     if (!settings.reference.empty())
         files.read("reference", settings.reference);
     if (!settings.points.path.empty())
@@ -184,6 +189,8 @@ RunFiles check_files(const SolveSettings& settings) {
 WriteReport write_results(const SolveSettings& settings, const Results& results,
                           const Stopwatch& started) {
     Statistics& statistics = results.statistics;
+    statistics.program = settings.from.program;
+    statistics.settings = settings.given;
     const Stopwatch writing;
     SharedClasses classes(results.mesh);
     Picture picture(settings, results, classes);

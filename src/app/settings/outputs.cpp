@@ -24,6 +24,7 @@ std::optional<Output> parse_output(std::string_view path) {
                                                                 {".hdr", OutputKind::hdr},
                                                                 {".ply", OutputKind::ply},
                                                                 {".glb", OutputKind::glb},
+                                                                {".vtu", OutputKind::vtu},
                                                                 {".csv", OutputKind::csv},
                                                                 {".json", OutputKind::json}});
     const fs::path name(path);

@@ -11,7 +11,7 @@
 
 namespace hemilux {
 
-enum class OutputKind { png, hdr, ply, glb, csv, json };
+enum class OutputKind { png, hdr, ply, glb, vtu, csv, json };
 
 /// A file that the user asked for.
 struct Output {
@@ -21,9 +21,6 @@ struct Output {
 
 [[nodiscard]] constexpr bool is_picture(OutputKind kind) {
     return kind == OutputKind::png || kind == OutputKind::hdr;
-}
-[[nodiscard]] constexpr bool is_mesh(OutputKind kind) {
-    return kind == OutputKind::ply || kind == OutputKind::glb;
 }
 
 /// The kind of output by the extension of the path, in small or capital letters; empty if it is

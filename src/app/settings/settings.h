@@ -8,6 +8,7 @@
 #include "io/files/provenance.h"
 #include "io/meshes/ply.h"
 #include "io/pictures/camera.h"
+#include "io/results/statistics.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solver.h"
 
@@ -26,6 +27,7 @@ inline constexpr std::array<const char*, 3> sides_names = {"auto", "front", "bot
 /// Which scene, and with which changes.
 struct SceneSettings {
     std::string path;
+    std::string config; ///< path of the file that options were read from; empty: none
     std::vector<Override> emission, reflectance;
     std::vector<LightSettings> lights; ///< that are added
     std::vector<SunSettings> suns;
@@ -99,6 +101,7 @@ struct SolveSettings {
     Bake bake = Bake::radiosity;                 ///< what mesh files hold
     PlyColours ply_colours = PlyColours::linear; ///< and how .ply files do
     Provenance from;                             ///< of the files
+    std::vector<GivenOption> given;              ///< options and their values
     /// Paths; empty: not asked for.
     std::string statistics, steps_log, error_map, report;
     bool every_step = false;         ///< pictures also after every step

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <sys/resource.h>
 
 namespace hemilux {
@@ -12,6 +13,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json channels(const Vec3& power) { return Json::array({power.x, power.y, power.z}); }
+
+/// Names without their dashes; true for a flag, several values as an array.
+Json settings(const std::vector<GivenOption>& options) {
+    Json object = Json::object();
+    for (const auto& [name, values] : options) {
+        Json& value = object[name.substr(std::min(name.find_first_not_of('-'), name.size()))];
+        if (values.empty())
+            value = true;
+        else if (values.size() == 1)
+            value = values.front();
+        else
+            value = values;
+    }
+    return object;
+}
 
 Json to_object(const Statistics& s) {
     Json left_out = Json::array();
@@ -61,6 +77,8 @@ Json to_object(const Statistics& s) {
         object["for"] = s.target;
         object["estimated_error_elsewhere"] = s.estimated_error_elsewhere;
     }
+    object["program"] = s.program;
+    object["settings"] = settings(s.settings);
     return object;
 }
 

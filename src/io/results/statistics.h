@@ -11,6 +11,12 @@
 
 namespace hemilux {
 
+/// An option of the command line or of a file of options, in the order of --help.
+struct GivenOption {
+    std::string name;                ///< with its dashes, or SCENE
+    std::vector<std::string> values; ///< none: a flag
+};
+
 struct Statistics {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); ///< JSON: null
 
@@ -54,6 +60,8 @@ struct Statistics {
     double error_division = unknown, error_division_uncertainty = unknown;
     EnergyBalance energy;
     std::vector<LeftOut> left_out;
+    std::string program; ///< with its version, whose defaults hold for options that are not given
+    std::vector<GivenOption> settings;
 };
 
 /// The object's text, one key a line, in the order of the struct.
