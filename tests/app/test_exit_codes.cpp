@@ -34,7 +34,7 @@ TEST_CASE("wrong usage ends with 1 and says what was expected") {
     check_fails(place, 1, "solve room.obj -o a.png --frobnicate", "--frobnicate");
     check_fails(place, 1, "solve room.obj -o", "FILE");
     check_fails(place, 1, "solve room.obj -o a.txt",
-                ".png, .hdr, .ply, .glb, .vtu, .csv or .json, not 'a.txt'");
+                ".png, .hdr, .exr, .ply, .glb, .vtu, .csv or .json, not 'a.txt'");
     check_fails(place, 1, "solve room.obj -o a", "not 'a'");
     check_fails(place, 1, "solve room.obj -o a.png -o ./a.png", "named twice");
     check_fails(place, 1, "solve room.obj -o a.csv --reference a.csv", "named twice");

@@ -121,6 +121,12 @@ Bytes unfilter(const Bytes& rows, std::size_t width, std::size_t height) {
 
 } // namespace
 
+Bytes unzipped(const Bytes& stream) {
+    expect(stream.size() > 2, "no data");
+    const Bytes content(stream.begin() + 2, stream.end()); // after zlib's header
+    return Inflate(content).run();
+}
+
 Png read_png(const std::string& path) {
     const std::string file = content_of(path);
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(file.at(i)); };
@@ -142,9 +148,7 @@ Png read_png(const std::string& path) {
                 compressed.push_back(byte(at + 8 + i));
         }
     }
-    expect(compressed.size() > 2, "no data");
-    compressed.erase(compressed.begin(), compressed.begin() + 2); // zlib's header
-    png.bytes = unfilter(Inflate(compressed).run(), static_cast<std::size_t>(png.width),
+    png.bytes = unfilter(unzipped(compressed), static_cast<std::size_t>(png.width),
                          static_cast<std::size_t>(png.height));
     return png;
 }

@@ -12,6 +12,9 @@ struct Png {
     std::vector<std::uint8_t> bytes; ///< RGB, row by row from the top
 };
 
+/// The content of a zlib stream as stb_image_write makes it: without codes of its own.
+std::vector<std::uint8_t> unzipped(const std::vector<std::uint8_t>& stream);
+
 /// Throws std::runtime_error for anything unexpected.
 Png read_png(const std::string& path);
 

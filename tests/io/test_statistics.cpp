@@ -22,6 +22,8 @@ Statistics example() {
     s.bytes_peak = 1 << 20;
     s.energy = {{1, 2, 3}, {0.5, 1, 1.5}, {0.5, 1, 1.5}, {0, 0.5, 0}};
     s.left_out = {{"two channels", "all is \"grey\"", "2/3 of the memory"}};
+    s.program = "hemilux 7";
+    s.settings = {{"SCENE", {"room.obj"}}, {"--keep-all", {}}, {"--output", {"a.csv", "b.csv"}}};
     return s;
 }
 
@@ -91,7 +93,16 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
   "seconds_gather": 0.0,
   "seconds_picture": 0.0,
   "seconds_write": 0.0,
-  "seconds_total": null
+  "seconds_total": null,
+  "program": "hemilux 7",
+  "settings": {
+    "SCENE": "room.obj",
+    "keep-all": true,
+    "output": [
+      "a.csv",
+      "b.csv"
+    ]
+  }
 }
 )";
     CHECK(to_json(example()) == expected);

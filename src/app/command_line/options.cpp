@@ -169,8 +169,8 @@ void add_stop_options(Command command, StopRule& stop) {
 void add_output_options(Command command, SolveSettings& settings) {
     add_parsed(
         command, "-o,--output", "FILE",
-        "picture .png .hdr, mesh .glb .ply, patches .csv .vtu, statistics .json; repeatable",
-        "a file name that ends with .png, .hdr, .ply, .glb, .vtu, .csv or .json",
+        "picture .png .hdr .exr, mesh .glb .ply, patches .csv .vtu, statistics .json; repeatable",
+        "a file name that ends with .png, .hdr, .exr, .ply, .glb, .vtu, .csv or .json",
         [](const std::string& path) { return parse_output(path); },
         [&settings](const Output& value) { settings.outputs.push_back(value); })
         .repeatable()

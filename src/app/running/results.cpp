@@ -2,6 +2,7 @@
 
 #include "app/report/report_page.h"
 #include "app/running/error_map.h"
+#include "app/running/layered_picture.h"
 #include "app/running/point_table.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/view.h"
@@ -43,7 +44,7 @@ class SharedClasses {
 class Picture {
   public:
     Picture(const SolveSettings& settings, const Results& results, SharedClasses& classes)
-        : view_(settings.view), verbosity_(settings.verbosity), from_(settings.from),
+        : settings_(settings), view_(settings.view), from_(settings.from),
           gather_(settings.gather_pictures ? settings.gather : 0), results_(results),
           classes_(classes), time_(results.interrupted) {}
 
@@ -55,27 +56,32 @@ class Picture {
             image_ = render();
         if (time_.is_over())
             throw Interrupted();
-        write_picture(output, *image_, view_, from_);
+        if (output.kind == OutputKind::exr)
+            write_exr(output.path, image_->width, image_->height,
+                      picture_layers(settings_, results_, *image_, camera_), from_);
+        else
+            write_picture(output, *image_, view_, from_);
     }
 
   private:
     [[nodiscard]] Image render() {
         const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
             results_;
-        const Camera camera = camera_of(view_, mesh, tracer, solution.radiosity);
+        camera_ = camera_of(view_, mesh, tracer, solution.radiosity);
         if (!view_.camera)
-            log_line(verbosity_, Verbosity::verbose, "pictures are seen by " + camera_text(camera));
+            log_line(settings_.verbosity, Verbosity::normal,
+                     "pictures are seen by " + camera_text(camera_));
         const Stopwatch watch;
         Image image =
-            render_view(view_, mesh, tracer, solution.radiosity, camera, statistics.threads, time_,
+            render_view(view_, mesh, tracer, solution.radiosity, camera_, statistics.threads, time_,
                         gather_ > 0 ? nullptr : &classes_.get(), gather_, solution.slope);
         if (gather_ > 0)
             seconds_gather_ = watch.seconds();
         return image;
     }
 
+    const SolveSettings& settings_;
     const ViewSettings& view_;
-    Verbosity verbosity_;
     const Provenance& from_;
     unsigned gather_; ///< rays at a point; 0: pictures interpolate
     const Results& results_;
@@ -83,6 +89,7 @@ class Picture {
     PictureTime time_;
     double seconds_gather_ = 0;
     std::optional<Image> image_;
+    Camera camera_; ///< of the image
 };
 
 void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,
@@ -102,6 +109,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
     switch (output.kind) {
     case OutputKind::png:
     case OutputKind::hdr:
+    case OutputKind::exr:
         return picture.write(output);
     case OutputKind::ply:
     case OutputKind::glb:

@@ -22,6 +22,7 @@ std::optional<Output> parse_output(std::string_view path) {
     static constexpr auto kinds =
         std::to_array<std::pair<std::string_view, OutputKind>>({{".png", OutputKind::png},
                                                                 {".hdr", OutputKind::hdr},
+                                                                {".exr", OutputKind::exr},
                                                                 {".ply", OutputKind::ply},
                                                                 {".glb", OutputKind::glb},
                                                                 {".vtu", OutputKind::vtu},

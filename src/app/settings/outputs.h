@@ -11,7 +11,7 @@
 
 namespace hemilux {
 
-enum class OutputKind { png, hdr, ply, glb, vtu, csv, json };
+enum class OutputKind { png, hdr, exr, ply, glb, vtu, csv, json };
 
 /// A file that the user asked for.
 struct Output {
@@ -20,7 +20,7 @@ struct Output {
 };
 
 [[nodiscard]] constexpr bool is_picture(OutputKind kind) {
-    return kind == OutputKind::png || kind == OutputKind::hdr;
+    return kind == OutputKind::png || kind == OutputKind::hdr || kind == OutputKind::exr;
 }
 
 /// The kind of output by the extension of the path, in small or capital letters; empty if it is

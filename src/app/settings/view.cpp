@@ -3,6 +3,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"
 #include "io/meshes/baked_light.h"
+#include "io/pictures/exr.h"
 #include "io/pictures/render.h"
 #include "radiosity/scene/mesh.h"
 
@@ -56,9 +57,13 @@ Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& trac
 void write_picture(const Output& output, const Image& image, const ViewSettings& view,
                    const Provenance& from) {
     if (output.kind == OutputKind::hdr)
-        write_hdr(output.path, image, from);
-    else
-        write_png(output.path, image, display_of(view, image), from);
+        return write_hdr(output.path, image, from);
+    if (output.kind == OutputKind::exr) {
+        std::vector<ExrChannel> channels;
+        add_exr_channels(channels, "", image);
+        return write_exr(output.path, image.width, image.height, std::move(channels), from);
+    }
+    write_png(output.path, image, display_of(view, image), from);
 }
 
 Display display_of(const ViewSettings& view, const Image& image) {

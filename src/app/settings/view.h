@@ -43,7 +43,7 @@ class PictureTime {
                                 const CornerClasses* classes = nullptr, unsigned gather = 0,
                                 std::span<const Slope> slope = {});
 
-/// A .png or .hdr file. Throws OutputError.
+/// A .png or .hdr file, or the light alone in an .exr file. Throws OutputError.
 void write_picture(const Output& output, const Image& image, const ViewSettings& view,
                    const Provenance& from);
 

@@ -6,14 +6,6 @@
 namespace hemilux {
 namespace {
 
-Vec3 irradiance(const Material& material, const Vec3& radiosity) {
-    Vec3 result(0.0);
-    for (int channel = 0; channel < 3; ++channel)
-        if (const double rho = material.reflectance[channel]; rho > 0)
-            result[channel] = (radiosity[channel] - material.emission[channel]) / rho;
-    return result;
-}
-
 double shown_area(const Mesh& mesh, const Patch& patch) {
     return mesh.material(patch).is_far ? 0 : patch.area;
 }
@@ -29,11 +21,19 @@ Vec3 mean_of_corners(const Polygon& shape, const std::array<std::uint32_t, 4>& c
 
 } // namespace
 
+Vec3 irradiance_of(const Material& material, const Vec3& radiosity) {
+    Vec3 result(0.0);
+    for (int channel = 0; channel < 3; ++channel)
+        if (const double rho = material.reflectance[channel]; rho > 0)
+            result[channel] = (radiosity[channel] - material.emission[channel]) / rho;
+    return result;
+}
+
 std::vector<Vec3> baked_light(const Mesh& mesh, const CornerClasses& classes,
                               const PatchLight& light, Bake bake) {
     return smooth(mesh, classes, [&](std::uint32_t patch, const Vec3& corner) {
         const Vec3 radiosity = radiosity_at(mesh, light, patch, corner);
-        return bake == Bake::radiosity ? radiosity : irradiance(mesh.material(patch), radiosity);
+        return bake == Bake::radiosity ? radiosity : irradiance_of(mesh.material(patch), radiosity);
     });
 }
 

@@ -17,8 +17,11 @@ enum class Bake {
 };
 inline constexpr std::array<const char*, 2> bake_names = {"radiosity", "irradiance"};
 
-/// Light of each class of corners, smoothed [W/m2]. Where a channel reflects nothing, its
-/// irradiance is not known and 0 stands for it.
+/// (B - E) / rho. Where a channel reflects nothing, its irradiance is not known and 0 stands for
+/// it.
+[[nodiscard]] Vec3 irradiance_of(const Material& material, const Vec3& radiosity);
+
+/// Light of each class of corners, smoothed [W/m2].
 [[nodiscard]] std::vector<Vec3> baked_light(const Mesh& mesh, const CornerClasses& classes,
                                             const PatchLight& light, Bake bake);
 

@@ -3,13 +3,17 @@
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/pictures/picture_provenance.h"
+#include "io/pictures/zlib.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
+#include <memory>
+#include <new>
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
@@ -103,6 +107,17 @@ double auto_exposure(const Image& image) {
         return static_cast<double>(lit[static_cast<std::size_t>(rank)]);
     };
     return aim / std::min(value_at(percentile), contrast * value_at(0.5));
+}
+
+std::string zlib_compressed(std::vector<unsigned char> bytes) {
+    constexpr int quality = 8;
+    int length = 0;
+    const std::unique_ptr<unsigned char, decltype(&std::free)> packed(
+        stbi_zlib_compress(bytes.data(), static_cast<int>(bytes.size()), &length, quality),
+        &std::free);
+    if (!packed)
+        throw std::bad_alloc();
+    return {packed.get(), packed.get() + length};
 }
 
 std::uint8_t srgb_byte(float linear) {

@@ -1,0 +1,100 @@
+#include "app/running/layered_picture.h"
+
+#include "app/settings/view.h"
+#include "io/files/error.h"
+#include "io/meshes/baked_light.h"
+#include "io/pictures/render.h"
+#include "radiosity/hemisphere/density.h"
+#include "radiosity/sampling/workers.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <numbers>
+
+namespace hemilux {
+namespace {
+
+constexpr std::uint32_t no_patch = std::numeric_limits<std::uint32_t>::max();
+
+/// The patch in the middle of each pixel. Colours in a picture of one sample a pixel are the
+/// numbers themselves, in two halves that a float holds exactly.
+std::vector<std::uint32_t> patches_in(const Results& results, const Camera& camera,
+                                      const RenderOptions& options) {
+    constexpr std::uint32_t half = 1u << 16;
+    std::vector<Vec3> names;
+    for (std::uint32_t i = 0; i < results.mesh.patches().size(); ++i)
+        names.emplace_back(i / half, i % half, 1);
+    const Image image = render(results.mesh, results.tracer, names, camera, options);
+    std::vector<std::uint32_t> patches;
+    for (const glm::vec3& pixel : image.pixels)
+        patches.push_back(pixel.b > 0 ? static_cast<std::uint32_t>(pixel.r) * half +
+                                            static_cast<std::uint32_t>(pixel.g)
+                                      : no_patch);
+    return patches;
+}
+
+/// By patch: the mean density of its hemisphere, weighted by Lambert's law [surfaces per ray].
+std::vector<double> mean_densities(const SolveSettings& settings, const Results& results) {
+    Monitor monitor;
+    const Hemisphere hemisphere(settings.options.depth);
+    const DensityMap map(results.mesh, results.tracer, hemisphere, settings.options.threshold,
+                         Workers(settings.options.threads), monitor);
+    std::vector<double> means;
+    std::vector<DensityLeaf> leaves;
+    for (std::uint32_t i = 0; i < results.mesh.patches().size(); ++i) {
+        leaves.clear();
+        map.leaves(i, leaves);
+        double sum = 0;
+        for (const auto& [cell, density] : leaves)
+            sum += double(density) * hemisphere.cells()[cell].shape.projected_solid_angle();
+        means.push_back(sum / std::numbers::pi);
+    }
+    return means;
+}
+
+template <class Value>
+Image picture_of(const Image& light, const std::vector<std::uint32_t>& patches, Value value) {
+    Image image(light.width, light.height);
+    for (std::size_t k = 0; k < patches.size(); ++k)
+        if (patches[k] != no_patch)
+            image.pixels[k] = glm::vec3(value(patches[k]));
+    return image;
+}
+
+} // namespace
+
+std::vector<ExrChannel> picture_layers(const SolveSettings& settings, const Results& results,
+                                       const Image& light, const Camera& camera) {
+    const Solution& solution = results.solution;
+    const PictureTime time(results.interrupted);
+    const std::vector<std::uint32_t> patches =
+        patches_in(results, camera,
+                   {.width = light.width,
+                    .height = light.height,
+                    .samples = 1,
+                    .smooth = false,
+                    .threads = settings.options.threads,
+                    .give_up = [&time] { return time.is_over(); }});
+    if (time.is_over())
+        throw Interrupted();
+    std::vector<ExrChannel> channels;
+    add_exr_channels(channels, "", light);
+    add_exr_channels(channels, "irradiance", picture_of(light, patches, [&](std::uint32_t i) {
+                         return irradiance_of(results.mesh.material(i), solution.radiosity[i]);
+                     }));
+    add_exr_channels(channels, "error", picture_of(light, patches, [&](std::uint32_t i) {
+                         return solution.standard_error.empty() ? Vec3(0.0)
+                                                                : solution.standard_error[i];
+                     }));
+    ExrChannel density{"density", ExrChannel::Kind::number, {}};
+    const std::vector<double> means = mean_densities(settings, results);
+    for (const std::uint32_t i : patches)
+        density.bits.push_back(
+            std::bit_cast<std::uint32_t>(i == no_patch ? 0.0f : static_cast<float>(means[i])));
+    channels.push_back(std::move(density));
+    channels.push_back({"patch", ExrChannel::Kind::whole, patches});
+    return channels;
+}
+
+} // namespace hemilux

@@ -1,0 +1,108 @@
+#include "io/pictures/exr.h"
+
+#include "io/files/atomic_file.h"
+#include "io/files/little_endian.h"
+#include "io/pictures/zlib.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace hemilux {
+namespace {
+
+constexpr int rows_per_chunk = 16; // of ZIP compression
+constexpr std::size_t pixel_bytes = 4;
+
+std::string whole(int value) {
+    std::string bytes;
+    append_bits(bytes, static_cast<std::uint32_t>(value));
+    return bytes;
+}
+
+std::string number(float value) {
+    std::string bytes;
+    append_number(bytes, value);
+    return bytes;
+}
+
+std::string attribute(const std::string& name, const std::string& type, const std::string& value) {
+    return name + '\0' + type + '\0' + whole(static_cast<int>(value.size())) + value;
+}
+
+std::string header(int width, int height, const std::vector<ExrChannel>& channels,
+                   const Provenance& from) {
+    constexpr int magic = 20000630, version = 2, unsigned_int = 0, float_number = 2;
+    std::string list;
+    for (const ExrChannel& channel : channels)
+        list += channel.name + '\0' +
+                whole(channel.kind == ExrChannel::Kind::whole ? unsigned_int : float_number) +
+                whole(0) + whole(1) + whole(1); // not perceptually linear; no subsampling
+    const std::string box = whole(0) + whole(0) + whole(width - 1) + whole(height - 1);
+    std::string text =
+        whole(magic) + whole(version) + attribute("channels", "chlist", list + '\0') +
+        attribute("compression", "compression", "\3") + attribute("dataWindow", "box2i", box) +
+        attribute("displayWindow", "box2i", box) +
+        attribute("lineOrder", "lineOrder", std::string(1, '\0')) +
+        attribute("pixelAspectRatio", "float", number(1)) +
+        attribute("screenWindowCenter", "v2f", number(0) + number(0)) +
+        attribute("screenWindowWidth", "float", number(1));
+    if (!from.program.empty())
+        text += attribute("software", "string", from.program) +
+                attribute("command", "string", from.command) +
+                attribute("seed", "string", std::to_string(from.seed));
+    return text + '\0';
+}
+
+/// The bytes as the format compresses them: those of even places, then the others, each as its
+/// difference from the one before; as they are where that is no longer.
+std::string compressed(const std::string& bytes) {
+    std::vector<unsigned char> parted;
+    for (const std::size_t first : {0u, 1u})
+        for (std::size_t k = first; k < bytes.size(); k += 2)
+            parted.push_back(static_cast<unsigned char>(bytes[k]));
+    for (std::size_t k = parted.size() - 1; k > 0; --k)
+        parted[k] = static_cast<unsigned char>(parted[k] - parted[k - 1] + 128);
+    std::string packed = zlib_compressed(std::move(parted));
+    return packed.size() < bytes.size() ? packed : bytes;
+}
+
+} // namespace
+
+void add_exr_channels(std::vector<ExrChannel>& channels, const std::string& layer,
+                      const Image& image) {
+    for (int axis = 0; axis < 3; ++axis) {
+        ExrChannel& channel = channels.emplace_back();
+        channel.name = (layer.empty() ? "" : layer + ".") + "RGB"[axis];
+        for (const glm::vec3& pixel : image.pixels)
+            channel.bits.push_back(std::bit_cast<std::uint32_t>(pixel[axis]));
+    }
+}
+
+void write_exr(const std::string& path, int width, int height, std::vector<ExrChannel> channels,
+               const Provenance& from) {
+    std::ranges::sort(channels, {}, &ExrChannel::name);
+    const std::string head = header(width, height, channels, from);
+    const auto columns = static_cast<std::size_t>(width);
+    const int chunk_count = (height + rows_per_chunk - 1) / rows_per_chunk;
+    std::string offsets, chunks;
+    const std::size_t begin = head.size() + sizeof(std::uint64_t) * std::size_t(chunk_count);
+    for (int first = 0; first < height; first += rows_per_chunk) {
+        const int end = std::min(first + rows_per_chunk, height);
+        std::string rows;
+        rows.reserve(std::size_t(end - first) * columns * channels.size() * pixel_bytes);
+        for (std::size_t y = std::size_t(first); y < std::size_t(end); ++y)
+            for (const ExrChannel& channel : channels)
+                for (std::size_t x = 0; x < columns; ++x)
+                    append_bits(rows, channel.bits[y * columns + x]);
+        const std::string packed = compressed(rows);
+        append_bits(offsets, std::uint64_t{begin + chunks.size()});
+        chunks += whole(first) + whole(static_cast<int>(packed.size())) + packed;
+    }
+    AtomicFile file(path);
+    file.write(head);
+    file.write(offsets);
+    file.write(chunks);
+    file.commit();
+}
+
+} // namespace hemilux

@@ -1,0 +1,28 @@
+#pragma once
+// Pictures of many layers: OpenEXR 2 (technical introduction and file layout of the Academy
+// Software Foundation), one part of scan lines with ZIP compression.
+
+#include "io/pictures/image.h"
+
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+/// One number per pixel, row by row from the top left.
+struct ExrChannel {
+    std::string name; ///< with its layer: "error.R"; at most 31 letters
+    enum class Kind { number, whole } kind = Kind::number;
+    std::vector<std::uint32_t> bits; ///< of a float, or the whole number itself
+};
+
+/// Appends the three channels `layer`.R, .G and .B, or R, G and B for a layer without a name.
+void add_exr_channels(std::vector<ExrChannel>& channels, const std::string& layer,
+                      const Image& image);
+
+/// Writes a file with these channels in 32 bits, linear, in any order; the attributes `software`,
+/// `command` and `seed` where the provenance is known. Throws OutputError.
+void write_exr(const std::string& path, int width, int height, std::vector<ExrChannel> channels,
+               const Provenance& from = {});
+
+} // namespace hemilux
