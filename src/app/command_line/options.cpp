@@ -183,9 +183,11 @@ void add_output_options(Command command, SolveSettings& settings) {
         .add_flag("--every-step", settings.every_step,
                   "also write the pictures after every step, as NAME-0001.png and so on")
         .group(output_group);
-    add_choice(command, "--bake", settings.bake, bake_names,
-               "what .glb and .ply files hold: radiosity: what surfaces send; irradiance: what "
-               "arrives, for viewers with textures of their own [radiosity]")
+    add_choice(
+        command, "--bake", settings.bake, bake_names,
+        "what .glb and .ply files hold: radiosity: what surfaces send; irradiance: what "
+        "arrives, for viewers with textures of their own; indirect: of that what was reflected "
+        "before, for viewers that light by lamps, too [radiosity]")
         .group(output_group);
     add_choice(command, "--ply-colours", settings.ply_colours, ply_colour_names,
                "colours of .ply files: linear: the light itself as float; shown: 8 bits as "

@@ -11,9 +11,11 @@
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/meshes/glb.h"
+#include "io/meshes/indirect_light.h"
 #include "io/meshes/vtu.h"
 #include "io/pictures/image.h"
 #include "io/results/smooth.h"
+#include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/workers.h"
 
 #include <algorithm>
@@ -92,9 +94,18 @@ class Picture {
     Camera camera_; ///< of the image
 };
 
+std::vector<Vec3> indirect_light(const SolveSettings& settings, const Results& results) {
+    const unsigned rays = SolveSettings::bake_rays_per_gather_ray * settings.gather;
+    return indirect_irradiance(results.mesh, results.tracer, results.solution.radiosity, rays,
+                               hash_words({settings.options.seed, 4}),
+                               Workers(settings.options.threads));
+}
+
 void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,
                 const CornerClasses& classes) {
-    VertexLight light{baked_light(results.mesh, classes, results.solution, settings.bake),
+    VertexLight light{settings.bake == Bake::indirect
+                          ? smooth(results.mesh, classes, indirect_light(settings, results))
+                          : baked_light(results.mesh, classes, results.solution, settings.bake),
                       settings.bake};
     light.display = display_of(settings.view, results.mesh, classes, light.of_class);
     if (output.kind == OutputKind::glb)

@@ -112,6 +112,8 @@ struct SolveSettings {
     TargetSettings target;
     unsigned gather = default_gather; ///< rays at a point of a surface that a picture shows
     static constexpr unsigned default_gather = 16, most_gather = 1024;
+    /// From a patch for each ray of --gather, where the indirect light is baked.
+    static constexpr unsigned bake_rays_per_gather_ray = 64;
     bool gather_pictures = true; ///< else they interpolate the light of the patches
     Verbosity verbosity = Verbosity::normal;
 };

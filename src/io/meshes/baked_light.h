@@ -12,16 +12,17 @@ namespace hemilux {
 
 /// As --bake names them, in this order.
 enum class Bake {
-    radiosity, ///< B, what a surface sends: what pictures show
-    irradiance ///< (B - E) / rho, what arrives: for viewers that multiply by textures of their own
+    radiosity,  ///< B, what a surface sends: what pictures show
+    irradiance, ///< (B - E) / rho, what arrives: for viewers that multiply by textures of their own
+    indirect ///< what arrives by a reflection (indirect_light.h): for those that add the lamps, too
 };
-inline constexpr std::array<const char*, 2> bake_names = {"radiosity", "irradiance"};
+inline constexpr std::array<const char*, 3> bake_names = {"radiosity", "irradiance", "indirect"};
 
 /// (B - E) / rho. Where a channel reflects nothing, its irradiance is not known and 0 stands for
 /// it.
 [[nodiscard]] Vec3 irradiance_of(const Material& material, const Vec3& radiosity);
 
-/// Light of each class of corners, smoothed [W/m2].
+/// Radiosity or irradiance of each class of corners, smoothed [W/m2].
 [[nodiscard]] std::vector<Vec3> baked_light(const Mesh& mesh, const CornerClasses& classes,
                                             const PatchLight& light, Bake bake);
 

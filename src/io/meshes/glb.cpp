@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <limits>
 
 namespace hemilux {
@@ -87,7 +89,8 @@ class Document {
         const int first = static_cast<int>(accessors_.size());
         add_vertices(part);
         add_indices(part);
-        const std::string name = light_.bake == Bake::radiosity ? "_RADIOSITY" : "_IRRADIANCE";
+        std::string name = std::string("_") + bake_names[static_cast<std::size_t>(light_.bake)];
+        std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
         const std::string& group = mesh_.scene().groups[part.group];
         const Vec3 centre = mesh_.frame().centre;
         nodes_.push_back({{"name", group},

@@ -13,7 +13,7 @@ namespace hemilux {
 /// two. Vertices have
 /// - POSITION, about the middle of the scene, where the nodes are moved to;
 /// - COLOR_0, the light as `display` shows it, linear in [0,1] as glTF demands;
-/// - _RADIOSITY or _IRRADIANCE, the light itself [W/m2].
+/// - _RADIOSITY, _IRRADIANCE or _INDIRECT, the light itself [W/m2].
 /// The one material is unlit (KHR_materials_unlit), so viewers show COLOR_0 as it is. Suns and
 /// skies are left out. Throws OutputError, also for more than the 4 GiB of the format.
 void write_glb(const std::string& path, const Mesh& mesh, const CornerClasses& classes,

@@ -1,0 +1,37 @@
+#include "io/meshes/indirect_light.h"
+
+#include "radiosity/rays/patch_starts.h"
+#include "radiosity/rays/shot.h"
+
+namespace hemilux {
+
+std::vector<Vec3> indirect_irradiance(const Mesh& mesh, const Tracer& tracer,
+                                      std::span<const Vec3> radiosity, unsigned rays,
+                                      std::uint64_t seed, const Workers& workers) {
+    const PatchStarts starts(mesh);
+    std::vector<Vec3> irradiance(mesh.patches().size(), Vec3(0.0));
+    const auto gather = [&](std::uint32_t patch) {
+        std::optional<PatchStart> memory;
+        const PatchStart& start = starts.of(patch, memory);
+        Rng rng(hash_words({seed, patch}));
+        std::vector<Ray> group(rays);
+        for (Ray& ray : group) {
+            ray.origin = sample_uniform(start.points, rng);
+            ray.direction = start.frame.to_world(sample_cosine(rng));
+            ray.from = start.facet;
+        }
+        std::vector<std::uint32_t> receivers;
+        find_receivers(group, mesh, tracer, receivers);
+        for (const std::uint32_t receiver : receivers)
+            if (receiver != escaped && receiver != absorbed)
+                irradiance[patch] += radiosity[receiver] - mesh.material(receiver).emission;
+        irradiance[patch] /= rays;
+    };
+    workers.for_chunks(irradiance.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t patch = begin; patch < end; ++patch)
+            gather(static_cast<std::uint32_t>(patch));
+    });
+    return irradiance;
+}
+
+} // namespace hemilux
