@@ -93,3 +93,17 @@ TEST_CASE("info answers other programs in JSON") {
     const auto both = place.hemilux("info room.obj --json --sides both");
     CHECK(nlohmann::json::parse(both.out)["sides"].is_null());
 }
+
+TEST_CASE("the axis that is upwards is chosen, or reported where it is guessed") {
+    const Workplace place;
+    place.write_room();
+    const std::string run = "solve room.obj --steps 1 --no-gather --size 8x6 ";
+    CHECK_THAT(place.hemilux(run + "--up z -o a.png").err, Catch::Contains(",0,0,1\n"));
+    CHECK_THAT(place.hemilux(run + "--up y -o a.png").err,
+               Catch::Contains("pictures are seen by --camera ") && !Catch::Contains(",0,0,1"));
+    REQUIRE(place.hemilux(run + "-q --up z -o z.glb").code == 0);
+    CHECK_THAT(place.read("z.glb"), Catch::Contains("\"rotation\""));
+    REQUIRE(place.hemilux(run + "-q --up y -o y.glb").code == 0);
+    CHECK_THAT(place.read("y.glb"), !Catch::Contains("\"rotation\""));
+    test::check_fails(place, 1, run + "--up x -o a.png", "--up: expected y or z, not 'x'");
+}

@@ -187,6 +187,9 @@ TEST_CASE("the automatic camera stands upright where z is up") {
     const Mesh z_up(std::move(scene)), y_up(room_with_block());
     CHECK(automatic_camera(z_up, Bvh(z_up.soup()), even_light(z_up)).up == Vec3(0, 0, 1));
     CHECK(automatic_camera(y_up, Bvh(y_up.soup()), even_light(y_up)).up == Vec3(0, 1, 0));
+    CHECK(automatic_camera(y_up, Bvh(y_up.soup()), even_light(y_up), 1.5, 2).up == Vec3(0, 0, 1));
+    CHECK(guess_up(z_up) == 2);
+    CHECK(guess_up(y_up) == 1);
 }
 
 TEST_CASE("the automatic camera is always the same, in the dark too") {

@@ -1,3 +1,4 @@
+#include "geometry/box.h"
 #include "io/files/error.h"
 #include "io/gltf/container.h"
 #include "io/gltf/gltf.h"
@@ -154,4 +155,23 @@ TEST_CASE("a glb that cannot be written is an OutputError") {
     const CornerClasses classes = find_corner_classes(mesh);
     CHECK_THROWS_AS(write_glb("/nonexistent/a.glb", mesh, classes, vertex_light(mesh, classes, 1)),
                     OutputError);
+}
+
+TEST_CASE("a scene whose z is upwards stands upright in a glb") {
+    const TemporaryFolder folder;
+    const Mesh mesh(two_groups());
+    const CornerClasses classes = find_corner_classes(mesh);
+    const VertexLight light = vertex_light(mesh, classes, Display());
+    write_glb(folder.path("a.glb"), mesh, classes, light, {}, 2);
+    Box before, turned;
+    for (const Vec3& v : mesh.scene().vertices)
+        before.include(v);
+    for (const Vec3& v : read_gltf(folder.path("a.glb")).scene.vertices)
+        turned.include(v);
+    const Vec3 low(before.low.x, before.low.z, -before.high.y);
+    const Vec3 high(before.high.x, before.high.z, -before.low.y);
+    for (int axis = 0; axis < 3; ++axis) {
+        CHECK(turned.low[axis] == Approx(low[axis]).margin(1e-5));
+        CHECK(turned.high[axis] == Approx(high[axis]).margin(1e-5));
+    }
 }

@@ -214,6 +214,16 @@ void add_camera_options(Command command, ViewSettings& view) {
             view.uses_camera_of_scene = false;
         })
         .group(output_group);
+    command
+        .add_value("--up", "y|z",
+                   "axis that is upwards where the program chooses the camera, and in .glb files "
+                   "[guessed; y of .gltf and .glb]",
+                   [&view](const std::string& axis) {
+                       if (axis != "y" && axis != "z")
+                           throw UsageError("--up: expected y or z, not '" + axis + "'");
+                       view.up = axis == "y" ? 1 : 2;
+                   })
+        .group(output_group);
     add_parsed(
         command, "--size", "WxH", "of pictures, in pixels [800x600]",
         "a width and a height from 1 to 16384, such as 800x600",

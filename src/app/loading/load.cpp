@@ -4,6 +4,7 @@
 #include "app/loading/read_scene.h"
 #include "app/loading/sides.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/extension.h"
 #include "app/settings/memory.h"
 #include "app/settings/names.h"
 #include "app/settings/text.h"
@@ -100,8 +101,15 @@ Mesh divide_scene(Scene scene, const SceneSettings& settings) {
     }
 }
 
+std::optional<int> up_of(const std::string& path) {
+    const std::string extension = extension_of(path);
+    return extension == ".gltf" || extension == ".glb" ? std::optional(1) : std::nullopt;
+}
+
 ViewSettings view_of(const ViewSettings& asked, const LoadedMesh& loaded, Verbosity verbosity) {
     ViewSettings view = asked;
+    if (!view.up)
+        view.up = loaded.up;
     if (view.camera || !view.uses_camera_of_scene || !loaded.camera)
         return view;
     view.camera = loaded.camera;
@@ -148,6 +156,7 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
     LoadedMesh loaded{std::move(sided.mesh),       std::move(sided.made),      seconds,
                       dividing.seconds(),          std::move(read.face_lines), read.camera,
                       std::move(read.camera_name), std::move(read.warnings)};
+    loaded.up = up_of(settings.path);
     if (!loaded.mesh.is_laid_apart()) {
         loaded.warnings.push_back(
             settings.path +

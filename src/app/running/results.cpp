@@ -1,5 +1,6 @@
 #include "app/running/results.h"
 
+#include "app/loading/load.h"
 #include "app/report/report_page.h"
 #include "app/running/error_map.h"
 #include "app/running/layered_picture.h"
@@ -13,6 +14,7 @@
 #include "io/meshes/glb.h"
 #include "io/meshes/indirect_light.h"
 #include "io/meshes/vtu.h"
+#include "io/pictures/automatic_camera.h"
 #include "io/pictures/image.h"
 #include "io/results/smooth.h"
 #include "radiosity/sampling/rng.h"
@@ -72,7 +74,8 @@ class Picture {
         camera_ = camera_of(view_, mesh, tracer, solution.radiosity);
         if (!view_.camera)
             log_line(settings_.verbosity, Verbosity::normal,
-                     "pictures are seen by " + camera_text(camera_));
+                     "pictures are seen by " + camera_text(camera_) +
+                         (!view_.up && camera_.up.z == 1 ? "; --up y takes y as upwards" : ""));
         const Stopwatch watch;
         Image image =
             render_view(view_, mesh, tracer, solution.radiosity, camera_, statistics.threads, time_,
@@ -101,6 +104,14 @@ std::vector<Vec3> indirect_light(const SolveSettings& settings, const Results& r
                                Workers(settings.options.threads));
 }
 
+/// The axis that is upwards; reported where z was guessed.
+int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
+    const int up = known ? *known : guess_up(mesh);
+    if (!known && up == 2)
+        log_line(verbosity, Verbosity::normal, "z is taken as upwards; --up y takes y");
+    return up;
+}
+
 void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,
                 const CornerClasses& classes) {
     VertexLight light{settings.bake == Bake::indirect
@@ -109,7 +120,9 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
                       settings.bake};
     light.display = display_of(settings.view, results.mesh, classes, light.of_class);
     if (output.kind == OutputKind::glb)
-        write_glb(output.path, results.mesh, classes, light, settings.from);
+        write_glb(output.path, results.mesh, classes, light, settings.from,
+                  up_axis(settings.view.up ? settings.view.up : up_of(settings.scene.path),
+                          results.mesh, settings.verbosity));
     else
         write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
 }

@@ -52,6 +52,7 @@ enum class Verbosity { quiet, normal, verbose };
 struct ViewSettings {
     std::optional<Camera> camera;     ///< empty: chosen by the program
     bool uses_camera_of_scene = true; ///< where there is one and none was given
+    std::optional<int> up;            ///< axis, 1 for y or 2 for z; empty: guessed
     PixelSize size{800, 600};
     std::optional<double> exposure; ///< empty: from the picture
     double stops = 0;               ///< the exposure is doubled so often

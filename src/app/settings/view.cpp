@@ -28,9 +28,9 @@ std::string camera_text(const Camera& camera) {
 Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                  std::span<const Vec3> radiosity) {
     const auto [width, height] = view.size;
-    return view.camera
-               ? *view.camera
-               : automatic_camera(mesh, tracer, radiosity, static_cast<double>(width) / height);
+    return view.camera ? *view.camera
+                       : automatic_camera(mesh, tracer, radiosity,
+                                          static_cast<double>(width) / height, view.up);
 }
 
 bool PictureTime::is_over() const {

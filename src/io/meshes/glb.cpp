@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <numbers>
 
 namespace hemilux {
 namespace {
@@ -82,8 +83,8 @@ void append(std::string& bytes, const glm::vec3& vector) {
 /// The JSON and the buffer of a file: all vertices, then all indices.
 class Document {
   public:
-    Document(const Mesh& mesh, const CornerClasses& classes, const VertexLight& light)
-        : mesh_(mesh), classes_(classes), light_(light) {}
+    Document(const Mesh& mesh, const CornerClasses& classes, const VertexLight& light, int up)
+        : mesh_(mesh), classes_(classes), light_(light), up_(up) {}
 
     void add(const Part& part) {
         const int first = static_cast<int>(accessors_.size());
@@ -96,6 +97,11 @@ class Document {
         nodes_.push_back({{"name", group},
                           {"mesh", meshes_.size()},
                           {"translation", {centre.x, centre.y, centre.z}}});
+        if (up_ == 2) { // z to y, and y to -z: a quarter turn about x
+            const double s = std::numbers::sqrt2 / 2;
+            nodes_.back()["translation"] = {centre.x, centre.z, -centre.y};
+            nodes_.back()["rotation"] = {-s, 0, 0, s};
+        }
         meshes_.push_back(
             {{"name", group},
              {"primitives",
@@ -179,6 +185,7 @@ class Document {
     const Mesh& mesh_;
     const CornerClasses& classes_;
     const VertexLight& light_;
+    int up_;
     std::string vertices_, indices_;
     Json accessors_ = Json::array(), nodes_ = Json::array(), meshes_ = Json::array();
 };
@@ -193,8 +200,8 @@ std::string chunk_header(std::size_t bytes, std::string_view type) {
 } // namespace
 
 void write_glb(const std::string& path, const Mesh& mesh, const CornerClasses& classes,
-               const VertexLight& light, const Provenance& from) {
-    Document document(mesh, classes, light);
+               const VertexLight& light, const Provenance& from, int up) {
+    Document document(mesh, classes, light, up);
     for (const Part& part : parts_of(mesh, classes))
         document.add(part);
     std::string json = document.json(from);

@@ -20,22 +20,14 @@ bool is_near(const Mesh& mesh, std::size_t patch) {
     return !mesh.material(static_cast<std::uint32_t>(patch)).is_far;
 }
 
-/// Lamps shine down, floors and ceilings are wider than walls, rooms wider than high. y unless most
-/// of that speaks for z.
-int guess_up(const Mesh& mesh, const Vec3& extent) {
-    Vec3 down(1e-9), facing(1e-9);
-    for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
-        if (!is_near(mesh, i))
-            continue;
-        const Patch& patch = mesh.patches()[i];
-        const Vec3& e = mesh.material(static_cast<std::uint32_t>(i)).emission;
-        down += patch.area * (e.x + e.y + e.z) * glm::max(-patch.normal, Vec3(0.0));
-        facing += patch.area * glm::abs(patch.normal);
-    }
-    const auto for_z = [](double y, double z) { return std::clamp(std::log(z / y), -1.0, 1.0); };
-    const double evidence =
-        for_z(down.y, down.z) + for_z(facing.y, facing.z) + 0.5 * for_z(extent.z, extent.y);
-    return evidence > 0.7 ? 2 : 1;
+/// Around all that is near.
+Box box_of(const Mesh& mesh) {
+    Box box;
+    for (std::size_t i = 0; i < mesh.patches().size(); ++i)
+        if (is_near(mesh, i))
+            for (const Vec3& corner : mesh.patches()[i].shape.corner)
+                box.include(corner);
+    return box;
 }
 
 /// A unit vector by its azimuth and elevation [degrees].
@@ -172,15 +164,27 @@ bool is_object(std::span<const Camera> cameras, std::span<const Judgement> judge
 
 } // namespace
 
+int guess_up(const Mesh& mesh) {
+    const Vec3 extent = glm::max(box_of(mesh).extent(), Vec3(1e-9));
+    Vec3 down(1e-9), facing(1e-9);
+    for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
+        if (!is_near(mesh, i))
+            continue;
+        const Patch& patch = mesh.patches()[i];
+        const Vec3& e = mesh.material(static_cast<std::uint32_t>(i)).emission;
+        down += patch.area * (e.x + e.y + e.z) * glm::max(-patch.normal, Vec3(0.0));
+        facing += patch.area * glm::abs(patch.normal);
+    }
+    const auto for_z = [](double y, double z) { return std::clamp(std::log(z / y), -1.0, 1.0); };
+    const double evidence =
+        for_z(down.y, down.z) + for_z(facing.y, facing.z) + 0.5 * for_z(extent.z, extent.y);
+    return evidence > 0.7 ? 2 : 1;
+}
+
 Camera automatic_camera(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
-                        double aspect) {
-    Box box;
-    for (std::size_t i = 0; i < mesh.patches().size(); ++i)
-        if (is_near(mesh, i))
-            for (const Vec3& corner : mesh.patches()[i].shape.corner)
-                box.include(corner);
-    const int up = guess_up(mesh, glm::max(box.extent(), Vec3(1e-9)));
-    std::vector<Camera> cameras = candidates(box, up, aspect);
+                        double aspect, std::optional<int> up) {
+    const Box box = box_of(mesh);
+    std::vector<Camera> cameras = candidates(box, up ? *up : guess_up(mesh), aspect);
     std::vector<Judgement> judged(cameras.size());
     const std::vector<bool> lit = lit_patches(mesh, radiosity);
     Workers(0).for_chunks(cameras.size(), 8, [&](std::size_t begin, std::size_t end) {
