@@ -92,7 +92,9 @@ TEST_CASE("broken pictures are refused, other kinds are reported", "[textures]")
           // 16384 x 16384 pixels
           start + std::string("\0\0\0\rIHDR\0\0\x40\0\0\0\x40\0\x08\x02\0\0\0", 21),
           // a chunk of 1 GiB, for which no memory is to be reserved
-          png.substr(0, 33) + std::string("\x40\0\0\0IDAT", 8) + png.substr(41)})
+          png.substr(0, 33) + std::string("\x40\0\0\0IDAT", 8) + png.substr(41),
+          // a Huffman table with 4080 codes, which stb_image writes beyond its own
+          "\xff\xd8\xff\xc4\xff\xff" + std::string(1, '\0') + std::string(600, '\xff')})
         CHECK_THROWS_AS(decode_texture(bytes, "t.png"), InputError);
     (void)folder.write("t.tga", "no picture that is read");
     (void)folder.write("m.mtl", "newmtl m\nmap_Kd t.tga\n");

@@ -2,6 +2,7 @@
 
 #include "io/files/error.h"
 #include "io/files/input_file.h"
+#include "io/textures/picture_checks.h"
 
 #include <cstdlib>
 #include <limits>
@@ -22,8 +23,6 @@ constexpr double most_texels = 1 << 26;
 /// While it is decoded: the file's samples, and three bytes each.
 constexpr double bytes_per_texel = 12;
 
-constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
-
 struct Size {
     int width = 0, height = 0;
     [[nodiscard]] double texels() const { return double(width) * height; }
@@ -34,6 +33,7 @@ const stbi_uc* data_of(std::string_view bytes) {
 }
 
 Size size_of(std::string_view bytes, const std::string& place) {
+    check_picture(bytes, place);
     Size size;
     int channels = 0;
     if (bytes.size() > std::numeric_limits<int>::max() ||
@@ -48,23 +48,6 @@ Size size_of(std::string_view bytes, const std::string& place) {
     return size;
 }
 
-/// Refuses a PNG file whose chunks are longer than itself: stb_image reserves the memory of each
-/// before it reads it.
-void check_chunks(std::string_view bytes, const std::string& place) {
-    constexpr std::size_t signature = 8, head = 8, checksum = 4;
-    for (std::size_t at = signature; at + head <= bytes.size();) {
-        std::size_t length = 0;
-        for (std::size_t k = 0; k < 4; ++k)
-            length = length << 8 | static_cast<unsigned char>(bytes[at + k]);
-        if (length > bytes.size() - at - head)
-            throw InputError(place, "expected a whole PNG or JPEG picture: a chunk of it claims to "
-                                    "be longer than the file");
-        if (bytes.substr(at + 4, 4) == "IEND")
-            return;
-        at += head + length + checksum;
-    }
-}
-
 } // namespace
 
 bool is_picture_file(std::string_view bytes) {
@@ -73,8 +56,6 @@ bool is_picture_file(std::string_view bytes) {
 
 Texture decode_texture(std::string_view bytes, const std::string& place) {
     Size size = size_of(bytes, place);
-    if (bytes.starts_with(png_signature))
-        check_chunks(bytes, place);
     int channels = 0;
     constexpr int rgb = 3;
     const std::unique_ptr<stbi_uc, decltype(&std::free)> pixels(

@@ -1,0 +1,16 @@
+#pragma once
+// What stb_image of 2022 takes on trust from a file, checked before it reads the file.
+
+#include <string>
+#include <string_view>
+
+namespace hemilux {
+
+/// Throws InputError, in the name of `place`, for a PNG file with a chunk longer than the file, for
+/// which stb_image would reserve memory; and for a JPEG file with a Huffman table of more than 256
+/// codes, which it would write beyond its own table.
+void check_picture(std::string_view bytes, const std::string& place);
+
+inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n", jpeg_signature = "\xff\xd8";
+
+} // namespace hemilux
