@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 
 using Catch::Contains;
@@ -80,4 +81,16 @@ TEST_CASE("other programs take the printed texts without a complaint") {
     silent("bash", "bash -n");
     silent("zsh", "zsh -n");
     silent("fish", "fish -n");
+}
+
+TEST_CASE("help is 80 columns wide but for commands to copy") {
+    const Workplace place;
+    for (const char* const command : {"", "solve", "compare", "density", "formfactors", "info"}) {
+        std::istringstream lines(place.hemilux(std::string(command) + " --help").out);
+        for (std::string line; std::getline(lines, line);)
+            if (!line.starts_with("  hemilux ")) {
+                INFO(line);
+                CHECK(line.size() <= 80);
+            }
+    }
 }

@@ -101,6 +101,32 @@ CommandText described(const CLI::App& command) {
     return text;
 }
 
+/// Breaks the descriptions of options and methods, which stand in a column of their own, before
+/// column 80. All other lines stay, as commands are copied from them.
+std::string wrapped(const std::string& help) {
+    constexpr std::size_t width = 80, least_column = 20, usual_column = 30;
+    std::istringstream lines(help);
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+        std::size_t column = usual_column;
+        if (!line.starts_with("  -") || line.size() < column || line[column - 1] != ' ') {
+            const std::size_t gap = line.substr(0, column).rfind("  ");
+            column = gap == std::string::npos ? 0 : line.find_first_not_of(' ', gap);
+        }
+        while (line.size() > width && column >= least_column && column <= usual_column) {
+            std::size_t end = line.rfind(' ', width);
+            if (end <= column)
+                end = line.find(' ', width);
+            if (end == std::string::npos)
+                break;
+            text += line.substr(0, end) + "\n";
+            line = std::string(column, ' ') + line.substr(end + 1);
+        }
+        text += line + "\n";
+    }
+    return text;
+}
+
 /// A word as a shell takes it.
 std::string quoted(const std::string& word) {
     const auto is_plain = [](unsigned char c) {
@@ -268,7 +294,7 @@ std::string Arguments::parse(std::vector<std::string> words) {
             throw UsageError(unknown_argument(*app_, refused(*app_, error)));
         std::ostringstream text; // --help and --version
         app_->exit(error, text, text);
-        return text.str();
+        return dynamic_cast<const CLI::CallForHelp*>(&error) ? wrapped(text.str()) : text.str();
     }
 }
 

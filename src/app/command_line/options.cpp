@@ -398,7 +398,7 @@ constexpr const char* info_examples = R"(Examples:
 
 constexpr const char* exit_codes = R"(
 Exit codes: 0 done, 1 wrong usage, 2 bad input, 3 output or system failure,
-130 interrupted by Ctrl-C and 143 by SIGTERM (what was computed has been written).)";
+130 interrupted by Ctrl-C and 143 by SIGTERM (what was computed is written).)";
 
 /// What patches are divided by.
 struct DivisionChoice {

@@ -1,6 +1,7 @@
 #include "app/commands/density.h"
 
 #include "app/commands/divided_hemispheres.h"
+#include "app/loading/load.h"
 #include "app/loading/load_geometry.h"
 #include "app/running/signals.h"
 #include "app/running/write_report.h"
@@ -108,7 +109,9 @@ void write_hemisphere(const Preprocessed& made, const PatchDensities& densities,
 
 void write_picture(const Preprocessed& made, const PatchDensities& densities,
                    const std::string& path) {
-    const ViewSettings& view = made.settings.view;
+    ViewSettings view = made.settings.view;
+    if (!view.up)
+        view.up = up_of(made.settings.scene.path);
     std::vector<Vec3> light; // for the choice of a camera: everything is lit
     for (const double mean : densities.mean)
         light.emplace_back(1 + mean);
