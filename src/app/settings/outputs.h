@@ -22,9 +22,6 @@ struct Output {
 [[nodiscard]] constexpr bool is_picture(OutputKind kind) {
     return kind == OutputKind::png || kind == OutputKind::hdr;
 }
-[[nodiscard]] constexpr bool is_mesh(OutputKind kind) {
-    return kind == OutputKind::ply || kind == OutputKind::glb;
-}
 
 /// The kind of output by the extension of the path, in small or capital letters; empty if it is
 /// unknown. "-" is a patch table on standard output, and "-.ply" another kind there.
