@@ -40,7 +40,7 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
     const Method& method = method_of(Role::reference);
     SolveOptions options = settings.options;
     options.literal = false;
-    if (options.factors.kind == FactorKind::hemicube)
+    if (!method.work_with(options).estimates_error)
         options.factors = {};
     options.seed = hash_words({options.seed, 0x7265666572656e63u});
     const SolverInput input{mesh, tracer, options, monitor, needs};
