@@ -65,7 +65,7 @@ class Watching final : public Strategy {
 [[nodiscard]] bool shoot(const SolverInput& input, const StepTask& task, const Watching& watching,
                          StepResult& result) {
     const ShootingTools tools{input, Hemisphere(0), CellDirections(tools.hemisphere, false),
-                              PatchStarts(input.mesh), std::make_unique<Watching>(watching)};
+                              std::make_unique<Watching>(watching)};
     return Bounces(tools).shoot(task, result);
 }
 

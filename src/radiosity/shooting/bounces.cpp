@@ -317,7 +317,7 @@ void Bounces::schedule_as_printed(std::uint32_t patch, const WorkItem& item,
 
 void Bounces::trace(std::uint64_t stream, RayBatch& batch) const {
     thread_local std::vector<Ray> memory;
-    const RaySource source{input_.mesh, tools_.starts, tools_.directions, *tools_.strategy,
+    const RaySource source{input_.mesh, tools_.directions, *tools_.strategy,
                            input_.options.literal};
     GroupedRays drawn(source, batch.groups, stream, memory);
     for (auto rays = drawn.next(); !rays.empty(); rays = drawn.next()) {

@@ -7,7 +7,6 @@
 #include "geometry/compensated_sum.h"
 #include "radiosity/hemisphere/cell_directions.h"
 #include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/rays/patch_starts.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/shooting/grouped_rays.h"
 #include "radiosity/shooting/stepwise.h"
@@ -26,7 +25,6 @@ struct ShootingTools {
     SolverInput input;
     Hemisphere hemisphere;
     CellDirections directions;
-    PatchStarts starts;
     std::unique_ptr<Strategy> strategy;
 };
 
