@@ -1,5 +1,6 @@
 #include "radiosity/stored_transport/emitter_choice.h"
 
+#include "geometry/median.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/scene/mesh.h"
 
@@ -132,22 +133,9 @@ void EmitterChoice::divide(std::uint32_t cluster) {
     const auto [begin, end] = std::pair(clusters_[cluster].begin, clusters_[cluster].end);
     if (end - begin == 1)
         return;
-    Vec3 low = centre(order_[begin]), high = low;
-    for (std::uint32_t k = begin; k < end; ++k) {
-        low = glm::min(low, centre(order_[k]));
-        high = glm::max(high, centre(order_[k]));
-    }
-    const Vec3 extent = high - low;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
-                     : extent.y >= extent.z                       ? 1
-                                                                  : 2;
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         return centre(a)[axis] != centre(b)[axis]
-                                    ? centre(a)[axis] < centre(b)[axis]
-                                    : a < b;
-                     });
+    const auto half = halve_at_median(std::span(order_).subspan(begin, end - begin),
+                                      [this](std::uint32_t place) { return centre(place); });
+    const std::uint32_t middle = begin + static_cast<std::uint32_t>(half);
     const std::uint32_t left = add(begin, middle), right = add(middle, end);
     clusters_[cluster].left = left;
     clusters_[cluster].right = right;
