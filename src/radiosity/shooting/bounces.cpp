@@ -18,11 +18,11 @@ namespace {
 /// Rays that one thread takes at a time: a part of those that are left of the bounce, so that at
 /// its end no thread waits long for another. And rays whose receivers are kept until they are
 /// summed.
-constexpr double pieces_of_rest = 32, least_piece = 256, largest_piece = 8192;
-constexpr std::uint32_t patches_per_piece = 32;
+constexpr double items_of_rest = 32, least_item = 256, largest_item = 8192;
+constexpr std::uint32_t patches_per_item = 32;
 constexpr double rays_per_batch = 2e6;
 /// Work items that are listed at a time: a step of 1e9 rays per patch has millions.
-constexpr std::size_t most_pieces = 4096;
+constexpr std::size_t most_items = 4096;
 /// A thread that works alone takes work items of so many together: tracing likes many rays at once.
 constexpr double rays_at_least = 4096;
 /// Fewer rays than this are traced sooner than others would have come to help.
@@ -95,7 +95,7 @@ std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
 }
 
 void Bounces::shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result) {
-    const auto most = static_cast<std::size_t>(rays_per_batch / largest_piece);
+    const auto most = static_cast<std::size_t>(rays_per_batch / largest_item);
     batches_.resize(std::min(most, ranges_.size()));
     for (std::size_t begin = 0; begin < ranges_.size(); begin += most) {
         const std::size_t count = std::min(most, ranges_.size() - begin);
@@ -262,9 +262,9 @@ void Bounces::cut_line(Place& next) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(rays_before_, ray) -
                                           rays_before_.begin() - 1);
     };
-    for (double& from = next.ray; from < end && items_.size() < most_pieces;) {
+    for (double& from = next.ray; from < end && items_.size() < most_items;) {
         const double size =
-            std::clamp(std::ceil((end - from) / pieces_of_rest), least_piece, largest_piece);
+            std::clamp(std::ceil((end - from) / items_of_rest), least_item, largest_item);
         const double to = std::min(from + size, end);
         items_.push_back({sender_of(from + 1), sender_of(to) + 1, from, to});
         from = to;
@@ -275,13 +275,13 @@ void Bounces::cut_line(Place& next) {
 /// are many an item is a part of them.
 void Bounces::cut_as_printed(Place& next) {
     const auto senders = static_cast<std::uint32_t>(senders_.size());
-    const bool whole = input_.options.rays <= largest_piece;
-    while (next.sender < senders && items_.size() < most_pieces) {
-        const std::uint32_t last = std::min(next.sender + (whole ? patches_per_piece : 1), senders);
+    const bool whole = input_.options.rays <= largest_item;
+    while (next.sender < senders && items_.size() < most_items) {
+        const std::uint32_t last = std::min(next.sender + (whole ? patches_per_item : 1), senders);
         const double end = std::numeric_limits<double>::infinity();
-        const bool is_last = whole || next.ray + largest_piece >= input_.options.rays;
-        items_.push_back({next.sender, last, next.ray, is_last ? end : next.ray + largest_piece});
-        next = is_last ? Place{last, 0} : Place{next.sender, next.ray + largest_piece};
+        const bool is_last = whole || next.ray + largest_item >= input_.options.rays;
+        items_.push_back({next.sender, last, next.ray, is_last ? end : next.ray + largest_item});
+        next = is_last ? Place{last, 0} : Place{next.sender, next.ray + largest_item};
     }
 }
 

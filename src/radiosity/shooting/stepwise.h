@@ -23,7 +23,7 @@ struct StepTask {
     Workers workers;      ///< for this one
     std::span<const double> aimed = {}; ///< MeanOfSteps::aimed
 
-    /// Is how many the patch is to shoot, on average.
+    /// Returns how many rays the patch is to shoot, on average.
     [[nodiscard]] double rays(std::uint32_t patch, const Vec3& power) const {
         return mean_of_channels(power) / ray_power * (aimed.empty() ? 1 : aimed[patch]);
     }

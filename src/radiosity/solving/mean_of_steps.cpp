@@ -131,7 +131,7 @@ double MeanOfSteps::emitted() const {
     return mean_of_channels(solution.energy.emitted / input_.mesh.frame().area_to_world(1.0));
 }
 
-/// What a squared error of the patch counts.
+/// The weight of the squared error of a patch.
 double MeanOfSteps::weighted_area(std::uint32_t patch) const {
     const double area = input_.mesh.patches()[patch].area;
     return solution.weight.empty() ? area : solution.weight[patch] * area;

@@ -107,7 +107,7 @@ struct StopRule {
     static constexpr std::uint32_t default_steps = 16;
 };
 
-/// Is for SolveOptions: more than will be taken where the time ends the run.
+/// SolveOptions::expected_steps for this rule: more than will be taken where the time ends the run.
 [[nodiscard]] inline std::uint32_t expected_steps(const StopRule& stop) {
     return stop.steps.value_or(stop.seconds ? std::numeric_limits<std::uint32_t>::max() : 0);
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t most_emitters = 1024, most_clusters = 128;
 
 /// Of the rays of a receiver, to emitters from which no light was seen to come.
-constexpr double share_of_doubtful = 1.0 / 16;
+constexpr double share_of_unlinked = 1.0 / 16;
 
 /// The light of each emitter, as the mean of its channels relative to the most that any has in that
 /// channel: a lamp that is faint, but the only one in its channel, is as important as any.
@@ -153,7 +153,7 @@ double EmitterChoice::nearness(const EmitterReceiver& to, const Cluster& cluster
 void EmitterChoice::weigh(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const {
     weigh_all(receiver_at(receiver), cut);
     if (!part_.empty())
-        doubt_others(receiver, bright, cut);
+        limit_unlinked(receiver, bright, cut);
     add_up(cut);
 }
 
@@ -198,28 +198,28 @@ void EmitterChoice::set_parts(std::span<const std::uint32_t> part,
         part_of_emitter_.push_back(part[patch]);
 }
 
-/// A cluster of several emitters may belong to several parts and is not doubted.
-void EmitterChoice::doubt_others(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const {
+/// A cluster of several emitters may belong to several parts and counts as linked.
+void EmitterChoice::limit_unlinked(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const {
     const auto is_dark = [&](std::uint32_t place) {
         return part_of_emitter_[place] != part_[receiver] && (bright & bit_of(place)) == 0;
     };
-    const auto is_doubtful = [&](std::size_t k) {
+    const auto is_unlinked = [&](std::size_t k) {
         if (cut.clusters.empty())
             return is_dark(order_[k]);
         const Cluster& cluster = clusters_[cut.clusters[k]];
         return cluster.left == 0 && is_dark(order_[cluster.begin]);
     };
-    double linked = 0, doubtful = 0;
+    double linked = 0, unlinked = 0;
     const std::size_t count = cut.found.size();
     for (std::size_t k = 0; k < count; ++k)
-        (is_doubtful(k) ? doubtful : linked) += cut.sums[k + 1];
-    const double most = linked * share_of_doubtful / (1 - share_of_doubtful);
-    if (!(linked > 0) || doubtful <= most)
+        (is_unlinked(k) ? unlinked : linked) += cut.sums[k + 1];
+    const double most = linked * share_of_unlinked / (1 - share_of_unlinked);
+    if (!(linked > 0) || unlinked <= most)
         return;
     for (std::size_t k = 0; k < count; ++k)
-        if (is_doubtful(k)) {
-            cut.sums[k + 1] *= most / doubtful;
-            cut.found[k] *= most / doubtful;
+        if (is_unlinked(k)) {
+            cut.sums[k + 1] *= most / unlinked;
+            cut.found[k] *= most / unlinked;
         }
 }
 
