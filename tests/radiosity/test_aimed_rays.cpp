@@ -226,11 +226,7 @@ TEST_CASE("With a target shooting does not depend on threads, nor on an interrup
         const auto first = method->make(input), second = method->make(input);
         first->step();
         first->step();
-        StateWriter state;
-        first->save(state);
-        StateReader reader(state.bytes());
-        second->load(reader);
-        reader.expect_end();
+        const std::string state = test::hand_over(*first, *second);
         second->step();
         second->step();
         CHECK(test::same_bits(one.radiosity, second->solution().radiosity));
@@ -240,7 +236,7 @@ TEST_CASE("With a target shooting does not depend on threads, nor on an interrup
         other[0] = .5;
         const SolverInput changed{model.mesh, model.bvh,         options,
                                   monitor,    everything_needed, other};
-        StateReader again(state.bytes());
+        StateReader again(state);
         CHECK_THROWS_AS(method->make(changed)->load(again), StateError);
     }
 }

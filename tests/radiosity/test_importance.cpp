@@ -176,11 +176,7 @@ TEST_CASE("With a target the result does not depend on threads, nor on an interr
     const SolverInput input{model.mesh, model.bvh, options, monitor, everything_needed, target};
     const auto first = stored_transport().make(input), second = stored_transport().make(input);
     first->step();
-    StateWriter state;
-    first->save(state);
-    StateReader reader(state.bytes());
-    second->load(reader);
-    reader.expect_end();
+    const std::string state = test::hand_over(*first, *second);
     second->step();
     second->step();
     CHECK(test::same_bits(one.radiosity, second->solution().radiosity));
@@ -188,7 +184,7 @@ TEST_CASE("With a target the result does not depend on threads, nor on an interr
     std::vector<double> other = target;
     other[0] = .5;
     const SolverInput changed{model.mesh, model.bvh, options, monitor, everything_needed, other};
-    StateReader again(state.bytes());
+    StateReader again(state);
     CHECK_THROWS_AS(stored_transport().make(changed)->load(again), StateError);
 }
 
