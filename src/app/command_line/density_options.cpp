@@ -15,6 +15,7 @@ constexpr const char* examples = R"(Examples:
   hemilux density room.obj -o densities.png
   hemilux density room.obj --patch 17 --rays 1000 -o hemisphere.svg
   hemilux density room.obj --method hemisphere-1997 --estimated-steps 0 -o parts.svg
+  hemilux density room.obj --method hemisphere-1997 --plane -o plane.svg
 )";
 
 std::optional<std::string> drawing_path(const std::string& path) {
@@ -51,6 +52,8 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
     add_scene_options(command, settings.scene);
     add_dividing_method(command, settings.method);
     add_division_options(command, settings.options);
+    add_guide_option(command, settings.options.guide, 2,
+                     "what divides hemisphere's: density or pyramid [density]");
     add_own_numbers(command, {&forerunner, 1}, settings.options);
     add_random_options(command, settings.options);
     add_parsed(command, "-o,--output", "FILE",
@@ -69,6 +72,10 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
         .group(output_group);
     add_whole<std::uint32_t>(command, "--rays", settings.rays, 0, 100'000,
                              "energy rays to show in it [0]")
+        .group(output_group);
+    command
+        .add_flag("--plane", settings.plane,
+                  "draw the subdivision in a plane across the patch, as the paper's figure 1")
         .group(output_group);
     add_camera_options(command, settings.view);
     add_verbosity_options(command, settings.verbosity);

@@ -149,6 +149,20 @@ void add_division_options(Command command, SolveOptions& options) {
         .group("Method");
 }
 
+void add_guide_option(Command command, Guide& guide, std::size_t guides, const std::string& help) {
+    const std::vector<std::string> names(guide_names.begin(),
+                                         guide_names.begin() + static_cast<std::ptrdiff_t>(guides));
+    command
+        .add_value("--guide", "NAME", help,
+                   [&guide, names](const std::string& name) {
+                       const auto found = std::ranges::find(names, name);
+                       if (found == names.end())
+                           throw UsageError("--guide: " + unknown_name("guide", name, names));
+                       guide = static_cast<Guide>(found - names.begin());
+                   })
+        .group("Method");
+}
+
 void add_own_numbers(Command command, std::span<const Method* const> methods,
                      SolveOptions& options) {
     for (const Method* const method : methods)

@@ -4,7 +4,9 @@
 #include "app/command_line/arguments.h"
 #include "app/settings/settings.h"
 
+#include <cstddef>
 #include <span>
+#include <string>
 
 namespace hemilux {
 
@@ -17,6 +19,8 @@ Option add_scene_options(Command command, SceneSettings& scene);
 void add_memory_option(Command command, SceneSettings& scene);
 /// Adds --depth and --threshold: how hemispheres are divided.
 void add_division_options(Command command, SolveOptions& options);
+/// Adds --guide, whose choices are the first `guides` of guide_names.
+void add_guide_option(Command command, Guide& guide, std::size_t guides, const std::string& help);
 /// Adds the options of these methods that are whole numbers (Method::numbers).
 void add_own_numbers(Command command, std::span<const Method* const> methods,
                      SolveOptions& options);

@@ -138,19 +138,9 @@ void add_method_options(Command command, SolveOptions& options) {
                "mean rays per patch and step [64]")
         .group("Method");
     add_division_options(command, options);
-    command
-        .add_value(
-            "--guide", "NAME",
-            "what guides " + guided_methods() + ": density, pyramid, visible or learned [density]",
-            [&options](const std::string& name) {
-                const auto found = std::ranges::find(guide_names, name);
-                if (found == guide_names.end()) {
-                    const std::vector<std::string> names(guide_names.begin(), guide_names.end());
-                    throw UsageError("--guide: " + unknown_name("guide", name, names));
-                }
-                options.guide = static_cast<Guide>(found - guide_names.begin());
-            })
-        .group("Method");
+    add_guide_option(command, options.guide, guide_names.size(),
+                     "what guides " + guided_methods() +
+                         ": density, pyramid, visible or learned [density]");
     command.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased")
         .group("Method");
     command
