@@ -17,9 +17,8 @@ namespace {
 
 constexpr std::size_t most_balls = 8;
 
-/// Of the target. With all of it in balls those of pictures are large, as a few patches of the
-/// table count too.
-constexpr double share_in_balls = .6;
+/// Of the target: all of a picture would take large balls, as a few patches of the table count too.
+constexpr double share_in_balls = .75;
 
 /// Balls are halved while it makes the sum over balls of root of mass times radius so much smaller:
 /// the best numbers of rays are as that.
