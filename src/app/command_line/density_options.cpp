@@ -14,7 +14,11 @@ constexpr const char* examples = R"(Examples:
   hemilux density room.obj -o densities.png
   hemilux density room.obj --patch 17 --rays 1000 -o hemisphere.svg
   hemilux density room.obj --method hemisphere-1997 --estimated-steps 0 -o parts.svg
+  hemilux density room.obj --method hemisphere-1997 --plane -o plane.svg
 )";
+
+/// The first two of Guide: by what the hemispheres of `hemisphere` are divided.
+constexpr std::array drawn_guides = {guide_names[0], guide_names[1]};
 
 /// Of the methods whose hemispheres can be drawn.
 void add_dividing_method(Command command, const Method*& method) {
@@ -44,6 +48,8 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
     add_scene_options(command, settings.scene);
     add_dividing_method(method, settings.method);
     add_division_options(method, settings.options);
+    add_choice(method, "--guide", settings.options.guide, drawn_guides,
+               "what divides hemisphere's [density]");
     add_own_numbers(command.under(own_group), {&forerunner, 1}, settings.options);
     add_random_options(method, settings.options);
     add_path(outputs, "-o,--output", "FILE",
@@ -59,6 +65,8 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
                              "of the patch, whose hemisphere is shown from above [0]");
     add_whole<std::uint32_t>(outputs, "--rays", settings.rays, 0, 100'000,
                              "energy rays to show in it [0]");
+    outputs.add_flag("--plane", settings.plane,
+                     "draw the subdivision in a plane across the patch, as the paper's figure 1");
     add_camera_options(outputs, settings.view);
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(examples);

@@ -4,7 +4,9 @@
 #include "app/command_line/arguments.h"
 #include "app/settings/settings.h"
 
+#include <cstddef>
 #include <span>
+#include <string>
 
 namespace hemilux {
 

@@ -101,7 +101,7 @@ class VisibilityGuide final : public Strategy {
     void find_arrivals(std::span<const Ray> rays, std::span<const std::uint32_t> receivers,
                        std::vector<std::uint16_t>& arrivals) const override {
         for (std::size_t k = 0; k < rays.size(); ++k) {
-            const bool arrived = receivers[k] < absorbed;
+            const bool arrived = receivers[k] < sides_.size();
             arrivals.push_back(
                 arrived ? hemisphere_.leaf_at(frames_[receivers[k]].to_local(-rays[k].direction))
                         : whole_hemisphere);
@@ -115,7 +115,7 @@ class VisibilityGuide final : public Strategy {
         const double sent = side.rays_per_area * density(patch, leaf); // D_it
         float sum = 0;
         for (std::size_t k = 0; k < receivers.size(); ++k) {
-            if (receivers[k] >= absorbed)
+            if (receivers[k] >= sides_.size())
                 continue;
             const Side& other = sides_[receivers[k]];
             const std::size_t there = arrivals[k] - first_leaf_;

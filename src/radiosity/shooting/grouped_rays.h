@@ -45,6 +45,14 @@ class GroupedRays {
 
     /// The next rays, as many as a batch has room for; none if all have been drawn.
     [[nodiscard]] std::span<const Ray> next();
+    /// Calls found(k, patch) for the rays that next() has given, in their order.
+    template <class Found>
+    void for_each_patch(const Found& found) const {
+        std::size_t k = 0;
+        for (const Run& run : runs_)
+            for (std::uint32_t ray = 0; ray < run.rays; ++ray)
+                found(k++, run.patch);
+    }
 
   private:
     /// Rays of a patch among those that are drawn now: of a private cell, or of all others.
