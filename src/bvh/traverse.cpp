@@ -48,7 +48,7 @@ struct BoxRay {
     }
 };
 
-/// What is to be visited once nearer things are done, and where the ray enters its box.
+/// A node to be visited once nearer ones are done, and where the ray enters its box.
 struct Pending {
     Bvh::Child at;
     float enter;

@@ -78,7 +78,7 @@ TEST_CASE("what is no STL is refused with line or byte", "[stl]") {
     CHECK(error_of("").starts_with("s.stl: expected an STL file"));
     CHECK(error_of("solid\n").starts_with("s.stl: no triangles"));
     CHECK(error_of("solid\nvertex 1 2 x\n") ==
-          "s.stl:2: expected 3 numbers after vertex, found \"x\"");
+          "s.stl:2: expected three numbers after vertex, found \"x\"");
     CHECK(error_of("solid\nfacet\nendfacet\n").starts_with("s.stl:3: expected 3 vertices"));
     CHECK(error_of("solid\nvertex 0 0 0\n").starts_with("s.stl:2: expected endfacet"));
     CHECK(error_of("solid\nface\n").starts_with("s.stl:2: expected solid, facet"));

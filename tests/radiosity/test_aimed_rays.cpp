@@ -50,14 +50,30 @@ std::vector<double> first_patches(const Mesh& mesh, std::size_t end) {
     return weight;
 }
 
-/// By as many rays.
-std::vector<double> times_of(const Model& model, std::span<const double> target, double rays) {
+/// What patches get, found by as many rays.
+Aim aim_of(const Model& model, std::span<const double> target, double rays, bool balls = false) {
     Monitor monitor;
     const SolveOptions options = options_of(3);
     const SolverInput input{model.mesh, model.bvh, options, monitor, everything_needed, target};
     StepResult pilot(model.mesh);
     const double ray_power = mean_of_channels(emitted_power(model.mesh)) / rays;
-    return aim_rays(input, {7, 1, ray_power, 0, Workers(2)}, pilot);
+    return aim_rays(input, {7, 1, ray_power, 0, Workers(2)}, balls, pilot);
+}
+
+/// A room, and on its floor a small thing that is the target. Large patches stand near it.
+struct SmallTarget {
+    Model model;
+    std::vector<double> weight;
+};
+
+SmallTarget small_target() {
+    Scene scene = test::room_with_block();
+    const std::size_t before = scene.facets.size();
+    test::add_cube(scene, {.7, .3, .06}, .05);
+    SmallTarget result{Model(scene), {}};
+    for (const Patch& patch : result.model.mesh.patches())
+        result.weight.push_back(patch.facet >= before ? 1 : 0);
+    return result;
 }
 
 /// sqrt(J) by patch, J = F rho (u + J) being found on stored rays, the mean over neighbours.
@@ -128,11 +144,11 @@ struct Runs {
 };
 
 Runs runs_for(const Model& model, const Method& method, std::span<const double> target,
-              std::span<const double> counted, const Solution& exact, int seeds) {
+              std::span<const double> counted, const Solution& exact, int seeds, double rays = 64) {
     Runs result;
     for (int seed = 1; seed <= seeds; ++seed) {
-        const Solution s = solve_for(model, method, target, options_of(std::uint64_t(seed), 64, 0),
-                                     test::steps(4));
+        const Solution s = solve_for(model, method, target,
+                                     options_of(std::uint64_t(seed), rays, 0), test::steps(4));
         const double off = test::true_error_of(model.mesh, s, exact, counted);
         result.error += off * off / seeds;
         result.rays += double(s.rays_energy);
@@ -153,7 +169,7 @@ double gain(const Runs& without, const Runs& with) {
 TEST_CASE("Rays are as the root of the importance that stored rays tell") {
     const Model model(test::room_with_block());
     const std::vector<double> target = first_patches(model.mesh, 16);
-    const std::vector<double> times = times_of(model, target, 4e5);
+    const std::vector<double> times = aim_of(model, target, 4e5).times;
     const std::vector<double> roots = root_of_importance(model, target);
     double ratio = 0;
     for (std::size_t i = 0; i < times.size(); ++i)
@@ -168,7 +184,7 @@ TEST_CASE("Rays are as the root of the importance that stored rays tell") {
 TEST_CASE("Each patch keeps some rays, those that light cannot leave for the target the fewest") {
     const Model model(two_rooms());
     const std::vector<double> target = first_room(model.mesh);
-    const std::vector<double> times = times_of(model, target, 1e5);
+    const std::vector<double> times = aim_of(model, target, 1e5).times;
     const std::size_t half = target.size() / 2;
     const double least = *std::min_element(times.begin(), times.begin() + std::ptrdiff_t(half));
     for (std::size_t i = half; i < times.size(); ++i) {
@@ -181,23 +197,40 @@ TEST_CASE("Where no light is seen to reach the target rays are as without") {
     Scene scene = two_rooms();
     scene.materials[1].emission = Vec3(0.0); // the lamp of the target's room
     const Model model(scene);
-    for (const double times : times_of(model, first_room(model.mesh), 1e4))
+    for (const double times : aim_of(model, first_room(model.mesh), 1e4).times)
         CHECK(times == 1);
 }
 
-TEST_CASE("With a target light is that of matrix, on it and elsewhere, within the errors") {
-    const Model model(test::room_with_block());
-    const std::vector<double> target = first_patches(model.mesh, 16);
+TEST_CASE("A small target gets a ball, a large one none") {
+    const auto [model, target] = small_target();
+    const Aim aim = aim_of(model, target, 1e5, true);
+    REQUIRE(aim.balls.count() > 0);
+    double power = 0, rays = 0;
+    for (std::uint32_t i = 0; i < target.size(); ++i) {
+        const double of_patch = model.mesh.patches()[i].area; // where all shine alike
+        power += of_patch;
+        rays += of_patch * aim.times[i];
+        for (std::size_t k = 0; k < aim.balls.count(); ++k)
+            rays += of_patch * aim.balls.times(i, k);
+    }
+    CHECK(rays < 2 * power);
+    CHECK(rays > .5 * power);
+    const std::vector<double> all(target.size(), 1.0);
+    CHECK(aim_of(model, all, 1e5, true).balls.count() == 0);
+}
+
+void check_light(const Model& model, std::span<const double> target,
+                 std::span<const Method* const> methods, std::uint32_t steps) {
     const Solution exact = test::reference(model, .001);
     std::vector<bool> on_target, elsewhere;
     for (const double weight : target) {
         on_target.push_back(weight > 0);
         elsewhere.push_back(!(weight > 0));
     }
-    for (const Method* const method : shooting_methods()) {
+    for (const Method* const method : methods) {
         std::vector<Solution> runs;
         for (std::uint64_t seed = 1; seed <= 8; ++seed)
-            runs.push_back(solve_for(model, *method, target, options_of(seed), test::steps(8)));
+            runs.push_back(solve_for(model, *method, target, options_of(seed), test::steps(steps)));
         for (const auto& part : {on_target, elsewhere}) {
             const Scores score = scores(model, runs, exact, part);
             CAPTURE(method->name, score.of_runs, score.of_mean);
@@ -208,9 +241,19 @@ TEST_CASE("With a target light is that of matrix, on it and elsewhere, within th
     }
 }
 
-TEST_CASE("With a target shooting does not depend on threads, nor on an interruption") {
+TEST_CASE("With a target light is that of matrix, on it and elsewhere, within the errors") {
     const Model model(test::room_with_block());
-    const std::vector<double> target = first_patches(model.mesh, 8);
+    check_light(model, first_patches(model.mesh, 16), shooting_methods(), 8);
+}
+
+TEST_CASE("With rays to balls light is that of matrix, on the target and elsewhere") {
+    const auto [model, target] = small_target();
+    std::vector<const Method*> methods = shooting_methods();
+    std::erase_if(methods, [](const Method* method) { return !method->strategy; });
+    check_light(model, target, methods, 24); // its patches have no neighbours to share a spread
+}
+
+void check_repeats(const Model& model, const std::vector<double>& target) {
     for (const Method* const method : shooting_methods()) {
         CAPTURE(method->name);
         const Solution one =
@@ -226,11 +269,7 @@ TEST_CASE("With a target shooting does not depend on threads, nor on an interrup
         const auto first = method->make(input), second = method->make(input);
         first->step();
         first->step();
-        StateWriter state;
-        first->save(state);
-        StateReader reader(state.bytes());
-        second->load(reader);
-        reader.expect_end();
+        const std::string state = test::hand_over(*first, *second);
         second->step();
         second->step();
         CHECK(test::same_bits(one.radiosity, second->solution().radiosity));
@@ -240,8 +279,36 @@ TEST_CASE("With a target shooting does not depend on threads, nor on an interrup
         other[0] = .5;
         const SolverInput changed{model.mesh, model.bvh,         options,
                                   monitor,    everything_needed, other};
-        StateReader again(state.bytes());
+        StateReader again(state);
         CHECK_THROWS_AS(method->make(changed)->load(again), StateError);
+    }
+}
+
+TEST_CASE("With a target shooting does not depend on threads, nor on an interruption") {
+    const Model model(test::room_with_block());
+    check_repeats(model, first_patches(model.mesh, 8));
+    const auto [small, target] = small_target();
+    check_repeats(small, target);
+}
+
+TEST_CASE("Things on a table take a fifth of the rays", "[slow]") {
+    for (const char* scene : {"room_1002", "office_3576"}) {
+        const Model model = test::example(scene);
+        const std::vector<double> target = test::weights_of(model.mesh, "detail");
+        SolveOptions exactly = options_of(99, 64, 0);
+        exactly.aim = .002;
+        const Solution exact = solve_for(model, *find_method("stored-transport"), target, exactly,
+                                         {.steps = {}, .seconds = {}, .error = .002});
+        for (const char* name : {"stratified", "hemisphere", "progressive-monte-carlo"}) {
+            const Method& method = *find_method(name);
+            const Runs without = runs_for(model, method, {}, target, exact, 10, 256);
+            const Runs with = runs_for(model, method, target, target, exact, 10, 256);
+            CAPTURE(scene, name, without.error, with.error, gain(without, with),
+                    with.reported_over_true);
+            CHECK(gain(without, with) > 5);
+            CHECK(with.reported_over_true > .8);
+            CHECK(with.reported_over_true < 1.25);
+        }
     }
 }
 

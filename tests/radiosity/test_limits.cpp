@@ -4,7 +4,7 @@
 #include "radiosity/scene/coplanar_overlaps.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/time_limit.h"
-#include "support/after_streams.h"
+#include "support/watched_tracer.h"
 
 #include "support/catch.h"
 #include "support/scenes.h"

@@ -402,9 +402,9 @@ TEST_CASE("Patches that never hold power have no densities") {
           41 * (mesh.patches().size() - needs.unlit));
     CHECK(all.rays_density == 41 * mesh.patches().size());
     CHECK(with.bytes_density < all.bytes_density - 30 * needs.unlit);
-    CHECK(lists(left_out(needs, method, with), "densities of"));
-    CHECK(lists(left_out(needs, *find_method("matrix"), with), "rays of"));
-    CHECK(left_out(needs, *find_method("monte-carlo"), with).empty());
+    CHECK(lists(left_out(needs, method.work, with), "densities of"));
+    CHECK(lists(left_out(needs, find_method("matrix")->work, with), "rays of"));
+    CHECK(left_out(needs, find_method("monte-carlo")->work, with).empty());
 }
 
 TEST_CASE("A full density store has the same leaves as one of the divided triangles") {

@@ -261,11 +261,7 @@ TEST_CASE("What was learned goes on from a saved state") {
         const auto first = hemisphere_method().make(input),
                    second = hemisphere_method().make(input);
         run(*first, input, test::steps(3));
-        StateWriter saved;
-        first->save(saved);
-        StateReader state(saved.bytes());
-        second->load(state);
-        state.expect_end();
+        const std::string saved = test::hand_over(*first, *second);
         for (int step = 0; step < 5; ++step) {
             REQUIRE(first->step());
             REQUIRE(second->step());
@@ -274,12 +270,12 @@ TEST_CASE("What was learned goes on from a saved state") {
 
         const Model other(test::open_scene());
         const SolverInput elsewhere{other.mesh, other.bvh, options, monitor};
-        StateReader foreign(saved.bytes());
+        StateReader foreign(saved);
         CHECK_THROWS_AS(hemisphere_method().make(elsewhere)->load(foreign), StateError);
         SolveOptions deeper = options;
         deeper.depth = 3;
         const SolverInput finer{model.mesh, model.bvh, deeper, monitor};
-        StateReader coarse(saved.bytes());
+        StateReader coarse(saved);
         CHECK_THROWS_AS(hemisphere_method().make(finer)->load(coarse), StateError);
     }
 }

@@ -1,9 +1,9 @@
 // Steps that are worked out at the same time: nobody can tell from the solution.
 
-#include "support/after_streams.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
+#include "support/watched_tracer.h"
 
 #include <stdexcept>
 

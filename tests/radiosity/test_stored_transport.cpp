@@ -7,10 +7,10 @@
 #include "radiosity/stored_transport/direct_light.h"
 #include "radiosity/stored_transport/ray_allocation.h"
 #include "radiosity/stored_transport/small_emitters.h"
-#include "support/after_streams.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
+#include "support/watched_tracer.h"
 
 #include <algorithm>
 #include <array>
@@ -310,12 +310,8 @@ TEST_CASE("A step of stored transport that was interrupted is taken up where it 
             ;
         REQUIRE(monitor.interrupted.exchange(false));
         REQUIRE(stopped->solution().steps < 3);
-        StateWriter saved;
-        stopped->save(saved);
         const auto resumed = stored_transport().make(input);
-        StateReader state(saved.bytes());
-        resumed->load(state);
-        CHECK_NOTHROW(state.expect_end());
+        test::hand_over(*stopped, *resumed);
         for (Solver* solver : {stopped.get(), resumed.get()}) {
             while (solver->solution().steps < 3)
                 REQUIRE(solver->step());

@@ -2,10 +2,12 @@
 // A mesh with its BVH, and a run of a method over it.
 
 #include "bvh/bvh.h"
+#include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solver.h"
 
 #include <cstring>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -49,6 +51,16 @@ struct Model {
     options.seed = 12345;
     return solve(model, *find_method("matrix"), options,
                  {.steps = {}, .seconds = {}, .error = error});
+}
+
+/// Loads what `from` saves into `to`, which must take all of it; returns the state.
+inline std::string hand_over(const Solver& from, Solver& to) {
+    StateWriter state;
+    from.save(state);
+    StateReader reader(state.bytes());
+    to.load(reader);
+    reader.expect_end();
+    return state.bytes();
 }
 
 [[nodiscard]] inline bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {

@@ -1,36 +1,15 @@
 #pragma once
 // The rays that a method shoots in a step, as the tracer sees them.
 
-#include "bvh/tracer.h"
 #include "support/catch.h"
 #include "support/solve.h"
+#include "support/watched_tracer.h"
 
 #include <memory>
 #include <utility>
 #include <vector>
 
 namespace hemilux::test {
-
-/// Keeps the rays whose nearest facets are asked for.
-class Recorder final : public Tracer {
-  public:
-    explicit Recorder(const Tracer& tracer) : tracer_(tracer) {}
-    [[nodiscard]] std::optional<Hit> closest(const Ray& ray) const override {
-        return tracer_.closest(ray);
-    }
-    [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target) const override {
-        return tracer_.occluded(ray, target);
-    }
-    [[nodiscard]] std::uint32_t count(const Ray& ray) const override { return tracer_.count(ray); }
-    void closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const override {
-        recorded.insert(recorded.end(), rays.begin(), rays.end());
-        tracer_.closest_stream(rays, out);
-    }
-    mutable std::vector<Ray> recorded;
-
-  private:
-    const Tracer& tracer_;
-};
 
 /// The same surfaces, which absorb all: each step is one bounce.
 [[nodiscard]] inline Scene black(Scene scene) {
@@ -49,21 +28,24 @@ struct StepRays {
 class Steps {
   public:
     Steps(const Model& model, const Method& method, const SolveOptions& options)
-        : model_(model), recorder_(model.bvh),
+        : model_(model), recorder_(model.bvh,
+                                   [this](std::span<const Ray> rays) {
+                                       recorded_.insert(recorded_.end(), rays.begin(), rays.end());
+                                   }),
           options_(options), input_{model.mesh, recorder_, options_, monitor_} {
         options_.threads = 1;
         solver_ = method.make(input_);
         REQUIRE(solver_->step()); // has the pilot's rays before its own
-        first_ = std::exchange(recorder_.recorded, {});
+        first_ = std::exchange(recorded_, {});
     }
 
     /// The rays of the next step, by patch that emits; the first step has the pilot's besides.
     [[nodiscard]] std::vector<StepRays> next() {
         if (!first_.empty())
             return by_patch(std::exchange(first_, {}));
-        recorder_.recorded.clear();
+        recorded_.clear();
         REQUIRE(solver_->step());
-        return by_patch(recorder_.recorded);
+        return by_patch(recorded_);
     }
 
   private:
@@ -84,7 +66,8 @@ class Steps {
     static constexpr std::size_t none = static_cast<std::size_t>(-1); ///< shoots no ray
 
     const Model& model_;
-    Recorder recorder_;
+    std::vector<Ray> recorded_;
+    WatchedTracer recorder_;
     Monitor monitor_;
     SolveOptions options_;
     SolverInput input_;

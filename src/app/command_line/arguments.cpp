@@ -143,11 +143,6 @@ std::string quoted(const std::string& word) {
 
 } // namespace
 
-Option Option::group(const std::string& heading) const {
-    option_->group(heading);
-    return *this;
-}
-
 Option Option::required() const {
     option_->required();
     return *this;
@@ -170,6 +165,12 @@ Option Option::separated_by(char letter) const {
     return *this;
 }
 
+Option Command::added(CLI::Option* option) const {
+    if (!heading_.empty())
+        option->group(heading_);
+    return Option(*option);
+}
+
 Option Command::add_values(const std::string& name, const std::string& type,
                            const std::string& help,
                            std::function<void(const std::vector<std::string>&)> read) const {
@@ -177,7 +178,7 @@ Option Command::add_values(const std::string& name, const std::string& type,
         read(texts);
         return true;
     };
-    return Option(*app_->add_option(name, read_all, help)->type_name(type));
+    return added(app_->add_option(name, read_all, help)->type_name(type));
 }
 
 Option Command::add_value(const std::string& name, const std::string& type, const std::string& help,
@@ -189,26 +190,26 @@ Option Command::add_value(const std::string& name, const std::string& type, cons
 
 Option Command::add_text(const std::string& name, const std::string& type, std::string& target,
                          const std::string& help) const {
-    return Option(*app_->add_option(name, target, help)->type_name(type));
+    return added(app_->add_option(name, target, help)->type_name(type));
 }
 
 Option Command::add_texts(const std::string& name, const std::string& type,
                           std::vector<std::string>& target, const std::string& help) const {
-    return Option(*app_->add_option(name, target, help)->type_name(type));
+    return added(app_->add_option(name, target, help)->type_name(type));
 }
 
 Option Command::add_flag(const std::string& name, bool& target, const std::string& help) const {
-    return Option(*app_->add_flag(name, target, help));
+    return added(app_->add_flag(name, target, help));
 }
 
 Option Command::add_action(const std::string& name, std::function<void()> action,
                            const std::string& help) const {
-    return Option(*app_->add_flag_callback(name, std::move(action), help));
+    return added(app_->add_flag_callback(name, std::move(action), help));
 }
 
 Option Command::add_version(const std::string& name, const std::string& version,
                             const std::string& help) const {
-    return Option(*app_->set_version_flag(name, version, help));
+    return added(app_->set_version_flag(name, version, help));
 }
 
 Option Command::add_answer(const std::string& name, const std::string& type,
@@ -221,7 +222,7 @@ Option Command::add_answer(const std::string& name, const std::string& type,
 
 Option Command::add_help(const std::string& name, const std::string& help) const {
     app_->set_help_flag(); // takes away the one that stands first
-    return Option(*app_->set_help_flag(name, help));
+    return added(app_->set_help_flag(name, help));
 }
 
 void Command::end_help_with(const std::string& text) const { app_->footer(text); }

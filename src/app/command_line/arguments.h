@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -22,8 +23,6 @@ namespace hemilux {
 class Option {
   public:
     explicit Option(CLI::Option& option) : option_(&option) {}
-    /// The heading of --help under which it stands.
-    Option group(const std::string& heading) const;
     Option required() const;
     /// At most one of the two may be given.
     Option excludes(Option other) const;
@@ -54,7 +53,12 @@ struct CommandText {
 /// write to, outlives the parsing. `type` is what --help says of an option's value.
 class Command {
   public:
-    explicit Command(CLI::App& app) : app_(&app) {}
+    explicit Command(CLI::App& app, std::string heading = {})
+        : app_(&app), heading_(std::move(heading)) {}
+    /// The same command, whose options that are added stand under a heading of --help.
+    [[nodiscard]] Command under(const std::string& heading) const {
+        return Command(*app_, heading);
+    }
     /// `read` gets all values that were given, and throws UsageError for those that it refuses.
     Option add_values(const std::string& name, const std::string& type, const std::string& help,
                       std::function<void(const std::vector<std::string>&)> read) const;
@@ -91,7 +95,10 @@ class Command {
     [[nodiscard]] bool parsed() const;
 
   private:
+    [[nodiscard]] Option added(CLI::Option* option) const;
+
     CLI::App* app_;
+    std::string heading_; ///< empty: that of the parser
 };
 
 class Arguments {

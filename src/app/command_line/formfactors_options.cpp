@@ -2,7 +2,6 @@
 #include "app/command_line/option_kinds.h"
 #include "app/command_line/options.h"
 #include "app/commands/formfactors.h"
-#include "app/settings/extension.h"
 
 #include <bit>
 
@@ -15,11 +14,6 @@ constexpr const char* examples = R"(Examples:
   hemilux formfactors room.obj --exact -o factors.npy -o factors.csv
   hemilux formfactors room.obj --factors hemicube:256 -o factors.csv
 )";
-
-std::optional<std::string> matrix_path(const std::string& path) {
-    const std::string extension = extension_of(path);
-    return extension == ".csv" || extension == ".npy" ? std::optional(path) : std::nullopt;
-}
 
 std::optional<std::uint32_t> power_of_two(const std::string& text) {
     constexpr std::uint64_t most = 1u << 20;
@@ -34,24 +28,23 @@ std::optional<std::uint32_t> power_of_two(const std::string& text) {
 Command add_formfactors_command(Arguments& program, FormFactorSettings& settings) {
     const Command command =
         program.add_command("formfactors", "write the form factors between all patches");
+    const Command method = command.under(method_group);
     add_scene_options(command, settings.scene);
-    add_parsed(command, "--rays", "N", "rays per patch, a power of two [4096]",
+    add_parsed(method, "--rays", "N", "rays per patch, a power of two [4096]",
                "a power of two from 1 to 1048576", power_of_two,
-               [&settings](std::uint32_t rays) { settings.rays = rays; })
-        .group("Method");
+               [&settings](std::uint32_t rays) { settings.rays = rays; });
     add_factor_options(
-        command, settings.options.factors, "Method",
+        method, settings.options.factors,
         {"rays; exact: as --exact; hemicube: by a hemicube over each patch, N pixels along its "
          "edge, and no --rays [rays; N 64]",
          "without chance where nothing can stand between two patches; up to 2000 patches"});
-    add_random_options(command, settings.options);
-    add_parsed(command, "-o,--output", "FILE",
-               "i,j,F of the factors above 0 .csv, dense NumPy array .npy; repeatable",
-               "a file name that ends with .csv or .npy", matrix_path,
-               [&settings](const std::string& path) { settings.outputs.push_back(path); })
+    add_random_options(method, settings.options);
+    add_path(command.under(output_group), "-o,--output", "FILE",
+             "i,j,F of the factors above 0 .csv, dense NumPy array .npy; repeatable",
+             ".csv or .npy",
+             [&settings](const std::string& path) { settings.outputs.push_back(path); })
         .repeatable()
-        .required()
-        .group(output_group);
+        .required();
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(examples);
     return command;

@@ -58,24 +58,15 @@ void choose_sides(SceneSettings& scene, Sides sides) {
 }
 
 void add_sides_options(Command command, SceneSettings& scene) {
-    const Option sides = command.add_value(
-        "--sides", "auto|front|both",
+    const Option sides = add_choice<Sides>(
+        command, "--sides", sides_names,
         "which sides of faces emit and reflect. auto: the front, faces that look away from the "
         "light being turned; front: the front as in the file; both [auto]",
-        [&scene](const std::string& name) {
-            const auto found = std::ranges::find(sides_names, name);
-            if (found == sides_names.end()) {
-                const std::vector<std::string> names(sides_names.begin(), sides_names.end());
-                throw UsageError("--sides: " + unknown_name("choice", name, names));
-            }
-            choose_sides(scene, static_cast<Sides>(found - sides_names.begin()));
-        });
-    sides.group("Scene");
+        [&scene](Sides chosen) { choose_sides(scene, chosen); });
     command
         .add_action(
             "--two-sided", [&scene] { choose_sides(scene, Sides::both); },
             "the same as --sides both")
-        .group("Scene")
         .excludes(sides);
 }
 
@@ -86,8 +77,7 @@ void add_light_options(Command command, SceneSettings& scene) {
         "towards ... size 1x.5 emission 20'; repeatable",
         light_form, [](const std::string& text) { return parse_light(text); },
         [&scene](const LightSettings& light) { scene.lights.push_back(light); })
-        .repeatable()
-        .group("Scene");
+        .repeatable();
     add_parsed(
         command, "--sun", "X,Y,Z,W",
         "add a sun: the direction in which its light goes, and what arrives on a surface that "
@@ -95,15 +85,13 @@ void add_light_options(Command command, SceneSettings& scene) {
         "X,Y,Z,W or X,Y,Z,R,G,B with a direction that is not 0,0,0",
         [](const std::string& text) { return parse_sun(text); },
         [&scene](const SunSettings& sun) { scene.suns.push_back(sun); })
-        .repeatable()
-        .group("Scene");
+        .repeatable();
     add_parsed(
         command, "--sky", "R,G,B",
         "add a sky that is alike all around and lights what sees nothing else by so much, W/m2",
         "R,G,B or one number, " + emission_range.text(),
         [](const std::string& text) { return parse_colour(text, emission_range); },
-        [&scene](const Vec3& sky) { scene.sky = sky; })
-        .group("Scene");
+        [&scene](const Vec3& sky) { scene.sky = sky; });
 }
 
 } // namespace
@@ -111,27 +99,21 @@ void add_light_options(Command command, SceneSettings& scene) {
 Option add_scene_options(Command command, SceneSettings& scene) {
     command.add_text("SCENE", "FILE", scene.path, "the scene: .obj, .gltf, .glb or .stl")
         .required();
-    command
-        .add_text(
-            "--config", "FILE", scene.config,
-            "options from a TOML file, as error = \"1%\"; those of the command line come first")
-        .group("Scene");
+    command = command.under(scene_group);
+    command.add_text(
+        "--config", "FILE", scene.config,
+        "options from a TOML file, as error = \"1%\"; those of the command line come first");
     const Option max_edge =
         add_number(command, "--max-edge", "LENGTH", scene.mesh.max_edge, positive,
                    "divide faces until no edge is longer [not divided]");
-    max_edge.group("Scene");
     add_sides_options(command, scene);
-    command
-        .add_action(
-            "--no-textures", [&scene] { scene.textures = false; },
-            "materials have the colours of the file without their textures")
-        .group("Scene");
+    command.add_action(
+        "--no-textures", [&scene] { scene.textures = false; },
+        "materials have the colours of the file without their textures");
     add_override(command, "--emission", scene.emission, emission_range,
-                 "what a material emits, W/m2; * in its name stands for any letters; repeatable")
-        .group("Scene");
+                 "what a material emits, W/m2; * in its name stands for any letters; repeatable");
     add_override(command, "--reflectance", scene.reflectance, reflectance_range,
-                 "what a material reflects, 0 to 1; * as above; repeatable")
-        .group("Scene");
+                 "what a material reflects, 0 to 1; * as above; repeatable");
     add_light_options(command, scene);
     return max_edge;
 }
@@ -141,17 +123,14 @@ void add_memory_option(Command command, SceneSettings& scene) {
         command, "--memory", "BYTES", "stop before a scene needs more; k, M, G or T may follow",
         "a number of bytes such as 800M or 1.5G",
         [](const std::string& text) { return parse_bytes(text); },
-        [&scene](std::uint64_t bytes) { scene.memory = bytes; })
-        .group("Scene");
+        [&scene](std::uint64_t bytes) { scene.memory = bytes; });
 }
 
 void add_division_options(Command command, SolveOptions& options) {
     add_whole<int>(command, "--depth", options.depth, 0, 5,
-                   "levels of subdivision of hemispheres [2]")
-        .group("Method");
+                   "levels of subdivision of hemispheres [2]");
     add_number(command, "--threshold", "X", options.threshold, non_negative,
-               "divide a triangle whose mean density is above X [0]")
-        .group("Method");
+               "divide a triangle whose mean density is above X [0]");
 }
 
 void add_own_numbers(Command command, std::span<const Method* const> methods,
@@ -170,35 +149,29 @@ void add_own_numbers(Command command, std::span<const Method* const> methods,
                                                                                     : std::nullopt;
             };
             add_parsed(command, std::string(number.name), "N", std::string(number.help), expected,
-                       parse,
-                       [&target = number.value(options)](std::uint64_t value) {
+                       parse, [&target = number.value(options)](std::uint64_t value) {
                            target = static_cast<std::uint32_t>(value);
-                       })
-                .group(own_group);
+                       });
         }
 }
 
-void add_factor_options(Command command, FactorOptions& factors, const std::string& group,
-                        const FactorHelp& help) {
+void add_factor_options(Command command, FactorOptions& factors, const FactorHelp& help) {
     const Option kind =
         add_parsed(command, "--factors", "rays|exact|hemicube[:N]", help.factors,
                    "rays, exact, hemicube or hemicube:N with an even N from 2 to 1024",
                    factors_from, [&factors](const FactorOptions& value) { factors = value; });
-    kind.group(group);
     command
         .add_action(
             "--exact", [&factors] { factors.kind = FactorKind::exact; }, help.exact)
-        .group(group)
         .excludes(kind);
 }
 
 void add_random_options(Command command, SolveOptions& options) {
     add_whole<std::uint64_t>(command, "--seed", options.seed, 0,
-                             std::numeric_limits<std::uint64_t>::max(), "of the random numbers [1]")
-        .group("Method");
+                             std::numeric_limits<std::uint64_t>::max(),
+                             "of the random numbers [1]");
     add_whole<unsigned>(command, "-t,--threads", options.threads, 0, 1024,
-                        "0: one per core; the result does not depend on it [0]")
-        .group("Method");
+                        "0: one per core; the result does not depend on it [0]");
 }
 
 void add_camera_options(Command command, ViewSettings& view) {
@@ -208,28 +181,24 @@ void add_camera_options(Command command, ViewSettings& view) {
         "the picture; auto: as the program chooses it [that of the scene, else auto]",
         "auto or ex,ey,ez,tx,ty,tz[,fov[,ux,uy,uz]] with two different points, an angle "
         "between 0 and 180 degrees and a direction that is not 0,0,0",
-        camera_from,
-        [&view](const std::optional<Camera>& value) {
+        camera_from, [&view](const std::optional<Camera>& value) {
             view.camera = value;
             view.uses_camera_of_scene = false;
-        })
-        .group(output_group);
-    command
-        .add_value("--up", "y|z",
-                   "axis that is upwards where the program chooses the camera, and in .glb files "
-                   "[guessed; y of .gltf and .glb]",
-                   [&view](const std::string& axis) {
-                       if (axis != "y" && axis != "z")
-                           throw UsageError("--up: expected y or z, not '" + axis + "'");
-                       view.up = axis == "y" ? 1 : 2;
-                   })
-        .group(output_group);
+        });
+    command.add_value(
+        "--up", "y|z",
+        "axis that is upwards where the program chooses the camera, and in .glb files "
+        "[guessed; y of .gltf and .glb]",
+        [&view](const std::string& axis) {
+            if (axis != "y" && axis != "z")
+                throw UsageError("--up: expected y or z, not '" + axis + "'");
+            view.up = axis == "y" ? 1 : 2;
+        });
     add_parsed(
         command, "--size", "WxH", "of pictures, in pixels [800x600]",
         "a width and a height from 1 to 16384, such as 800x600",
         [](const std::string& text) { return parse_size(text); },
-        [&view](const PixelSize& size) { view.size = size; })
-        .group(output_group);
+        [&view](const PixelSize& size) { view.size = size; });
 }
 
 void add_view_options(Command command, ViewSettings& view) {
@@ -243,15 +212,14 @@ void add_view_options(Command command, ViewSettings& view) {
         [&view](const Exposure& value) {
             view.exposure = value.factor;
             view.stops = value.stops;
-        })
-        .group(output_group);
+        });
     add_choice(command, "--tone", view.tone, tone_names,
                "how .png pictures show light above 0.8 of the screen's: neutral: compressed, with "
-               "its hue; srgb: cut at 1 in each channel [neutral]")
-        .group(output_group);
+               "its hue; srgb: cut at 1 in each channel [neutral]");
 }
 
 void add_verbosity_options(Command command, Verbosity& verbosity) {
+    command = command.under("Verbosity");
     const auto set = [&verbosity](Verbosity value) {
         return [&verbosity, value] {
             if (verbosity != Verbosity::normal)
@@ -259,12 +227,10 @@ void add_verbosity_options(Command command, Verbosity& verbosity) {
             verbosity = value;
         };
     };
-    const std::string group = "Verbosity";
-    command.add_action("-q,--quiet", set(Verbosity::quiet), "say nothing but errors").group(group);
-    command.add_action("-v,--verbose", set(Verbosity::verbose), "a line per step, and details")
-        .group(group);
-    command.add_version("--version", "hemilux " HEMILUX_VERSION, "print the version").group(group);
-    command.add_help("-h,--help", "print this").group(group);
+    command.add_action("-q,--quiet", set(Verbosity::quiet), "say nothing but errors");
+    command.add_action("-v,--verbose", set(Verbosity::verbose), "a line per step, and details");
+    command.add_version("--version", "hemilux " HEMILUX_VERSION, "print the version");
+    command.add_help("-h,--help", "print this");
 }
 
 } // namespace hemilux

@@ -4,14 +4,19 @@
 #include "app/command_line/arguments.h"
 #include "app/settings/settings.h"
 
+#include <cstddef>
 #include <span>
+#include <string>
 
 namespace hemilux {
 
+// Headings of --help that several subcommands have.
+inline constexpr const char* scene_group = "Scene";
+inline constexpr const char* method_group = "Method";
 inline constexpr const char* output_group = "Outputs";
 inline constexpr const char* own_group = "Of one method"; ///< or of few
 
-/// Adds SCENE and the options that change it; returns --max-edge.
+/// Adds SCENE and, under a heading of their own, the options that change it; returns --max-edge.
 Option add_scene_options(Command command, SceneSettings& scene);
 /// Adds --memory, for the subcommands that solve.
 void add_memory_option(Command command, SceneSettings& scene);
@@ -24,15 +29,14 @@ struct FactorHelp {
     std::string factors, exact;
 };
 /// Adds --factors, and --exact, which is `--factors exact`.
-void add_factor_options(Command command, FactorOptions& factors, const std::string& group,
-                        const FactorHelp& help);
+void add_factor_options(Command command, FactorOptions& factors, const FactorHelp& help);
 /// Adds --seed and --threads.
 void add_random_options(Command command, SolveOptions& options);
 /// Adds --camera and --size.
 void add_camera_options(Command command, ViewSettings& view);
 /// Adds the same and --exposure.
 void add_view_options(Command command, ViewSettings& view);
-/// Adds -q, -v, --version and --help.
+/// Adds -q, -v, --version and --help under a heading of their own.
 void add_verbosity_options(Command command, Verbosity& verbosity);
 
 } // namespace hemilux

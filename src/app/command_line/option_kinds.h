@@ -4,11 +4,13 @@
 
 #include "app/command_line/arguments.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/extension.h"
 #include "app/settings/names.h"
 #include "app/settings/numbers.h"
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <optional>
 #include <string>
 #include <vector>
@@ -69,21 +71,45 @@ Option add_seconds(Command command, const std::string& name, Target& target,
                       [&target](double value) { target = value; });
 }
 
-/// An option whose values are the names of an enumeration, in its order.
-template <class Choice, std::size_t count>
-Option add_choice(Command command, const std::string& name, Choice& target,
-                  const std::array<const char*, count>& names, const std::string& help) {
+/// An option whose values are the names of an enumeration, in its order; `store` gets the value.
+template <class Choice, std::size_t count, class Store>
+requires std::invocable<Store, Choice>
+    Option add_choice(Command command, const std::string& name,
+                      const std::array<const char*, count>& names, const std::string& help,
+                      Store store) {
     std::string type;
     for (const char* const choice : names)
         type += (type.empty() ? "" : "|") + std::string(choice);
-    return command.add_value(name, type, help, [&target, &names, name](const std::string& text) {
+    return command.add_value(name, type, help, [=, &names](const std::string& text) {
         const auto found = std::ranges::find(names, text);
         if (found == names.end())
             throw UsageError(
                 name + ": " +
                 unknown_name("choice", text, std::vector<std::string>(names.begin(), names.end())));
-        target = static_cast<Choice>(found - names.begin());
+        store(static_cast<Choice>(found - names.begin()));
     });
+}
+
+template <class Choice, std::size_t count>
+Option add_choice(Command command, const std::string& name, Choice& target,
+                  const std::array<const char*, count>& names, const std::string& help) {
+    return add_choice<Choice>(command, name, names, help,
+                              [&target](Choice value) { target = value; });
+}
+
+/// An option whose value is a path with one of these extensions, which `extensions` names as the
+/// message does: ".svg or .png".
+template <class Store>
+Option add_path(Command command, const std::string& name, const std::string& type,
+                const std::string& help, const std::string& extensions, Store store) {
+    const auto parse = [extensions](const std::string& path) {
+        const std::string extension = extension_of(path);
+        return !extension.empty() && (extensions + " ").find(extension + " ") != std::string::npos
+                   ? std::optional(path)
+                   : std::nullopt;
+    };
+    return add_parsed(command, name, type, help, "a file name that ends with " + extensions, parse,
+                      store);
 }
 
 template <class Whole, class Target>

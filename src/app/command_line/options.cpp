@@ -3,7 +3,6 @@
 #include "app/command_line/option_groups.h"
 #include "app/command_line/option_kinds.h"
 #include "app/settings/exit_code.h"
-#include "app/settings/extension.h"
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
 
@@ -17,15 +16,13 @@ namespace hemilux {
 namespace {
 
 constexpr const char* comparison_group = "Comparison";
-constexpr const char* target_group = "Target";
 
 void add_plain_option(Command command, bool& plain) {
-    command
-        .add_flag("--plain", plain,
-                  "by the page of src/radiosity/plain that shows the method: slower, one thread; "
-                  "these have one: " +
-                      methods_with_a_page())
-        .group("Method");
+    command.add_flag(
+        "--plain", plain,
+        "by the page of src/radiosity/plain that shows the method: slower, one thread; "
+        "these have one: " +
+            methods_with_a_page());
 }
 
 /// The method named, or UsageError with the nearest name.
@@ -53,10 +50,8 @@ void add_method_option(Command command, const Method*& method) {
         if (!other->implied_by.empty())
             taken += "; " + std::string(other->name) + " where " + either(other->implied_by) +
                      " are given";
-    command
-        .add_value("--method", "METHOD", "how to solve, see below [" + taken + "]",
-                   [&method](const std::string& name) { method = method_by_name(name); })
-        .group("Method");
+    command.add_value("--method", "METHOD", "how to solve, see below [" + taken + "]",
+                      [&method](const std::string& name) { method = method_by_name(name); });
     command.after_parsing([command, &method] {
         const auto given = [&command](std::string_view name) {
             return command.given(std::string(name));
@@ -120,12 +115,11 @@ void add_methods_option(Command command, std::vector<MethodVariant>& list) {
             with_guides += (with_guides.empty() ? "" : ", ") + variant.name;
         else if (variant.method->unbiased || variant.method->role == Role::standard)
             list.push_back(variant);
-    command
-        .add_value("--methods", "METHOD,METHOD,...",
-                   "what to compare, see below; also " + with_guides + " [" +
-                       std::string(method_of(Role::standard).name) + " and all that are unbiased]",
-                   [&list](const std::string& text) { list = variants_from(text); })
-        .group("Method");
+    command.add_value("--methods", "METHOD,METHOD,...",
+                      "what to compare, see below; also " + with_guides + " [" +
+                          std::string(method_of(Role::standard).name) +
+                          " and all that are unbiased]",
+                      [&list](const std::string& text) { list = variants_from(text); });
 }
 
 /// Names of those that --guide changes.
@@ -135,35 +129,25 @@ std::string guided_methods() {
 
 void add_method_options(Command command, SolveOptions& options) {
     add_number(command, "--rays", "N", options.rays, {.low = 0, .high = 1e9, .low_included = false},
-               "mean rays per patch and step [64]")
-        .group("Method");
+               "mean rays per patch and step [64]");
     add_division_options(command, options);
     add_choice(command, "--guide", options.guide, guide_names,
-               "what guides " + guided_methods() + " [density]")
-        .group("Method");
-    command.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased")
-        .group("Method");
-    command
-        .add_flag("--keep-all", options.keep_all,
-                  "leave out nothing that the scene does not need (see hemilux info)")
-        .group("Method");
+               "what guides " + guided_methods() + " [density]");
+    command.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased");
+    command.add_flag("--keep-all", options.keep_all,
+                     "leave out nothing that the scene does not need (see hemilux info)");
     add_random_options(command, options);
 }
 
 void add_stop_options(Command command, StopRule& stop) {
-    const std::string group = "Stop at the first that is met";
     add_whole<std::uint32_t>(command, "--steps", stop.steps, 1,
-                             std::numeric_limits<std::uint32_t>::max(), "after N steps")
-        .group(group);
+                             std::numeric_limits<std::uint32_t>::max(), "after N steps");
     add_seconds(command, "--time", stop.seconds, positive,
-                "after a time of solving; 2m and 1h are minutes and hours")
-        .group(group);
-    add_error(command, "--error", stop.error, "at an estimated relative error, e.g. 1% or .01")
-        .group(group);
+                "after a time of solving; 2m and 1h are minutes and hours");
+    add_error(command, "--error", stop.error, "at an estimated relative error, e.g. 1% or .01");
     add_whole<std::uint64_t>(
         command, "--max-rays", stop.rays, 1, std::numeric_limits<std::uint64_t>::max(),
-        "after N rays, even if the error is not reached [1e8 and 1000 a patch]")
-        .group(group);
+        "after N rays, even if the error is not reached [1e8 and 1000 a patch]");
 }
 
 void add_output_options(Command command, SolveSettings& settings) {
@@ -173,49 +157,35 @@ void add_output_options(Command command, SolveSettings& settings) {
         "a file name that ends with .png, .hdr, .exr, .ply, .glb, .vtu, .csv or .json",
         [](const std::string& path) { return parse_output(path); },
         [&settings](const Output& value) { settings.outputs.push_back(value); })
-        .repeatable()
-        .group(output_group);
-    command.add_text("--stats", "FILE", settings.statistics, "statistics of the run as JSON")
-        .group(output_group);
-    command.add_text("--steps-log", "FILE", settings.steps_log, "a CSV row per step")
-        .group(output_group);
-    command
-        .add_flag("--every-step", settings.every_step,
-                  "also write the pictures after every step, as NAME-0001.png and so on")
-        .group(output_group);
+        .repeatable();
+    command.add_text("--stats", "FILE", settings.statistics, "statistics of the run as JSON");
+    command.add_text("--steps-log", "FILE", settings.steps_log, "a CSV row per step");
+    command.add_flag("--every-step", settings.every_step,
+                     "also write the pictures after every step, as NAME-0001.png and so on");
     add_choice(
         command, "--bake", settings.bake, bake_names,
         "what .glb and .ply files hold: radiosity: what surfaces send; irradiance: what "
         "arrives, for viewers with textures of their own; indirect: of that what was reflected "
-        "before, for viewers that light by lamps, too [radiosity]")
-        .group(output_group);
+        "before, for viewers that light by lamps, too [radiosity]");
     add_choice(command, "--ply-colours", settings.ply_colours, ply_colour_names,
                "colours of .ply files: linear: the light itself as float; shown: 8 bits as "
-               "pictures show it, with the light as further properties [linear]")
-        .group(output_group);
+               "pictures show it, with the light as further properties [linear]");
     add_view_options(command, settings.view);
 }
 
 void add_point_options(Command command, SolveSettings& settings) {
-    command
-        .add_text("--points", "FILE", settings.points.path,
-                  "points where the light is to be known: rows x,y,z,nx,ny,nz")
-        .group(output_group);
-    command
-        .add_text("--points-output", "FILE", settings.points.output,
-                  "CSV table of --points: irradiance, radiosity, standard error")
-        .group(output_group);
+    command.add_text("--points", "FILE", settings.points.path,
+                     "points where the light is to be known: rows x,y,z,nx,ny,nz");
+    command.add_text("--points-output", "FILE", settings.points.output,
+                     "CSV table of --points: irradiance, radiosity, standard error");
     add_whole<unsigned>(
         command, "--gather", settings.gather, 1, SolveSettings::most_gather,
         "rays that gather light at a point of a picture, more at edges; at one of --points 256 "
-        "times as many [16]")
-        .group(output_group);
-    command
-        .add_action(
-            "--no-gather", [&settings] { settings.gather_pictures = false; },
-            "pictures interpolate the light of the patches: sooner done, shadows as patches have "
-            "them")
-        .group(output_group);
+        "times as many [16]");
+    command.add_action(
+        "--no-gather", [&settings] { settings.gather_pictures = false; },
+        "pictures interpolate the light of the patches: sooner done, shadows as patches have "
+        "them");
 }
 
 /// One thing that --for names.
@@ -245,84 +215,60 @@ void add_target_option(Command command, TargetSettings& target) {
                         for (const std::string& text : texts)
                             add_target(text, target);
                     })
-        .repeatable()
-        .group(target_group);
+        .repeatable();
 }
 
 void add_error_map_option(Command command, SolveSettings& settings) {
-    add_parsed(
-        command, "--error-map", "FILE.png",
-        "picture in false colour of how far the light of each patch is off",
-        "a file name that ends with .png",
-        [](const std::string& path) {
-            const std::optional<Output> output = parse_output(path);
-            return output && output->kind == OutputKind::png ? output : std::nullopt;
-        },
-        [&settings](const Output& value) { settings.error_map = value.path; })
-        .group(output_group);
+    add_path(command, "--error-map", "FILE.png",
+             "picture in false colour of how far the light of each patch is off", ".png",
+             [&settings](const std::string& path) { settings.error_map = path; });
 }
 
 void add_report_option(Command command, std::string& report) {
-    add_parsed(
+    add_path(
         command, "--report", "FILE.html",
         "a page for a browser: the lit scene to turn around, the numbers of each patch, how the "
         "run went",
-        "a file name that ends with .html",
-        [](const std::string& path) {
-            return extension_of(path) == ".html" ? std::optional(path) : std::nullopt;
-        },
-        [&report](const std::string& path) { report = path; })
-        .group(output_group);
+        ".html", [&report](const std::string& path) { report = path; });
 }
 
 void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
-    const std::string group = "Checkpoints";
-    command
-        .add_text("--checkpoint", "FILE", checkpoint.path,
-                  "keep what was computed in a file, after steps and at the end")
-        .group(group);
+    command.add_text("--checkpoint", "FILE", checkpoint.path,
+                     "keep what was computed in a file, after steps and at the end");
     add_seconds(command, "--every", checkpoint.every, non_negative,
-                "of the time between two checkpoints; 0: after each step [60]")
-        .group(group);
-    command
-        .add_text("--resume", "FILE", checkpoint.resumed,
-                  "go on from a checkpoint: the same scene and method, the same bytes in the end")
-        .group(group);
+                "of the time between two checkpoints; 0: after each step [60]");
+    command.add_text(
+        "--resume", "FILE", checkpoint.resumed,
+        "go on from a checkpoint: the same scene and method, the same bytes in the end");
 }
 
 void add_detail_option(Command command, std::vector<std::string>& detail) {
     command
         .add_texts("--detail", "GROUP", detail,
                    "groups whose error is also reported apart [detail...]; repeatable")
-        .repeatable()
-        .group(comparison_group);
+        .repeatable();
 }
 
 void add_comparison_options(Command command, SolveSettings& settings) {
-    command
-        .add_text("--reference", "FILE.csv", settings.reference,
-                  "patch table of the same patches: report the true error")
-        .group(comparison_group);
+    command.add_text("--reference", "FILE.csv", settings.reference,
+                     "patch table of the same patches: report the true error");
     add_detail_option(command, settings.detail);
 }
 
 void add_budget_options(Command command, CompareSettings& settings) {
-    const std::string group = "Budget of each run of each method, one of the two";
     const Option rays = add_number(command, "--budget-rays", "N", settings.budget.rays, positive,
                                    "rays, density rays included [64 steps]");
-    const Option seconds = add_seconds(command, "--budget-time", settings.budget.seconds, positive,
-                                       "its own time, preprocessing included");
-    rays.group(group);
-    seconds.group(group).excludes(rays);
+    add_seconds(command, "--budget-time", settings.budget.seconds, positive,
+                "its own time, preprocessing included")
+        .excludes(rays);
     add_whole<std::uint32_t>(command, "--runs", settings.runs, 1, 1000,
-                             "runs of each method, with seeds that follow each other [3]")
-        .group(group);
+                             "runs of each method, with seeds that follow each other [3]");
 }
 
 /// --factors of `matrix` and so on.
 void add_own_options(Command command, SolveOptions& options) {
     add_factor_options(
-        command, options.factors, own_group,
+        command, options.factors,
         {"matrix, progressive: form factors by rays; exact: as --exact; hemicube: by a hemicube "
          "over each patch, N pixels along its edge [rays; N 64]",
          "matrix: factors without chance where patches see each other fully; for small scenes"});
@@ -332,30 +278,24 @@ void add_own_options(Command command, SolveOptions& options) {
         for (const MethodFlag& flag : method->flags) {
             if (std::ranges::find(added, flag.name) != added.end())
                 continue; // several methods take it
-            command.add_flag(std::string(flag.name), flag.value(options), std::string(flag.help))
-                .group(own_group);
+            command.add_flag(std::string(flag.name), flag.value(options), std::string(flag.help));
             added.push_back(flag.name);
         }
 }
 
 void add_reference_options(Command command, CompareSettings& settings) {
     const std::string method(method_of(Role::reference).name);
-    command
-        .add_value("--reference", "FILE.csv|" + method,
-                   "what is taken for the truth: a patch table, or the " + method + " method [" +
-                       method + "]",
-                   [&settings, method](const std::string& text) {
-                       settings.reference = text == method ? std::string() : text;
-                   })
-        .group(comparison_group);
+    command.add_value("--reference", "FILE.csv|" + method,
+                      "what is taken for the truth: a patch table, or the " + method + " method [" +
+                          method + "]",
+                      [&settings, method](const std::string& text) {
+                          settings.reference = text == method ? std::string() : text;
+                      });
     add_error(command, "--reference-error", settings.reference_error,
-              "estimated relative error of the " + method + " method [.002]")
-        .group(comparison_group);
-    command
-        .add_flag("--total", settings.total,
-                  "curves and gains by the error of the light itself: also that a patch has one "
-                  "value; the table has both errors")
-        .group(comparison_group);
+              "estimated relative error of the " + method + " method [.002]");
+    command.add_flag("--total", settings.total,
+                     "curves and gains by the error of the light itself: also that a patch has one "
+                     "value; the table has both errors");
     add_detail_option(command, settings.detail);
 }
 
@@ -428,29 +368,30 @@ void add_divide_option(Command command, Option max_edge, SolveSettings& settings
             settings.divide_auto = choice.by_light;
             settings.scene.mesh.max_edge = choice.max_edge;
         })
-        .excludes(max_edge)
-        .group("Scene");
+        .excludes(max_edge);
 }
 
 } // namespace
 
 Command add_solve_command(Arguments& program, SolveSettings& settings) {
     const Command command = program.add_command("solve", "solve a scene, write the results");
+    const Command scene = command.under(scene_group), method = command.under(method_group),
+                  outputs = command.under(output_group);
     const Option max_edge = add_scene_options(command, settings.scene);
-    add_divide_option(command, max_edge, settings);
-    add_memory_option(command, settings.scene);
-    add_method_option(command, settings.method);
-    add_method_options(command, settings.options);
-    add_plain_option(command, settings.plain);
-    add_own_options(command, settings.options);
-    add_stop_options(command, settings.stop);
-    add_target_option(command, settings.target);
-    add_output_options(command, settings);
-    add_point_options(command, settings);
-    add_error_map_option(command, settings);
-    add_report_option(command, settings.report);
-    add_checkpoint_options(command, settings.checkpoint);
-    add_comparison_options(command, settings);
+    add_divide_option(scene, max_edge, settings);
+    add_memory_option(scene, settings.scene);
+    add_method_option(method, settings.method);
+    add_method_options(method, settings.options);
+    add_plain_option(method, settings.plain);
+    add_own_options(command.under(own_group), settings.options);
+    add_stop_options(command.under("Stop at the first that is met"), settings.stop);
+    add_target_option(command.under("Target"), settings.target);
+    add_output_options(outputs, settings);
+    add_point_options(outputs, settings);
+    add_error_map_option(outputs, settings);
+    add_report_option(outputs, settings.report);
+    add_checkpoint_options(command.under("Checkpoints"), settings.checkpoint);
+    add_comparison_options(command.under(comparison_group), settings);
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(methods_text() + solve_examples + exit_codes);
     return command;
@@ -459,20 +400,21 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
 Command add_compare_command(Arguments& program, CompareSettings& settings) {
     const Command command =
         program.add_command("compare", "error against run time of several methods, side by side");
+    const Command method = command.under(method_group), outputs = command.under(output_group);
     add_scene_options(command, settings.scene);
-    add_memory_option(command, settings.scene);
-    add_methods_option(command, settings.variants);
-    add_method_options(command, settings.options);
-    add_own_options(command, settings.options);
-    add_budget_options(command, settings);
-    add_reference_options(command, settings);
-    command
+    add_memory_option(command.under(scene_group), settings.scene);
+    add_methods_option(method, settings.variants);
+    add_method_options(method, settings.options);
+    add_own_options(command.under(own_group), settings.options);
+    add_budget_options(command.under("Budget of each run of each method, one of the two"),
+                       settings);
+    add_reference_options(command.under(comparison_group), settings);
+    outputs
         .add_text("-o,--output", "DIR", settings.folder,
                   "folder, made where it is not there: error.csv, error.svg, reference.csv, "
                   "reference.png and two pictures per method")
-        .required()
-        .group(output_group);
-    add_view_options(command, settings.view);
+        .required();
+    add_view_options(outputs, settings.view);
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(methods_text() + compare_examples + exit_codes);
     return command;
@@ -482,8 +424,8 @@ Command add_info_command(Arguments& program, InfoSettings& settings) {
     const Command command = program.add_command(
         "info", "what was read from a scene, what is doubtful in it, what it does not need");
     add_scene_options(command, settings.scene);
-    command.add_flag("--json", settings.json, "one JSON object instead of lines of text")
-        .group(output_group);
+    command.under(output_group)
+        .add_flag("--json", settings.json, "one JSON object instead of lines of text");
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(std::string(info_examples) + exit_codes);
     return command;

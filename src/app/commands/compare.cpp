@@ -40,7 +40,7 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
     const Method& method = method_of(Role::reference);
     SolveOptions options = settings.options;
     options.literal = false;
-    if (options.factors.kind == FactorKind::hemicube)
+    if (!method.work_with(options).estimates_error)
         options.factors = {};
     options.seed = hash_words({options.seed, 0x7265666572656e63u});
     const SolverInput input{mesh, tracer, options, monitor, needs};
@@ -100,7 +100,7 @@ void drop_empty(std::vector<MethodRuns>& results) {
     std::erase_if(results, [](const MethodRuns& result) { return result.runs.empty(); });
 }
 
-void judge_reference(const Comparison& comparison, std::span<const MethodSummary> summaries) {
+void check_reference(const Comparison& comparison, std::span<const MethodSummary> summaries) {
     const double own = own_error(comparison.mesh, comparison.reference);
     log_line(comparison.settings.verbosity, Verbosity::normal,
              "the reference's own error: " + percent(own));
@@ -118,7 +118,7 @@ int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
     if (!results.empty()) {
         const auto summaries = summarise(results, comparison.settings.options.literal);
         report = write_comparison(comparison, results, summaries);
-        judge_reference(comparison, summaries);
+        check_reference(comparison, summaries);
         std::cout << summary_table(summaries) << std::flush;
         if (const std::string note = gain_note(summaries); !note.empty())
             log_line(verbosity, Verbosity::normal, note);

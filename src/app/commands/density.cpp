@@ -13,6 +13,7 @@
 #include "app/terminal/log.h"
 #include "bvh/wide/wide_bvh.h"
 #include "io/drawings/density_picture.h"
+#include "io/drawings/plane_svg.h"
 #include "io/files/atomic_file.h"
 
 #include <algorithm>
@@ -93,6 +94,18 @@ std::vector<HemisphereDrawing::Part> parts_of(const Preprocessed& made, std::uin
     return result;
 }
 
+/// Figure 1.
+void write_plane(const Preprocessed& made, const PatchDensities& densities, std::uint32_t patch,
+                 const std::string& path) {
+    const std::size_t part = made.settings.part;
+    const Vec3 centre =
+        part_of(made.mesh.patches()[patch].shape, made.hemispheres.parts(), part).centre();
+    const std::size_t triangles = made.hemispheres.triangles(patch, part).size();
+    write_atomically(path, plane_svg({title_of(made, patch, densities.mean[patch], triangles),
+                                      made.hemispheres.counted(patch, part),
+                                      cut_by_plane(made.mesh, patch, centre)}));
+}
+
 void write_hemisphere(const Preprocessed& made, const PatchDensities& densities,
                       std::uint32_t patch, const std::string& path) {
     const std::size_t part = made.settings.part;
@@ -102,7 +115,8 @@ void write_hemisphere(const Preprocessed& made, const PatchDensities& densities,
                               made.hemispheres.counted(patch, part),
                               rays > 0 ? made.hemispheres.rays(patch, part, rays)
                                        : std::vector<Vec3>{},
-                              parts_of(made, patch)};
+                              parts_of(made, patch),
+                              made.hemispheres.unit()};
     drawing.title = title_of(made, patch, densities.mean[patch], drawing.triangles.size());
     write_atomically(path, hemisphere_svg(drawing));
 }
@@ -123,7 +137,8 @@ void write_picture(const Preprocessed& made, const PatchDensities& densities,
                                 .give_up = [&time] { return time.is_over(); }};
     write_png(path,
               density_picture(made.mesh, made.tracer, densities.mean,
-                              "mean density of patches, surfaces per ray", camera, options),
+                              "mean density of patches, " + made.hemispheres.unit(), camera,
+                              options),
               1);
 }
 
@@ -131,10 +146,16 @@ bool is_svg(const std::string& path) { return extension_of(path) == ".svg"; }
 
 void check(const DensitySettings& settings) {
     const bool draws = std::ranges::any_of(settings.outputs, is_svg);
-    if (!draws && (settings.patch || settings.rays > 0))
-        throw UsageError("--patch and --rays are for .svg outputs, and there is none");
+    if (!draws && (settings.patch || settings.rays > 0 || settings.plane))
+        throw UsageError("--patch, --rays and --plane are for .svg outputs, and there is none");
     check_own_options(settings.options, {&settings.method, 1});
     const bool has_parts = settings.method == &method_of(Role::forerunner);
+    const bool by_pyramids = settings.options.guide == Guide::pyramid;
+    if (by_pyramids && has_parts)
+        throw UsageError("--guide pyramid: " + std::string(settings.method->name) +
+                         " counts along rays alone");
+    if (by_pyramids && settings.plane)
+        throw UsageError("--plane shows rays that count, and --guide pyramid has none");
     const std::uint32_t parts = has_parts ? settings.options.subdivision_1997.parts : 1;
     if (settings.part >= parts)
         throw UsageError(formatted("--part: there is no part %u; they are numbered from 0 to %u",
@@ -183,7 +204,9 @@ int density(const DensitySettings& settings) {
     WriteReport report;
     for (const std::string& path : settings.outputs)
         report.attempt(path, [&] {
-            if (is_svg(path))
+            if (is_svg(path) && settings.plane)
+                write_plane(made, densities, *patch, path);
+            else if (is_svg(path))
                 write_hemisphere(made, densities, *patch, path);
             else
                 write_picture(made, densities, path);

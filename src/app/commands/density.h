@@ -12,6 +12,7 @@ struct DensitySettings {
     std::optional<std::uint32_t> patch;             ///< whose hemisphere; empty: the largest spread
     std::uint32_t part = 0;                         ///< of the patch: whose is shown from above
     std::uint32_t rays = 0;                         ///< energy rays to show in it
+    bool plane = false;                             ///< a cross-section instead (figure 1)
     ViewSettings view;
     std::vector<std::string> outputs; ///< .svg: a hemisphere; .png: mean densities
     Verbosity verbosity = Verbosity::normal;

@@ -1,5 +1,6 @@
 #include "app/commands/divided_hemispheres.h"
 
+#include "radiosity/guiding/pyramids.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/subdivision_1997.h"
 #include "radiosity/sampling/rng.h"
@@ -27,18 +28,27 @@ class RayDrawer {
     double due_;
 };
 
-/// Section 5.
+/// Section 5, or with pyramids in place of rays.
 class ByDensity final : public DividedHemispheres {
   public:
     ByDensity(const SolverInput& input, const Workers& workers)
-        : input_(input), workers_(workers), hemisphere_(input.options.depth),
-          map_(input.mesh, input.tracer, hemisphere_, input.options.threshold, workers,
-               input.monitor) {}
+        : input_(input), workers_(workers), hemisphere_(input.options.depth) {
+        const double threshold = input.options.threshold;
+        if (input.options.guide == Guide::pyramid) {
+            leaves_ = std::make_unique<PyramidMap>(input.mesh, hemisphere_, threshold, workers,
+                                                   input.monitor);
+            return;
+        }
+        auto counted = std::make_unique<DensityMap>(input.mesh, input.tracer, hemisphere_,
+                                                    threshold, workers, input.monitor);
+        counted_ = counted.get();
+        leaves_ = std::move(counted);
+    }
 
     [[nodiscard]] std::vector<DrawnTriangle> triangles(std::uint32_t patch,
                                                        std::size_t) const override {
         std::vector<DensityLeaf> leaves;
-        map_.leaves(patch, leaves);
+        leaves_->leaves(patch, leaves);
         std::vector<DrawnTriangle> result;
         for (const DensityLeaf& leaf : leaves)
             result.push_back({hemisphere_.cells()[leaf.cell].shape, double(leaf.density)});
@@ -47,7 +57,8 @@ class ByDensity final : public DividedHemispheres {
     [[nodiscard]] std::vector<CountedDirection> counted(std::uint32_t patch,
                                                         std::size_t) const override {
         std::vector<DensityCount> counts;
-        map_.counts(patch, counts);
+        if (counted_)
+            counted_->counts(patch, counts);
         std::vector<CountedDirection> result;
         for (const DensityCount& count : counts)
             result.push_back({hemisphere_.vertices()[count.vertex], double(count.surfaces)});
@@ -64,14 +75,18 @@ class ByDensity final : public DividedHemispheres {
                         allocation.rays(k) * number);
         return drawer.rays;
     }
-    [[nodiscard]] std::uint64_t density_rays() const override { return map_.rays(); }
-    [[nodiscard]] std::uint64_t bytes() const override { return map_.bytes(); }
+    [[nodiscard]] std::string unit() const override {
+        return counted_ ? DividedHemispheres::unit() : "root of patches per mean triangle";
+    }
+    [[nodiscard]] std::uint64_t density_rays() const override { return leaves_->rays(); }
+    [[nodiscard]] std::uint64_t bytes() const override { return leaves_->bytes(); }
 
   private:
     SolverInput input_;
     Workers workers_;
     Hemisphere hemisphere_;
-    DensityMap map_;
+    std::unique_ptr<LeafDensities> leaves_;
+    const DensityMap* counted_ = nullptr; ///< leaves_, unless they are of pyramids
 };
 
 /// Section 4: the triangles of the last guided step.

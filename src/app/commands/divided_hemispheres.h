@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace hemilux {
@@ -23,6 +24,8 @@ class DividedHemispheres {
     /// Directions of about so many energy rays, as the method allocates them.
     [[nodiscard]] virtual std::vector<Vec3> rays(std::uint32_t patch, std::size_t part,
                                                  std::uint32_t number) const = 0;
+    /// Of densities.
+    [[nodiscard]] virtual std::string unit() const { return "surfaces per ray"; }
     [[nodiscard]] virtual std::uint64_t density_rays() const = 0;
     [[nodiscard]] virtual std::uint64_t bytes() const = 0;
 };

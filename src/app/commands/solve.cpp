@@ -49,8 +49,7 @@ StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
         else if (!stop.steps && !stop.seconds && !stop.error)
             stop.steps = StopRule::default_steps;
     }
-    const bool by_hemicubes = settings.options.factors.kind == FactorKind::hemicube;
-    if (!stop.steps && !stop.seconds && !stop.rays && !by_hemicubes) // which end by themselves
+    if (!stop.steps && !stop.seconds && !stop.rays && settings.work().estimates_error)
         stop.rays = default_max_rays(patches);
     return stop;
 }
@@ -105,14 +104,6 @@ double seconds_of_stages(const Statistics& s) {
     const auto known = [](double seconds) { return std::isfinite(seconds) ? seconds : 0; };
     return known(s.seconds_read) + known(s.seconds_bvh) + s.seconds_divide +
            known(s.seconds_density) + known(s.seconds_solve) + known(s.seconds_division_error);
-}
-
-/// Hemicubes look from all patches whatever the scene needs, and there is one pass.
-Method method_as_run(const SolveSettings& settings) {
-    Method method = *settings.method;
-    if (settings.options.factors.kind == FactorKind::hemicube)
-        method.work.pairs = method.work.passes = false;
-    return method;
 }
 
 /// What a user must know of a run that has ended.
@@ -312,7 +303,7 @@ void SolveRun::take_steps() {
     }
     Checkpointer checkpointer(settings_, mesh(), *solver_);
     StepPictures step_pictures(settings_, mesh(), tracer(), monitor_.interrupted);
-    notes_.emplace(stop, settings_.options.factors.kind);
+    notes_.emplace(stop, settings_.work().estimates_error);
     const auto after_step = [&](const StepRecord& record, const Solution& solution) {
         notes_->step_done(record);
         rows_.push_back({std::string(settings_.method->name), 0, record, std::nullopt});
@@ -351,13 +342,13 @@ void SolveRun::estimate_errors() {
     if (divided_.linear)
         solution_ = &linear_.emplace(with_slopes(*solution_, divided_));
     fill(statistics_, settings_, mesh(), *solution_, seconds_solver_);
-    if (settings_.options.factors.kind == FactorKind::hemicube) // its error would be taken for it
+    if (!settings_.work().estimates_error) // the error of the division would be taken for it
         statistics_.error_sampling = statistics_.estimated_error;
     else
         add_division_error(statistics_, settings_, mesh(), tracer(), *solution_, divided_,
                            monitor_.interrupted);
     if (!settings_.plain) // which leaves out nothing
-        statistics_.left_out = left_out(prepared_->needs, method_as_run(settings_), *solution_);
+        statistics_.left_out = left_out(prepared_->needs, settings_.work(), *solution_);
     statistics_.bytes_peak = peak_memory_bytes();
 }
 

@@ -28,7 +28,7 @@ void RunNotes::step_done(const StepRecord& record) {
 
 std::vector<std::string> RunNotes::texts(double error, bool interrupted) const {
     std::vector<std::string> notes;
-    if (factors_ == FactorKind::hemicube)
+    if (!estimates_error_)
         return {hemicube_note};
     const bool known = std::isfinite(error);
     if (!known && steps_ > 1)

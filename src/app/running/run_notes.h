@@ -16,8 +16,8 @@ inline constexpr const char* hemicube_note =
 
 class RunNotes {
   public:
-    explicit RunNotes(const StopRule& stop, FactorKind factors = FactorKind::rays)
-        : stop_(stop), factors_(factors) {}
+    explicit RunNotes(const StopRule& stop, bool estimates_error = true)
+        : stop_(stop), estimates_error_(estimates_error) {}
 
     void step_done(const StepRecord& record);
 
@@ -27,7 +27,7 @@ class RunNotes {
 
   private:
     StopRule stop_;
-    FactorKind factors_;
+    bool estimates_error_;              ///< MethodWork::estimates_error
     double least_ = 0;                  ///< estimated error so far; 0: none is known
     double before_jump_ = 0, jump_ = 0; ///< the largest jump: from, to
     std::uint64_t rays_ = 0;

@@ -46,7 +46,7 @@ constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
 /// which indirect light is gathered.
 constexpr double bytes_per_gathered_pixel = 154;
 /// Rays that wait to be summed.
-constexpr double bytes_of_volleys = 32e6;
+constexpr double bytes_of_ray_batches = 32e6;
 
 struct Lengths {
     double along, across;
@@ -99,7 +99,7 @@ double bytes_of(const Method& method, const SolveOptions& options, double patche
         bytes += bytes_per_link * patches * std::min(patches, links_per_patch);
     else if (method.work.pairs)
         bytes += bytes_per_factor * patches * std::min(patches, options.rays);
-    return bytes + bytes_of_volleys;
+    return bytes + bytes_of_ray_batches;
 }
 
 std::string rounded(double bytes) {

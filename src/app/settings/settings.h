@@ -117,6 +117,9 @@ struct SolveSettings {
     static constexpr unsigned bake_rays_per_gather_ray = 64;
     bool gather_pictures = true; ///< else they interpolate the light of the patches
     Verbosity verbosity = Verbosity::normal;
+
+    /// What the method does in this run.
+    [[nodiscard]] MethodWork work() const { return method->work_with(options); }
 };
 
 /// The budget of each run of each method: one of the two.

@@ -251,10 +251,10 @@ class Builder {
             return error_share * longest * (longest + error_offset);
         };
         constexpr double longest_direction = 1.75, small = .05;
-        const bool seen_by_unsure_rays_only =
+        const bool hit_by_undecided_rays_only =
             longest_direction * angle * a <= 2 * least_error(p[1] - p[0], p[2] - p[0]) &&
             longest_direction * angle * b <= 2 * least_error(p[2] - p[0], p[3] - p[0]);
-        return !(glm::dot(first, second) > 0 && angle < small && seen_by_unsure_rays_only);
+        return !(glm::dot(first, second) > 0 && angle < small && hit_by_undecided_rays_only);
     }
 
     [[nodiscard]] const Workers& workers_for(bool upper) const { return upper ? workers_ : alone_; }

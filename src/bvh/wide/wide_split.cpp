@@ -8,7 +8,7 @@ namespace {
 
 constexpr int bin_count = 16;
 /// Larger ranges are binned by several threads, in pieces of this size.
-constexpr std::size_t piece = 1 << 16;
+constexpr std::size_t chunk = 1 << 16;
 
 struct Bins {
     std::array<std::array<FloatBox, bin_count>, 3> box{};
@@ -50,11 +50,11 @@ void fill_bins(std::span<const Item> items, const Binning& bin_of, Bins& bins) {
 
 void fill_bins(std::span<const Item> items, const Binning& bin_of, Bins& bins,
                const Workers& workers) {
-    if (items.size() <= piece || workers.threads() == 1)
+    if (items.size() <= chunk || workers.threads() == 1)
         return fill_bins(items, bin_of, bins);
-    std::vector<Bins> parts((items.size() + piece - 1) / piece);
-    workers.for_chunks(items.size(), piece, [&](std::size_t begin, std::size_t end) {
-        fill_bins(items.subspan(begin, end - begin), bin_of, parts[begin / piece]);
+    std::vector<Bins> parts((items.size() + chunk - 1) / chunk);
+    workers.for_chunks(items.size(), chunk, [&](std::size_t begin, std::size_t end) {
+        fill_bins(items.subspan(begin, end - begin), bin_of, parts[begin / chunk]);
     });
     for (const Bins& part : parts)
         bins.merge(part);

@@ -189,6 +189,8 @@ void draw_captions(const HemisphereDrawing& drawing, Canvas& canvas) {
     std::string legend = "dots: density rays, with the surfaces counted";
     if (drawing.counts.size() > most_labels)
         legend = "dots: density rays";
+    if (drawing.counts.empty())
+        legend = "";
     if (!drawing.rays.empty())
         legend += "; blue: " + std::to_string(drawing.rays.size()) + " energy rays";
     canvas.text({centre_above.x, 708}, legend, middle);
@@ -216,7 +218,7 @@ void draw(const HemisphereDrawing& drawing, Canvas& canvas) {
     } else {
         draw_parts(drawing.parts, side, most, canvas);
     }
-    draw_colour_bar({{440, 732}, {840, 746}, most, "density, surfaces per ray"}, canvas);
+    draw_colour_bar({{440, 732}, {840, 746}, most, "density, " + drawing.unit}, canvas);
 }
 
 std::string hemisphere_svg(const HemisphereDrawing& drawing) {

@@ -32,7 +32,8 @@ struct HemisphereDrawing {
         Polygon outline;
         std::vector<DrawnTriangle> triangles;
     };
-    std::vector<Part> parts = {}; ///< where there are several
+    std::vector<Part> parts = {};          ///< where there are several
+    std::string unit = "surfaces per ray"; ///< of densities
 };
 
 /// Where the two views are [pixels]; seen from above the dome fills its circle.

@@ -17,7 +17,8 @@ enum class InputKind {
 void check_input(const std::string& path, InputKind kind);
 [[nodiscard]] bool is_input(const std::string& path, InputKind kind);
 
-/// Is called with all that was read so far, again and again; may throw to read no further.
+/// A function that gets all that was read so far, again and again, and may throw to end the
+/// reading.
 using InputCheck = std::function<void(std::string_view content)>;
 
 /// Reads a whole file. Throws InputError, also where `check_input` would.

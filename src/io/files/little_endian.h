@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace hemilux {
 
@@ -18,6 +19,14 @@ inline void append_number(std::string& bytes, double value) {
 }
 inline void append_number(std::string& bytes, float value) {
     append_bits(bytes, std::bit_cast<std::uint32_t>(value));
+}
+
+/// The four bytes from this place on.
+[[nodiscard]] inline std::uint32_t word_at(std::string_view bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        value |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
+    return value;
 }
 
 } // namespace hemilux

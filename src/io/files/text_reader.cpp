@@ -62,6 +62,21 @@ std::string_view TextReader::next_line() {
     }
 }
 
+Vec3 point_of(const Statement& statement, const std::string& path) {
+    std::string_view rest = statement.rest;
+    Vec3 point;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string_view word = take_word(rest);
+        const std::optional<double> number = parse_decimal(word);
+        if (!number)
+            throw InputError(path, statement.line,
+                             "expected three numbers after " + std::string(statement.keyword) +
+                                 ", " + found_instead_of_number(word));
+        point[axis] = *number;
+    }
+    return point;
+}
+
 bool TextReader::next(Statement& statement) {
     while (at_ < content_.size()) {
         std::string_view text = next_line();

@@ -2,6 +2,7 @@
 // Text files that consist of statements, one a line: OBJ and MTL. A statement is a keyword and the
 // rest of its line; what the rest means is read by text_words.h.
 
+#include "geometry/vector.h"
 #include "io/files/input_file.h"
 
 #include <cstddef>
@@ -19,6 +20,9 @@ struct Statement {
     std::string_view rest; ///< without blanks around it; a comment is still there
     std::size_t line = 0;  ///< where it begins, from 1
 };
+
+/// The three numbers that a statement begins with. Throws InputError for anything else.
+[[nodiscard]] Vec3 point_of(const Statement& statement, const std::string& path);
 
 /// Lines end with LF, CRLF or CR. A backslash at the end of a line joins it with the next, unless a
 /// comment stands before it. Lines that are empty or comments are left out.

@@ -2,6 +2,7 @@
 
 #include "io/files/error.h"
 #include "io/files/input_file.h"
+#include "io/files/little_endian.h"
 #include "io/gltf/json_value.h"
 
 #include <cstdint>
@@ -12,14 +13,6 @@ namespace {
 constexpr std::string_view magic = "glTF";
 constexpr std::size_t header = 12, chunk_header = 8;
 constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
-
-/// Little-endian, whatever the machine is.
-std::uint32_t word_at(std::string_view bytes, std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        value |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
-    return value;
-}
 
 std::string at_byte(std::size_t at) { return "byte " + std::to_string(at) + ": "; }
 

@@ -4,16 +4,14 @@
 #include "io/files/text_words.h"
 #include "io/gltf/lights.h"
 #include "io/gltf/primitives.h"
-#include "io/gltf/uri.h"
+#include "io/gltf/texture_maps.h"
 #include "io/scene_files/emitter_shapes.h"
 #include "io/scene_files/polygon_division.h"
-#include "io/textures/texture_files.h"
 #include "radiosity/sides/shells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 #include <unordered_map>
 
 namespace hemilux {
@@ -40,9 +38,9 @@ std::string name_or(const std::string& name, const char* kind, std::size_t numbe
 class Reader {
   public:
     Reader(const std::string& path, const ReadGuard& guard, bool textures)
-        : path_(path), guard_(guard), textures_(textures), texture_files_(guard_),
-          container_(read_container(path, guard)), json_(container_.json, path),
-          document_(read_document(json_.root())), buffers_(document_, container_, path_, guard_),
+        : path_(path), guard_(guard), textures_(textures), container_(read_container(path, guard)),
+          json_(container_.json, path), document_(read_document(json_.root())),
+          buffers_(document_, container_, path_, guard_), maps_(buffers_, guard_),
           triangles_(buffers_) {}
 
     ReadResult read();
@@ -51,9 +49,6 @@ class Reader {
     void find_instances();
     void count_triangles_of_scene();
     void add_materials();
-    void add_texture(const TextureInfo& info, std::size_t material, Vec3 Material::*colour,
-                     TextureMap MaterialTextures::*map);
-    [[nodiscard]] std::shared_ptr<const Texture> read_image(std::size_t image);
     void add_texcoords(const Primitive& primitive, const Triangles& triangles,
                        const std::array<std::uint32_t, 3>& corners);
     void mark_two_sided();
@@ -77,11 +72,11 @@ class Reader {
     std::string path_;
     const ReadGuard& guard_;
     bool textures_;
-    TextureFiles texture_files_;
     Container container_;
     JsonDocument json_;
     Document document_;
     Buffers buffers_;
+    TextureMaps maps_;
     TriangleReader triangles_;
     std::vector<Instance> instances_;
     std::unordered_map<std::string, std::uint32_t> group_index_;
@@ -89,10 +84,7 @@ class Reader {
     std::unordered_map<std::size_t, std::vector<std::optional<Triangles>>> read_;
     std::vector<bool> used_; ///< materials
     std::optional<std::uint32_t> default_material_;
-    std::size_t sets_ = 0; ///< of texture coordinates that textures use
-    std::size_t missing_ = 0, without_coordinates_ = 0;
-    std::vector<std::string> images_;
-    std::size_t lines_ = 0, coloured_ = 0, morphed_ = 0, skins_ = 0;
+    std::size_t without_coordinates_ = 0, lines_ = 0, coloured_ = 0, morphed_ = 0, skins_ = 0;
     PolygonDivision division_;
     std::vector<Vec3> world_;
     ReadResult result_;
@@ -102,7 +94,7 @@ ReadResult Reader::read() {
     find_instances();
     count_triangles_of_scene();
     add_materials();
-    result_.scene.textures.texcoords.resize(sets_);
+    result_.scene.textures.texcoords.resize(maps_.sets());
     for (const Instance& instance : instances_) {
         const Node& node = document_.nodes[instance.node];
         if (node.mesh)
@@ -119,7 +111,7 @@ ReadResult Reader::read() {
     for (std::vector<Texcoords>& set : result_.scene.textures.texcoords)
         set.resize(result_.scene.facets.size());
     collect_warnings();
-    result_.textures = std::move(images_);
+    result_.textures = maps_.paths();
     result_.libraries = buffers_.files();
     return std::move(result_);
 }
@@ -178,72 +170,14 @@ void Reader::add_materials() {
             for (const Primitive& primitive : document_.meshes[*mesh].primitives)
                 if (primitive.material && primitive.position && primitive.mode >= Mode::triangles)
                     used_[*primitive.material] = true;
-    for (std::size_t m = 0; m < used_.size(); ++m) {
-        const auto& [base, emissive] =
-            std::tie(document_.materials[m].base_texture, document_.materials[m].emissive_texture);
-        if (textures_ && used_[m] && base)
-            add_texture(*base, m, &Material::reflectance, &MaterialTextures::reflectance);
-        if (textures_ && used_[m] && emissive)
-            add_texture(*emissive, m, &Material::emission, &MaterialTextures::emission);
-    }
-}
-
-/// The transform of KHR_texture_transform: scale, then rotation, then offset.
-void Reader::add_texture(const TextureInfo& info, std::size_t material, Vec3 Material::*colour,
-                         TextureMap MaterialTextures::*map) {
-    const TextureSource& source = document_.textures[info.texture];
-    if (!source.image || *source.image >= document_.images.size())
-        fail("/textures/" + std::to_string(info.texture) + "/source",
-             "expected an image below " + std::to_string(document_.images.size()));
-    std::shared_ptr<const Texture> texture = read_image(*source.image);
-    if (!texture) {
-        ++missing_;
-        return;
-    }
-    const auto wrap_of = [](Wrapping wrapping) {
-        return wrapping == Wrapping::clamp    ? Wrap::clamp
-               : wrapping == Wrapping::mirror ? Wrap::mirror
-                                              : Wrap::repeat;
-    };
-    SceneTextures& textures = result_.scene.textures;
-    textures.of_material.resize(document_.materials.size());
-    TextureMap& to = textures.of_material[material].*map;
-    to.texture = std::move(texture);
-    to.wraps = {wrap_of(source.wrap_s), wrap_of(source.wrap_t)};
-    to.set = static_cast<std::uint32_t>(info.set);
-    const double c = std::cos(info.rotation), s = std::sin(info.rotation);
-    to.origin = info.offset;
-    to.x = info.scale.x * Vec2(c, -s);
-    to.y = info.scale.y * Vec2(s, c);
-    Vec3& of_material = result_.scene.materials[material].*colour;
-    to.factor = of_material;
-    of_material *= to.texture->mean();
-    sets_ = std::max(sets_, info.set + 1);
-}
-
-/// Empty where the image is missing or of a kind that is not read.
-std::shared_ptr<const Texture> Reader::read_image(std::size_t image) {
-    const ImageInfo& info = document_.images[image];
-    const std::string place = "/images/" + std::to_string(image);
-    const std::string key = path_ + ": " + place;
-    if (info.view)
-        return texture_files_.decode(buffers_.view(*info.view), key);
-    if (is_data_uri(info.uri)) {
-        const std::optional<std::string> bytes = decode_data_uri(info.uri);
-        if (!bytes)
-            fail(place + "/uri", "expected data in base 64");
-        return texture_files_.decode(*bytes, key);
-    }
-    const std::optional<std::string> file = path_of_uri(info.uri, path_);
-    if (!file)
-        fail(place + "/uri", "expected a data URI or a path relative to this file");
-    images_.push_back(*file);
-    return texture_files_.read(*file);
+    for (std::size_t m = 0; m < used_.size(); ++m)
+        if (textures_ && used_[m])
+            maps_.read(m, result_.scene);
 }
 
 void Reader::add_texcoords(const Primitive& primitive, const Triangles& triangles,
                            const std::array<std::uint32_t, 3>& corners) {
-    for (std::size_t set = 0; set < sets_; ++set) {
+    for (std::size_t set = 0; set < maps_.sets(); ++set) {
         Texcoords& to = result_.scene.textures.texcoords[set].emplace_back();
         to.fill(glm::vec2(0.0f));
         if (set < std::min(triangles.texcoords.size(), primitive.texcoords.size()))
@@ -289,8 +223,9 @@ const Triangles& Reader::triangles_of(std::size_t mesh, std::size_t number) {
     std::vector<std::optional<Triangles>>& of_mesh = read_[mesh];
     of_mesh.resize(primitives.size());
     if (!of_mesh[number])
-        of_mesh[number] = triangles_.read(primitives[number], place_of(mesh, number),
-                                          std::min(sets_, primitives[number].texcoords.size()));
+        of_mesh[number] =
+            triangles_.read(primitives[number], place_of(mesh, number),
+                            std::min(maps_.sets(), primitives[number].texcoords.size()));
     return *of_mesh[number];
 }
 
@@ -316,7 +251,7 @@ void Reader::add_primitive(const Instance& instance, std::size_t mesh, std::size
     const std::uint32_t material =
         primitive.material ? static_cast<std::uint32_t>(*primitive.material) : default_material();
     without_coordinates_ +=
-        result_.scene.textures.on(material) && primitive.texcoords.size() < sets_;
+        result_.scene.textures.on(material) && primitive.texcoords.size() < maps_.sets();
     Scene& scene = result_.scene;
     const auto first = static_cast<std::uint32_t>(scene.vertices.size());
     world_.clear();
@@ -406,7 +341,8 @@ void Reader::collect_warnings() {
          "materials are transparent; they are opaque here");
     warn(result_.degenerate_faces, "a triangle without area is left out",
          "triangles without area are left out");
-    warn(missing_, "a texture is not found, or neither PNG nor JPEG; the colour is its factor",
+    warn(maps_.missing(),
+         "a texture is not found, or neither PNG nor JPEG; the colour is its factor",
          "textures are not found, or neither PNG nor JPEG; colours are their factors");
     warn(without_coordinates_, "a textured primitive has no texture coordinates",
          "textured primitives have no texture coordinates");

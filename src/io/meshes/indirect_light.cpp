@@ -1,6 +1,5 @@
 #include "io/meshes/indirect_light.h"
 
-#include "radiosity/rays/patch_starts.h"
 #include "radiosity/rays/shot.h"
 
 namespace hemilux {
@@ -8,17 +7,16 @@ namespace hemilux {
 std::vector<Vec3> indirect_irradiance(const Mesh& mesh, const Tracer& tracer,
                                       std::span<const Vec3> radiosity, unsigned rays,
                                       std::uint64_t seed, const Workers& workers) {
-    const PatchStarts starts(mesh);
     std::vector<Vec3> irradiance(mesh.patches().size(), Vec3(0.0));
     const auto gather = [&](std::uint32_t patch) {
-        std::optional<PatchStart> memory;
-        const PatchStart& start = starts.of(patch, memory);
+        const PolygonSampler points(mesh.patches()[patch].shape);
+        const Frame frame = mesh.hemisphere_frame(patch);
         Rng rng(hash_words({seed, patch}));
         std::vector<Ray> group(rays);
         for (Ray& ray : group) {
-            ray.origin = sample_uniform(start.points, rng);
-            ray.direction = start.frame.to_world(sample_cosine(rng));
-            ray.from = start.facet;
+            ray.origin = sample_uniform(points, rng);
+            ray.direction = frame.to_world(sample_cosine(rng));
+            ray.from = mesh.patches()[patch].facet;
         }
         std::vector<std::uint32_t> receivers;
         find_receivers(group, mesh, tracer, receivers);

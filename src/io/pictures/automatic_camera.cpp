@@ -102,8 +102,8 @@ std::uint64_t kind_of(const Patch& patch) {
     return std::uint64_t{patch.material} * 6 + static_cast<std::uint64_t>(side);
 }
 
-/// What a few rays tell of a view.
-struct Judgement {
+/// How good a view is, by a few rays.
+struct Rating {
     double score = 0;
     double enclosed = 0; ///< the share of rays that meet something of the scene
 };
@@ -112,8 +112,8 @@ bool is_from_outside(const Camera& camera) { return camera.vertical_fov_degrees 
 
 /// By how much of the picture shows lit fronts, how many kinds of them, and how far the near ones
 /// are.
-Judgement judge(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
-                const std::vector<bool>& lit, double aspect) {
+Rating rate(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
+            const std::vector<bool>& lit, double aspect) {
     constexpr int columns = 16, rows = 12;
     const CameraRays view(camera, mesh, aspect);
     std::array<Ray, std::size_t{columns} * rows> rays;
@@ -124,7 +124,7 @@ Judgement judge(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
     tracer.closest_stream(rays, hits);
     std::vector<std::uint64_t> seen;
     std::vector<double> depths;
-    Judgement result;
+    Rating result;
     for (std::size_t k = 0; k < rays.size(); ++k) {
         if (hits[k].facet == none)
             continue;
@@ -151,12 +151,12 @@ Judgement judge(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
 }
 
 /// Whether views from within the scene's box mostly look past what is there: a thing, not a room.
-bool is_object(std::span<const Camera> cameras, std::span<const Judgement> judgements) {
+bool is_object(std::span<const Camera> cameras, std::span<const Rating> ratings) {
     constexpr double least_of_room = 0.5;
     double enclosed = 0, views = 0;
     for (std::size_t i = 0; i < cameras.size(); ++i)
         if (!is_from_outside(cameras[i])) {
-            enclosed += judgements[i].enclosed;
+            enclosed += ratings[i].enclosed;
             views += 1;
         }
     return enclosed < least_of_room * views;
@@ -185,20 +185,20 @@ Camera automatic_camera(const Mesh& mesh, const Tracer& tracer, std::span<const 
                         double aspect, std::optional<int> up) {
     const Box box = box_of(mesh);
     std::vector<Camera> cameras = candidates(box, up ? *up : guess_up(mesh), aspect);
-    std::vector<Judgement> judged(cameras.size());
+    std::vector<Rating> ratings(cameras.size());
     const std::vector<bool> lit = lit_patches(mesh, radiosity);
     Workers(0).for_chunks(cameras.size(), 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             cameras[i].eye = mesh.frame().to_world(cameras[i].eye);
             cameras[i].target = mesh.frame().to_world(cameras[i].target);
-            judged[i] = judge(cameras[i], mesh, tracer, lit, aspect);
+            ratings[i] = rate(cameras[i], mesh, tracer, lit, aspect);
         }
     });
-    if (is_object(cameras, judged))
+    if (is_object(cameras, ratings))
         for (std::size_t i = 0; i < cameras.size(); ++i)
-            judged[i].score *= is_from_outside(cameras[i]) ? 1 : 0;
-    const auto best = std::ranges::max_element(judged, {}, &Judgement::score);
-    return cameras[static_cast<std::size_t>(best - judged.begin())];
+            ratings[i].score *= is_from_outside(cameras[i]) ? 1 : 0;
+    const auto best = std::ranges::max_element(ratings, {}, &Rating::score);
+    return cameras[static_cast<std::size_t>(best - ratings.begin())];
 }
 
 } // namespace hemilux

@@ -26,7 +26,7 @@ struct RenderOptions {
     unsigned threads = 0;                   ///< 0: one per core. The picture does not depend on it
     const CornerClasses* classes = nullptr; ///< of the mesh, where they are known already
     std::span<const Slope> slope = {};      ///< of the patches' light; empty: none
-    /// Is asked by all threads before each band of rows; true ends the picture with Interrupted.
+    /// All threads ask it before each band of rows; true ends the picture with Interrupted.
     std::function<bool()> give_up = {};
 };
 

@@ -2,9 +2,9 @@
 
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
+#include "io/files/little_endian.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 
 namespace hemilux {
@@ -29,12 +29,6 @@ std::string header(std::size_t rows) {
     return bytes + text;
 }
 
-void append(std::string& bytes, double value) {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
-    for (int shift = 0; shift < 64; shift += 8)
-        bytes += static_cast<char>(static_cast<unsigned char>(bits >> shift));
-}
-
 } // namespace
 
 void write_npy(const std::string& path, const SparseMatrix& matrix,
@@ -51,7 +45,7 @@ void write_npy(const std::string& path, const SparseMatrix& matrix,
             row[matrix.column[k]] = matrix.value[k];
         bytes.clear();
         for (const double value : row)
-            append(bytes, value);
+            append_number(bytes, value);
         file.write(bytes);
     }
     file.commit();

@@ -152,17 +152,7 @@ void ObjReader::read_statement(const Statement& statement) {
 }
 
 void ObjReader::read_vertex(const Statement& statement) {
-    std::string_view rest = statement.rest;
-    Vec3 position;
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::string_view word = take_word(rest);
-        const std::optional<double> number = parse_decimal(word);
-        if (!number)
-            throw InputError(path_, statement.line,
-                             "expected three numbers after v, " + found_instead_of_number(word));
-        position[axis] = *number;
-    }
-    result_.scene.vertices.push_back(position);
+    result_.scene.vertices.push_back(point_of(statement, path_));
 }
 
 void ObjReader::read_face(const Statement& statement) {

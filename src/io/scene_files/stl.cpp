@@ -1,6 +1,7 @@
 #include "io/scene_files/stl.h"
 
 #include "io/files/error.h"
+#include "io/files/little_endian.h"
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
 #include "io/scene_files/polygon_division.h"
@@ -14,14 +15,6 @@ namespace hemilux {
 namespace {
 
 constexpr std::size_t header = 80, count_bytes = 4, record = 50;
-
-/// Little-endian, whatever the machine is.
-std::uint32_t word_at(std::string_view bytes, std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        value |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
-    return value;
-}
 
 /// Many binary files begin with "solid" too: their length decides, and a text has no zero byte.
 bool is_binary(std::string_view content) {
@@ -141,16 +134,7 @@ void StlReader::read_statement(const Statement& statement) {
 }
 
 void StlReader::read_corner(const Statement& statement) {
-    std::string_view rest = statement.rest;
-    Vec3 corner;
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::string_view word = take_word(rest);
-        const std::optional<double> number = parse_decimal(word);
-        if (!number)
-            throw InputError(path_, statement.line,
-                             "expected 3 numbers after vertex, " + found_instead_of_number(word));
-        corner[axis] = *number;
-    }
+    const Vec3 corner = point_of(statement, path_);
     if (corners_.size() == 3)
         throw InputError(path_, statement.line, "expected 3 vertices in a facet, found a fourth");
     corners_.push_back(corner);

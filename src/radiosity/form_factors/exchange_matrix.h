@@ -25,10 +25,10 @@ namespace hemilux {
 class ExchangeMatrix {
   public:
     ExchangeMatrix() = default;
-    /// Is made of the rays of one batch.
+    /// Makes the matrix from the rays of one batch.
     ExchangeMatrix(const Mesh& mesh, const RayCounts& batch);
-    /// Is made of the rays of several batches, where each patch shot as many in one as in the
-    /// others.
+    /// Makes the matrix from several batches, in each of which a patch shot the same number of
+    /// rays.
     ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers);
 
     /// y_i = sum_j F_ij x_j

@@ -28,7 +28,7 @@ class SparseRows {
     }
     [[nodiscard]] MatrixEntry* to_write(std::size_t i) { return begin_[i]; }
 
-    /// Is the grain of loops over rows.
+    /// Rows that a thread takes at a time.
     static constexpr std::size_t rows_per_chunk = 64;
 
   private:

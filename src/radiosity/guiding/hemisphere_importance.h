@@ -24,7 +24,7 @@ class HemisphereImportance {
     HemisphereImportance(const Hemisphere& hemisphere, std::size_t patches);
 
     /// Adds to what is known of a leaf, the `leaf`-th triangle of the last level: the sum over hits
-    /// of value / (rays per area and share), and how many hits told it. It counts once it has
+    /// of value / (rays per area and share), and the number of these hits. It counts once it has
     /// been committed.
     void add(std::uint32_t patch, std::size_t leaf, float sum, float hits) {
         pending_[patch * leaves() + leaf] += Known{sum, hits};
@@ -68,7 +68,7 @@ class HemisphereImportance {
 
 /// Rays of unequal power do not carry exactly the power to be shot. What is too much or too little
 /// goes on over all bounces and spreads over all patches, so every ray has an importance besides
-/// what it strikes: about 2 (rho M)^2 / N relative to the mean of N patches, M being all power shot
+/// what it hits: about 2 (rho M)^2 / N relative to the mean of N patches, M being all power shot
 /// over that emitted. In usual rooms it is next to nothing; at reflectance .99 it is above all
 /// else, and all rays are to be nearly equal.
 [[nodiscard]] double importance_of_energy(const Mesh& mesh, std::span<const Vec3> radiosity);

@@ -1,5 +1,6 @@
 #include "radiosity/guiding/patch_boxes.h"
 
+#include "geometry/median.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
@@ -17,26 +18,19 @@ PatchBoxes::PatchBoxes(const Mesh& mesh) {
 
 void PatchBoxes::build(const Mesh& mesh, std::uint32_t first, std::uint32_t last) {
     const std::size_t at = nodes_.size();
-    Box box, centres;
+    Box box;
     for (std::uint32_t k = first; k < last; ++k) {
         const Patch& patch = mesh.patches()[order_[k]];
-        centres.include(patch.centre);
         for (const Vec3& corner : patch.shape.corner)
             box.include(corner);
     }
     nodes_.push_back({box, first, last, 0});
     if (last - first == 1)
         return;
-    const Vec3 extent = centres.extent();
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
-                     : extent.y >= extent.z                       ? 1
-                                                                  : 2;
-    const std::uint32_t middle = first + (last - first) / 2;
-    const auto key = [&](std::uint32_t patch) {
-        return std::pair(mesh.patches()[patch].centre[axis], patch);
-    };
-    std::ranges::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                             {}, key);
+    const std::uint32_t middle =
+        first + static_cast<std::uint32_t>(halve_at_median(
+                    std::span(order_).subspan(first, last - first),
+                    [&](std::uint32_t patch) { return mesh.patches()[patch].centre; }));
     build(mesh, first, middle);
     nodes_[at].second = static_cast<std::uint32_t>(nodes_.size());
     build(mesh, middle, last);

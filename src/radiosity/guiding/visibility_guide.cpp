@@ -24,18 +24,18 @@ namespace {
 constexpr std::size_t rays_of_one_look = 32, rays_of_first_look = 16;
 
 /// Steps all of whose rays teach; then the rays of one in four do.
-constexpr std::uint64_t steps_of_learning = 8, later_lessons = 4;
+constexpr std::uint64_t steps_of_learning = 8, later_training = 4;
 
 /// Radiosity that all patches are taken to have besides what is known of it, as a share of the
-/// mean: few rays have told the first step, and what none has struck is not black. More makes those
-/// in the dark seem to have sent more rays than they did.
-constexpr double unsure_share = .05;
+/// mean: the first step knows few rays, and a patch that none of them has hit is not black. More
+/// makes those in the dark seem to have sent more rays than they did.
+constexpr double unknown_share = .05;
 
 /// Kept within what floats hold, whatever the areas.
 constexpr double most_value = 1e12, most_rays_per_area = 1e18, most_density = 1e12;
 
 /// After the first four, as often as what is known has grown by a third or a half: 6, 8, 12, 16 ...
-bool is_time_to_judge(std::uint64_t step) {
+bool is_time_to_estimate(std::uint64_t step) {
     const std::uint64_t odd = step >> std::countr_zero(step);
     return step <= 4 || odd == 1 || odd == 3;
 }
@@ -57,28 +57,28 @@ class VisibilityGuide final : public Strategy {
 
     void prepare(std::span<const Vec3> radiosity, double ray_power) override {
         prepared_ = true;
-        if (steps_ == 0 || (keeps_learning_ && is_time_to_judge(steps_ + 1)))
-            judge(radiosity);
+        if (steps_ == 0 || (keeps_learning_ && is_time_to_estimate(steps_ + 1)))
+            estimate_importance(radiosity);
         if (!keeps_learning_)
             known_.forget();
         const auto step = static_cast<double>(steps_ + 1);
-        const double unsure = unsure_share * mean_radiosity(radiosity) / (step * step);
+        const double unknown = unknown_share * mean_radiosity(radiosity) / (step * step);
         for (std::size_t i = 0; i < sides_.size(); ++i)
             sides_[i].rays_per_area = static_cast<float>(std::min(
-                (mean_of_channels(radiosity[i]) + unsure) / ray_power, most_rays_per_area));
+                (mean_of_channels(radiosity[i]) + unknown) / ray_power, most_rays_per_area));
     }
 
     void begin_step(std::uint64_t) override {
         const std::uint64_t step = steps_ + 1;
         learns_ = keeps_learning_ && prepared_ &&
-                  (step <= steps_of_learning || step % later_lessons == 0);
+                  (step <= steps_of_learning || step % later_training == 0);
         if (learns_)
             known_.drop_pending();
     }
 
     void end_step() override {
         steps_ += prepared_;
-        lessons_ += learns_;
+        training_steps_ += learns_;
         if (learns_)
             known_.commit(1);
     }
@@ -101,7 +101,7 @@ class VisibilityGuide final : public Strategy {
     void find_arrivals(std::span<const Ray> rays, std::span<const std::uint32_t> receivers,
                        std::vector<std::uint16_t>& arrivals) const override {
         for (std::size_t k = 0; k < rays.size(); ++k) {
-            const bool arrived = receivers[k] < absorbed;
+            const bool arrived = receivers[k] < sides_.size();
             arrivals.push_back(
                 arrived ? hemisphere_.leaf_at(frames_[receivers[k]].to_local(-rays[k].direction))
                         : whole_hemisphere);
@@ -115,7 +115,7 @@ class VisibilityGuide final : public Strategy {
         const double sent = side.rays_per_area * density(patch, leaf); // D_it
         float sum = 0;
         for (std::size_t k = 0; k < receivers.size(); ++k) {
-            if (receivers[k] >= absorbed)
+            if (receivers[k] >= sides_.size())
                 continue;
             const Side& other = sides_[receivers[k]];
             const std::size_t there = arrivals[k] - first_leaf_;
@@ -141,7 +141,7 @@ class VisibilityGuide final : public Strategy {
         float value;         ///< rho^2 / A relative to the mean patch, mean of channels
         float rays_per_area; ///< sent in a step by a triangle of density 1, local units
     };
-    /// What a look from a patch saw.
+    /// The rays of one look from a patch, and what they hit.
     struct Seen {
         std::vector<Ray> rays;
         std::vector<std::uint32_t> receivers;
@@ -160,7 +160,7 @@ class VisibilityGuide final : public Strategy {
     void describe_sides();
     void look(const SolverInput& input);
     void look_from(std::uint32_t patch, const SolverInput& input, Seen& seen) const;
-    void judge(std::span<const Vec3> radiosity);
+    void estimate_importance(std::span<const Vec3> radiosity);
     [[nodiscard]] double find_prior_mean() const;
     void find_density(double mean_root);
     template <class Body>
@@ -174,8 +174,8 @@ class VisibilityGuide final : public Strategy {
     bool keeps_learning_, learns_ = false;
     bool prepared_ = false; ///< not before the pilot
     HemisphereImportance known_;
-    double lessons_ = 0;      ///< steps whose rays are in known_, the look being a part of one
-    std::uint64_t steps_ = 0; ///< from 1; 0 before the pilot
+    double training_steps_ = 0; ///< steps whose rays are in known_, the look being a part of one
+    std::uint64_t steps_ = 0;   ///< from 1; 0 before the pilot
     std::uint64_t rays_ = 0;
     double mean_root_ = 0;                         ///< of sqrt(V) over all power
     std::vector<std::uint8_t> importance_;         ///< sqrt(V) by patch and leaf
@@ -230,9 +230,9 @@ void VisibilityGuide::look(const SolverInput& input) {
                 rays_ += s.rays.size();
             });
     input.monitor.rays += rays_;
-    lessons_ =
+    training_steps_ =
         static_cast<double>(rays_) / (input.options.rays * static_cast<double>(sides_.size()));
-    known_.commit(lessons_);
+    known_.commit(training_steps_);
 }
 
 void VisibilityGuide::look_from(std::uint32_t patch, const SolverInput& input, Seen& seen) const {
@@ -267,7 +267,7 @@ double VisibilityGuide::mean_radiosity(std::span<const Vec3> radiosity) const {
 double VisibilityGuide::find_prior_mean() const {
     std::vector<double> importance(sides_.size());
     for_patches([&](std::uint32_t i) {
-        importance[i] = known_.sum_of(i) / (lessons_ * mesh_.patches()[i].area);
+        importance[i] = known_.sum_of(i) / (training_steps_ * mesh_.patches()[i].area);
     });
     double sum = 0, patches = 0;
     for (std::uint32_t i = 0; i < importance.size(); ++i) {
@@ -277,13 +277,13 @@ double VisibilityGuide::find_prior_mean() const {
     return patches > 0 ? sum / patches : 0;
 }
 
-void VisibilityGuide::judge(std::span<const Vec3> radiosity) {
+void VisibilityGuide::estimate_importance(std::span<const Vec3> radiosity) {
     const double prior_mean = find_prior_mean(), energy = importance_of_energy(mesh_, radiosity);
     std::vector<double> roots(sides_.size()); // mean of sqrt(V) over a patch's power
     for_patches([&](std::uint32_t i) {
         thread_local std::vector<double> importance;
         importance.resize(known_.leaves());
-        known_.estimate(i, 1 / (lessons_ * mesh_.patches()[i].area), prior_mean, importance);
+        known_.estimate(i, 1 / (training_steps_ * mesh_.patches()[i].area), prior_mean, importance);
         for (std::size_t t = 0; t < importance.size(); ++t) {
             std::uint8_t& byte = importance_[i * importance.size() + t];
             byte = log_byte::from(std::sqrt(importance[t] + energy));
@@ -316,7 +316,7 @@ void VisibilityGuide::find_density(double mean_root) {
 /// rays_per_area follows from the radiosity before each step.
 void VisibilityGuide::save(StateWriter& state) const {
     state.add(steps_);
-    state.add(lessons_);
+    state.add(training_steps_);
     state.add(mean_root_);
     state.add(
         std::string_view(reinterpret_cast<const char*>(importance_.data()), importance_.size()));
@@ -326,8 +326,8 @@ void VisibilityGuide::save(StateWriter& state) const {
 
 void VisibilityGuide::load(StateReader& state) {
     steps_ = state.whole_up_to(std::numeric_limits<std::uint32_t>::max());
-    const double of_look = lessons_; // each step adds one at most
-    lessons_ = state.number({of_look, of_look + static_cast<double>(steps_)});
+    const double of_look = training_steps_; // each step adds one at most
+    training_steps_ = state.number({of_look, of_look + static_cast<double>(steps_)});
     const double mean_root = state.number(bounds::non_negative);
     const std::string importance = state.text();
     if (importance.size() != importance_.size())

@@ -33,7 +33,7 @@ struct DensityLeaf {
 /// paper's procedure Preprocessing.
 [[nodiscard]] constexpr bool is_divided(double mean, double threshold) { return mean > threshold; }
 
-/// What a density ray counted.
+/// The result of a density ray.
 struct DensityCount {
     std::uint16_t vertex;  ///< of Hemisphere::vertices()
     std::uint8_t surfaces; ///< 255: or more
@@ -69,7 +69,7 @@ class DensityMap final : public LeafDensities {
                DensityStore kept = DensityStore::divided_only);
 
     void leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) const override;
-    /// What is stored of a patch: the counts at the vertices of all triangles that exist.
+    /// The data stored of a patch: the counts at the vertices of all triangles that exist.
     void counts(std::uint32_t patch, std::vector<DensityCount>& result) const;
 
     [[nodiscard]] std::uint64_t rays() const override { return rays_; }

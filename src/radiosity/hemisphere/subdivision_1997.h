@@ -53,7 +53,7 @@ class Subdivision1997 {
     [[nodiscard]] std::vector<CountedDirection> counted(std::uint32_t patch,
                                                         std::size_t part) const;
 
-    /// What a patch takes, for valid options.
+    /// The memory that a patch takes [bytes], for valid options.
     [[nodiscard]] static double bytes_of_patch(const Subdivision1997Options& options);
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
     [[nodiscard]] std::uint64_t bytes() const {

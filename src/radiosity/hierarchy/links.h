@@ -20,7 +20,7 @@ struct Link {
     std::uint32_t to, from;
 };
 
-/// Is about F_to,from if nothing stands between; rather too large than too small.
+/// Estimates F_to,from if nothing stands between, rather too high than too low.
 [[nodiscard]] double rough_factor(const PatchTree::Node& to, const PatchTree::Node& from);
 
 enum class Refinement { not_needed, done, too_many_links };

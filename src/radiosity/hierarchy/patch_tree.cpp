@@ -1,5 +1,6 @@
 #include "radiosity/hierarchy/patch_tree.h"
 
+#include "geometry/median.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
@@ -85,25 +86,12 @@ void PatchTree::divide(std::uint32_t at) {
     const std::uint32_t begin = nodes_[at].begin, end = nodes_[at].end;
     if (end - begin == 1)
         return;
-    const auto patches = mesh_.patches();
-    Vec3 low(2.0), high(-2.0); // the scene lies within [-1,1]^3
-    for (std::uint32_t k = begin; k < end; ++k) {
-        low = glm::min(low, patches[order_[k]].centre);
-        high = glm::max(high, patches[order_[k]].centre);
-    }
-    const Vec3 size = high - low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    const auto place = [this](std::uint32_t k) {
-        return order_.begin() + static_cast<std::ptrdiff_t>(k);
-    };
-    std::nth_element(place(begin), place(middle), place(end),
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         const double x = patches[a].centre[axis], y = patches[b].centre[axis];
-                         return x < y || (x == y && a < b);
-                     });
-    std::sort(place(begin), place(middle));
-    std::sort(place(middle), place(end));
+    const auto own = std::span(order_).subspan(begin, end - begin);
+    const std::size_t half = halve_at_median(
+        own, [this](std::uint32_t patch) -> const Vec3& { return mesh_.patches()[patch].centre; });
+    const std::uint32_t middle = begin + static_cast<std::uint32_t>(half);
+    std::ranges::sort(own.first(half));
+    std::ranges::sort(own.subspan(half));
     const auto child = static_cast<std::uint32_t>(nodes_.size());
     nodes_[at].child = child;
     nodes_.push_back({begin, middle});

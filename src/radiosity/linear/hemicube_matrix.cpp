@@ -18,14 +18,9 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 class HemicubeMatrix final : public Solver {
   public:
-    explicit HemicubeMatrix(const SolverInput& input) : input_(input) {
-        check_input(input);
-        const std::size_t n = input.mesh.patches().size();
-        for (std::uint32_t i = 0; i < n; ++i)
-            solution_.radiosity.push_back(input.mesh.material(i).emission);
-        solution_.standard_error.assign(n, Vec3(unknown));
-        solution_.hits.resize(n);
-        solution_.may_find_light = input.needs.bounces;
+    explicit HemicubeMatrix(const SolverInput& input)
+        : input_(input), solution_(solution_before_steps(input)) {
+        solution_.standard_error.assign(input.mesh.patches().size(), Vec3(unknown));
     }
 
     bool step() override {

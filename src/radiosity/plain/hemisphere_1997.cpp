@@ -3,45 +3,25 @@
 // A patch is divided, in thought, into parts with a hemisphere over the centre of each. In n steps
 // all spherical triangles are divided into four at new directions on their edges, nearer to the end
 // where more surfaces were counted, and are stored; in m further steps they are divided by
-// estimated counts, and nothing is stored. Every triangle gets the same number of rays; its energy
-// goes by its area. Plain progressive refinement follows, and is also the pilot of step.h. n, m and
-// the number of parts are the user's (solver.h).
+// estimated counts, and nothing is stored (stored_subdivision.h). Every triangle gets the same
+// number of rays; its energy goes by its area. Plain progressive refinement follows, and is also
+// the pilot of step.h. n, m and the number of parts are the user's (solver.h).
 //
 // With --literal (`printed_`) the rules are those of the print; beside each stands the corrected
 // one (docs/decisions.md, D1, D2, D4, D10, D34 and D61).
 
-#include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/plain/step.h"
-#include "radiosity/plain/stored_directions.h"
-#include "radiosity/scene/edge_division.h"
+#include "radiosity/plain/stored_subdivision.h"
 
 #include <algorithm>
-#include <array>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 namespace hemilux::plain {
 namespace {
-
-using Triangle = std::array<Direction, 3>;
-
-/// The new point F of an edge AB: AF / FB = ns(B) / ns(A), equation (1); halved where a count is 0.
-/// ens(F) = (ens(A) BF + ens(B) AF) / AB.
-Direction divide(const Direction& a, const Direction& b) {
-    const double AF = a.ns > 0 && b.ns > 0 ? b.ns / (a.ns + b.ns) : 0.5, BF = 1 - AF; // AB = 1
-    return {point_on_arc(a.to, b.to, AF), a.ns * BF + b.ns * AF};
-}
-
-/// One of the four triangles that ABC is divided into.
-Triangle child_of(const Triangle& abc, std::size_t child) {
-    const auto& [a, b, c] = abc;
-    const Direction ab = divide(a, b), bc = divide(b, c), ca = divide(c, a);
-    const std::array<Triangle, 4> four{{{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}};
-    return four[child];
-}
 
 class Hemisphere1997 final : public StepSolver {
   public:
@@ -63,50 +43,20 @@ class Hemisphere1997 final : public StepSolver {
                         : std::max(tr.projected_solid_angle() / pi, 0.0);
     }
 
-    /// Divides the triangles of all patches until they are of this level, and counts.
+    /// Divides the triangles of all hemispheres until they are of this level, and counts.
     void divide_to(int level) {
         for (; divided_ < std::min(level, n); ++divided_)
-            for (std::size_t h = 0; h < stored_.size() && !input_.monitor.interrupted; ++h)
-                divide_all(divided_ + 1, h);
+            for (std::size_t h = 0; h < stored_.size() && !input_.monitor.interrupted; ++h) {
+                const auto patch = static_cast<std::uint32_t>(h / parts_);
+                const Polygon& shape = input_.mesh.patches()[patch].shape;
+                const Vec3 centre = part_of(shape, parts_, h % parts_).centre();
+                stored_[h].divide_to(divided_ + 1, tree_, [&](const Vec3& direction) {
+                    return count_surfaces(patch, centre, direction);
+                });
+            }
         mean_.solution.bytes_density = 0;
-        for (const StoredDirections& stored : stored_)
+        for (const StoredSubdivision& stored : stored_)
             mean_.solution.bytes_density += stored.bytes();
-    }
-
-    /// Which triangles share a direction is as in the regular subdivision, whose vertices are
-    /// numbered in the order in which its triangles need them.
-    void divide_all(int level, std::size_t hemisphere) {
-        const auto patch = static_cast<std::uint32_t>(hemisphere / parts_);
-        const Vec3 centre =
-            part_of(input_.mesh.patches()[patch].shape, parts_, hemisphere % parts_).centre();
-        StoredDirections& stored = stored_[hemisphere];
-        const auto store = [&](const Vec3& v) { stored.add(v, count_surfaces(patch, centre, v)); };
-        for (std::size_t v = 0; level == 0 && v < Hemisphere(0).vertices().size(); ++v)
-            store(tree_.vertices()[v]);
-        for (const Hemisphere::Cell& tr : tree_.cells())
-            for (std::size_t edge = 0; tr.level == level - 1 && edge < 3; ++edge)
-                if (tr.midpoint[edge] == stored.size())
-                    store(divide(stored.at(tr.vertex[edge]), stored.at(tr.vertex[(edge + 1) % 3]))
-                              .to);
-    }
-
-    [[nodiscard]] Triangle triangle(std::size_t hemisphere, int level, std::size_t index) const {
-        if (level > n)
-            return child_of(triangle(hemisphere, level - 1, index / 4), index % 4);
-        const auto& v = tree_.cells()[Hemisphere::cells_up_to(level - 1) + index].vertex;
-        const StoredDirections& stored = stored_[hemisphere];
-        return {stored.at(v[0]), stored.at(v[1]), stored.at(v[2])};
-    }
-
-    /// As printed: the directions that were counted in the step that this level is of. A child at a
-    /// corner of its parent has two of them, the middle one three.
-    [[nodiscard]] std::vector<Vec3> counted(const Triangle& abc, int level,
-                                            std::size_t index) const {
-        std::vector<Vec3> directions;
-        for (std::size_t corner = 0; printed_ && level <= n && corner < 3; ++corner)
-            if (level == 1 || index % 4 != corner)
-                directions.push_back(density_direction(abc[corner].to));
-        return directions;
     }
 
     /// For each patch, each triangle and each direction: shoots a ray; bounce after bounce.
@@ -147,11 +97,14 @@ class Hemisphere1997 final : public StepSolver {
             from = to;
             if (rays.number == 0)
                 continue;
-            const Triangle abc = triangle(parts_ * due.patch + k / of_part, level, index);
-            const std::vector<Vec3> known = counted(abc, level, index);
+            const CountedTriangle abc =
+                stored_[parts_ * due.patch + k / of_part].triangle(level, index, tree_);
+            const std::vector<Vec3> known = // as printed, those that were counted shoot too
+                printed_ && level <= n ? counted_directions(abc, level, index)
+                                       : std::vector<Vec3>();
             rays.number += known.size();
             rays.divisor += double(known.size());
-            const SphericalTriangle tr(abc[0].to, abc[1].to, abc[2].to);
+            const SphericalTriangle tr(abc[0].direction, abc[1].direction, abc[2].direction);
             const Polygon part = part_of(patch.shape, parts_, k / of_part);
             const PolygonSampler points(part);
             const Vec3 Phi_ray = // Phi_tr / N_tr, Phi_tr = Phi_patch A_part / A_patch A_tr / A_hemi
@@ -172,8 +125,8 @@ class Hemisphere1997 final : public StepSolver {
     int n, m; ///< steps whose triangles are stored, and estimated
     std::size_t parts_;
     Hemisphere tree_;
-    int divided_ = -1;                     ///< the last level that is stored
-    std::vector<StoredDirections> stored_; ///< by patch and part; in each by vertex of the tree
+    int divided_ = -1;                      ///< the last level that is stored
+    std::vector<StoredSubdivision> stored_; ///< by patch and part
 };
 
 } // namespace

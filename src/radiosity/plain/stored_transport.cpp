@@ -17,7 +17,7 @@
 #include "radiosity/plain/batches.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/rays/shot.h"
-#include "radiosity/solving/mean_of_steps.h"
+#include "radiosity/solving/check_input.h"
 
 #include <array>
 #include <cmath>

@@ -21,6 +21,13 @@ constexpr std::uint64_t stream_of_importance = ~std::uint64_t{1};
 /// not leave it without any.
 constexpr double prior_importance = .5;
 
+/// Of the root of J, which is the most that rays which are not aimed may count: what they do count
+/// is less, as the light of many patches adds up. Between an eighth and a half little changes.
+constexpr double root_of_unaimed = .25;
+
+/// A ball gets rays of its own if they are so many times as many as would pass through it anyway.
+constexpr double least_times_of_ball = 3;
+
 /// The importance that rays from a patch have found, and their number.
 struct Found {
     double importance = 0, rays = 0;
@@ -65,7 +72,7 @@ class Watching final : public Strategy {
 [[nodiscard]] bool shoot(const SolverInput& input, const StepTask& task, const Watching& watching,
                          StepResult& result) {
     const ShootingTools tools{input, Hemisphere(0), CellDirections(tools.hemisphere, false),
-                              PatchStarts(input.mesh), std::make_unique<Watching>(watching)};
+                              std::make_unique<Watching>(watching)};
     return Bounces(tools).shoot(task, result);
 }
 
@@ -151,9 +158,51 @@ std::vector<double> times_of(const Mesh& mesh, std::span<const Found> found,
     return times;
 }
 
+/// Gives rays to balls, and so many fewer to others.
+void aim_at_balls(const SolverInput& input, const Workers& workers, std::span<const Found> found,
+                  StepResult& pilot, Aim& aim) {
+    const auto mean = [&](const auto& of_patch) {
+        return mean_of_power(input.mesh, pilot.radiosity, of_patch);
+    };
+    const std::vector<double> value = values_of_arrival(input);
+    TargetBalls balls(input.mesh, value);
+    const TargetBalls::Sights sights = balls.look(input, value, workers);
+    pilot.rays += sights.rays;
+    const std::size_t count = balls.count();
+    const double unaimed =
+        root_of_unaimed * mean([&](std::uint32_t i) { return std::sqrt(found[i].mean()); });
+    std::vector<double> due;
+    for (std::size_t k = 0; k < count; ++k)
+        due.push_back(mean([&](std::uint32_t i) { return sights.root_of_value[i * count + k]; }));
+    double all = unaimed;
+    for (const double each : due)
+        all += each;
+    double kept = unaimed;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double anyway = mean([&](std::uint32_t i) { return sights.power[i * count + k]; });
+        if (!(due[k] > least_times_of_ball * anyway * all))
+            due[k] = 0;
+        kept += due[k];
+    }
+    if (!(unaimed > 0) || !(kept > unaimed))
+        return;
+    for (double& times : aim.times)
+        times *= unaimed / kept;
+    for (std::size_t at = 0; at < balls.times().size(); ++at)
+        balls.times()[at] = due[at % count] > 0 ? sights.root_of_value[at] / kept : 0;
+    aim.balls = std::move(balls);
+}
+
 } // namespace
 
-std::vector<double> aim_rays(const SolverInput& input, const StepTask& task, StepResult& pilot) {
+std::vector<double> values_of_arrival(const SolverInput& input) {
+    std::vector<double> value = source_of(input);
+    for (std::uint32_t i = 0; i < value.size(); ++i)
+        value[i] *= mean_of_channels(input.mesh.material(i).reflectance);
+    return value;
+}
+
+Aim aim_rays(const SolverInput& input, const StepTask& task, bool balls, StepResult& pilot) {
     const std::vector<double> source = source_of(input);
     std::vector<Found> found = shoot_importance(input, source, task, pilot.rays);
     std::vector<double> importance; // of light that arrives
@@ -162,7 +211,10 @@ std::vector<double> aim_rays(const SolverInput& input, const StepTask& task, Ste
                              (source[i] + around(input.mesh, found, i).mean()));
     if (found.empty() || !shoot(input, task, Watching(importance, found), pilot))
         return {};
-    return times_of(input.mesh, found, pilot.radiosity);
+    Aim aim{times_of(input.mesh, found, pilot.radiosity), {}};
+    if (balls)
+        aim_at_balls(input, task.workers, found, pilot, aim);
+    return aim;
 }
 
 } // namespace hemilux

@@ -16,7 +16,12 @@
 // rays are shot as those of light are. One that hits patch i brings to A_i J_i what the ray
 // carries, p; so hits count as of A_i / p rays from patch i that each find 1 or nothing. Rays of
 // light, which small lamps shoot too, find rho_j (u_j + J_j) where they arrive.
+//
+// Where the target is small, rays that go straight to it are shot apart (target_balls.h).
 
+#include "radiosity/shooting/target_balls.h"
+
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -25,10 +30,20 @@ struct SolverInput;
 struct StepResult;
 struct StepTask;
 
-/// By patch, how many times the rays that its power alone would give it a patch gets for the target
-/// of the input: positive, and over all power 1 on average. Shoots the task's rays as light, by the
-/// cosine law and all bounces, into `pilot`, and as many as importance. Empty when interrupted.
-[[nodiscard]] std::vector<double> aim_rays(const SolverInput& input, const StepTask& task,
-                                           StepResult& pilot);
+/// How the rays of a step are allocated.
+struct Aim {
+    /// By patch, how many times the rays that its power alone would give it a patch gets for the
+    /// target of the input: positive, and with those to balls over all power 1 on average.
+    std::vector<double> times;
+    TargetBalls balls;
+};
+
+/// Shoots the task's rays as light, by the cosine law and all bounces, into `pilot`, and as many as
+/// importance; with `balls` some rays more look for the target. `times` is empty when interrupted.
+[[nodiscard]] Aim aim_rays(const SolverInput& input, const StepTask& task, bool balls,
+                           StepResult& pilot);
+
+/// What a ray that arrives with a unit of power counts, by patch: rho u, u being over its own mean.
+[[nodiscard]] std::vector<double> values_of_arrival(const SolverInput& input);
 
 } // namespace hemilux

@@ -18,11 +18,11 @@ namespace {
 /// Rays that one thread takes at a time: a part of those that are left of the bounce, so that at
 /// its end no thread waits long for another. And rays whose receivers are kept until they are
 /// summed.
-constexpr double pieces_of_rest = 32, least_piece = 256, largest_piece = 8192;
-constexpr std::uint32_t patches_per_piece = 32;
+constexpr double items_of_rest = 32, least_item = 256, largest_item = 8192;
+constexpr std::uint32_t patches_per_item = 32;
 constexpr double rays_per_batch = 2e6;
 /// Work items that are listed at a time: a step of 1e9 rays per patch has millions.
-constexpr std::size_t most_pieces = 4096;
+constexpr std::size_t most_items = 4096;
 /// A thread that works alone takes work items of so many together: tracing likes many rays at once.
 constexpr double rays_at_least = 4096;
 /// Fewer rays than this are traced sooner than others would have come to help.
@@ -33,6 +33,13 @@ constexpr double rays_for_one_thread = 500;
 constexpr double literal_rest = 1e-4;
 
 constexpr std::size_t bits_of_word = 64;
+
+/// What stands for the receiver of a ray along which rays to a ball carry the power.
+constexpr std::uint32_t shot_apart = 0xfffffffd;
+
+/// Of the rays to balls.
+constexpr std::uint64_t stream_of_balls = 0xba11;
+constexpr double ball_rays_per_batch = 4096;
 
 /// Of a ray among those of its patch. After 2^32 rays of one patch they begin anew.
 std::uint32_t ray_number(double rays_before) {
@@ -91,11 +98,13 @@ std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
         divide_work(workers.threads() > 1 ? 0 : rays_at_least);
         shoot_ranges(workers, stream, result);
     }
+    if (has_balls() && !input_.monitor.interrupted)
+        shoot_to_balls(workers, hash_words({stream, stream_of_balls}), result);
     return result.rays - before;
 }
 
 void Bounces::shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result) {
-    const auto most = static_cast<std::size_t>(rays_per_batch / largest_piece);
+    const auto most = static_cast<std::size_t>(rays_per_batch / largest_item);
     batches_.resize(std::min(most, ranges_.size()));
     for (std::size_t begin = 0; begin < ranges_.size(); begin += most) {
         const std::size_t count = std::min(most, ranges_.size() - begin);
@@ -165,12 +174,11 @@ void Bounces::collect(const RayBatch& batch, StepResult& result) {
         const Vec3 held = unshot_[patch];
         double sent = 0, lost_in_open = 0, lost_on_backs = 0; // shares of what the patch held
         for (; group != batch.groups.end() && group->patch == patch; ++group) {
-            const auto [rays_escaped, rays_absorbed] =
-                receive(group->ray_power * held, {receivers, group->rays});
+            const Lost lost = receive(group->ray_power * held, {receivers, group->rays});
             receivers += group->rays;
-            sent += group->rays * group->ray_power;
-            lost_in_open += rays_escaped * group->ray_power;
-            lost_on_backs += rays_absorbed * group->ray_power;
+            sent += (group->rays - lost.shot_apart) * group->ray_power;
+            lost_in_open += lost.escaped * group->ray_power;
+            lost_on_backs += lost.absorbed * group->ray_power;
         }
         result.sent += sent * held;
         if (lost_in_open > 0)
@@ -183,13 +191,14 @@ void Bounces::collect(const RayBatch& batch, StepResult& result) {
     result.rays += batch.receivers.size();
 }
 
-/// Each brings `power`, which is Phi_ray. Returns how many escaped, and how many were absorbed.
-std::array<std::uint32_t, 2> Bounces::receive(const Vec3& power,
-                                              std::span<const std::uint32_t> receivers) {
-    std::array<std::uint32_t, 2> lost{};
+/// Each brings `power`, which is Phi_ray.
+Bounces::Lost Bounces::receive(const Vec3& power, std::span<const std::uint32_t> receivers) {
+    Lost lost;
     for (const std::uint32_t receiver : receivers) {
         if (receiver >= received_.size()) {
-            ++lost[receiver == escaped ? 0 : 1];
+            ++(receiver == escaped    ? lost.escaped
+               : receiver == absorbed ? lost.absorbed
+                                      : lost.shot_apart);
             continue;
         }
         hit_[receiver / bits_of_word] |= std::uint64_t{1} << receiver % bits_of_word;
@@ -197,6 +206,77 @@ std::array<std::uint32_t, 2> Bounces::receive(const Vec3& power,
         received_[receiver].power += power;
     }
     return lost;
+}
+
+/// Their numbers are made whole on a line, as those of all rays are (plan()).
+void Bounces::shoot_to_balls(const Workers& workers, std::uint64_t stream, StepResult& result) {
+    const TargetBalls& balls = *task_->balls;
+    std::vector<double> before{Rng(stream).uniform()}; // by sender and ball
+    for (const std::uint32_t i : senders_)
+        for (std::size_t k = 0; k < balls.count(); ++k)
+            before.push_back(before.back() +
+                             mean_of_channels(unshot_[i]) / task_->ray_power * balls.times(i, k));
+    const double end = whole_below(before.back());
+    const auto count = static_cast<std::size_t>(std::ceil(end / ball_rays_per_batch));
+    std::vector<BallShots> batches(count);
+    workers.for_each_in_order(
+        count,
+        [&](std::size_t b) {
+            const double from = static_cast<double>(b) * ball_rays_per_batch;
+            shoot_to_balls(before, from, std::min(from + ball_rays_per_batch, end), stream,
+                           batches[b]);
+        },
+        [&](std::size_t b) {
+            collect(batches[b], result);
+            batches[b] = {};
+        });
+}
+
+/// The rays of the line in (from, to].
+void Bounces::shoot_to_balls(std::span<const double> rays_before, double from, double to,
+                             std::uint64_t stream, BallShots& shots) const {
+    const TargetBalls& balls = *task_->balls;
+    std::optional<PatchStart> memory;
+    std::size_t end = 1; // where the interval that holds the ray ends
+    if (!input_.monitor.interrupted)
+        end = static_cast<std::size_t>(std::ranges::lower_bound(rays_before, from + 1) -
+                                       rays_before.begin());
+    for (double ray = from + 1; ray <= to && !input_.monitor.interrupted; ++ray) {
+        while (rays_before[end] < ray)
+            ++end;
+        const std::uint32_t patch = senders_[(end - 1) / balls.count()];
+        const std::size_t ball = (end - 1) % balls.count();
+        const double before = whole_below(rays_before[end - 1]);
+        const double here = whole_below(rays_before[end]) - before;
+        const double expected = rays_before[end] - rays_before[end - 1];
+        const auto shot =
+            balls.draw(tools_.starts.of(patch, memory), ball,
+                       hash_words({stream, patch, ball, static_cast<std::uint64_t>(ray - before)}));
+        if (!shot)
+            continue;
+        const unsigned takers = balls.takers(patch, shot->ray.origin, shot->ray.direction);
+        shots.rays.push_back(shot->ray);
+        shots.senders.push_back(patch);
+        shots.power.push_back(shot->power / std::max(takers, 1u) /
+                              (expected >= 1 ? here : expected));
+    }
+    find_receivers(shots.rays, input_.mesh, input_.tracer, shots.receivers);
+    input_.monitor.rays += shots.rays.size();
+}
+
+void Bounces::collect(const BallShots& shots, StepResult& result) {
+    if (input_.monitor.interrupted) // the batch may not be whole
+        return;
+    for (std::size_t k = 0; k < shots.rays.size(); ++k) {
+        const Vec3 power = shots.power[k] * unshot_[shots.senders[k]];
+        const Lost lost = receive(power, std::span(shots.receivers).subspan(k, 1));
+        result.sent += power;
+        if (lost.escaped > 0)
+            result.escaped += power;
+        if (lost.absorbed > 0)
+            result.absorbed += power;
+    }
+    result.rays += shots.rays.size();
 }
 
 void Bounces::teach(const RayBatch& batch) const {
@@ -262,9 +342,9 @@ void Bounces::cut_line(Place& next) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(rays_before_, ray) -
                                           rays_before_.begin() - 1);
     };
-    for (double& from = next.ray; from < end && items_.size() < most_pieces;) {
+    for (double& from = next.ray; from < end && items_.size() < most_items;) {
         const double size =
-            std::clamp(std::ceil((end - from) / pieces_of_rest), least_piece, largest_piece);
+            std::clamp(std::ceil((end - from) / items_of_rest), least_item, largest_item);
         const double to = std::min(from + size, end);
         items_.push_back({sender_of(from + 1), sender_of(to) + 1, from, to});
         from = to;
@@ -275,13 +355,13 @@ void Bounces::cut_line(Place& next) {
 /// are many an item is a part of them.
 void Bounces::cut_as_printed(Place& next) {
     const auto senders = static_cast<std::uint32_t>(senders_.size());
-    const bool whole = input_.options.rays <= largest_piece;
-    while (next.sender < senders && items_.size() < most_pieces) {
-        const std::uint32_t last = std::min(next.sender + (whole ? patches_per_piece : 1), senders);
+    const bool whole = input_.options.rays <= largest_item;
+    while (next.sender < senders && items_.size() < most_items) {
+        const std::uint32_t last = std::min(next.sender + (whole ? patches_per_item : 1), senders);
         const double end = std::numeric_limits<double>::infinity();
-        const bool is_last = whole || next.ray + largest_piece >= input_.options.rays;
-        items_.push_back({next.sender, last, next.ray, is_last ? end : next.ray + largest_piece});
-        next = is_last ? Place{last, 0} : Place{next.sender, next.ray + largest_piece};
+        const bool is_last = whole || next.ray + largest_item >= input_.options.rays;
+        items_.push_back({next.sender, last, next.ray, is_last ? end : next.ray + largest_item});
+        next = is_last ? Place{last, 0} : Place{next.sender, next.ray + largest_item};
     }
 }
 
@@ -317,16 +397,21 @@ void Bounces::schedule_as_printed(std::uint32_t patch, const WorkItem& item,
 
 void Bounces::trace(std::uint64_t stream, RayBatch& batch) const {
     thread_local std::vector<Ray> memory;
-    const RaySource source{input_.mesh, tools_.starts, tools_.directions, *tools_.strategy,
+    const RaySource source{input_.mesh, tools_.directions, *tools_.strategy,
                            input_.options.literal};
     GroupedRays drawn(source, batch.groups, stream, memory);
     for (auto rays = drawn.next(); !rays.empty(); rays = drawn.next()) {
         if (input_.monitor.interrupted) // one lamp may shoot many millions
             return;
         find_receivers(rays, input_.mesh, input_.tracer, batch.receivers);
+        const std::span<std::uint32_t> receivers = std::span(batch.receivers).last(rays.size());
+        if (has_balls())
+            drawn.for_each_patch([&](std::size_t k, std::uint32_t patch) {
+                if (task_->balls->takers(patch, rays[k].origin, rays[k].direction) > 0)
+                    receivers[k] = shot_apart;
+            });
         if (tools_.strategy->learns())
-            tools_.strategy->find_arrivals(rays, std::span(batch.receivers).last(rays.size()),
-                                           batch.arrivals);
+            tools_.strategy->find_arrivals(rays, receivers, batch.arrivals);
     }
 }
 

@@ -7,7 +7,6 @@
 #include "geometry/compensated_sum.h"
 #include "radiosity/hemisphere/cell_directions.h"
 #include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/rays/patch_starts.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/shooting/grouped_rays.h"
 #include "radiosity/shooting/stepwise.h"
@@ -26,7 +25,6 @@ struct ShootingTools {
     SolverInput input;
     Hemisphere hemisphere;
     CellDirections directions;
-    PatchStarts starts;
     std::unique_ptr<Strategy> strategy;
 };
 
@@ -63,6 +61,13 @@ class Bounces {
         std::vector<std::uint16_t> arrivals;  ///< from which of its cells, if the strategy learns
     };
 
+    /// Rays to balls, and where each arrived.
+    struct BallShots {
+        std::vector<Ray> rays;
+        std::vector<double> power; ///< over that of the sender
+        std::vector<std::uint32_t> senders, receivers;
+    };
+
     /// The power that a patch received in a bounce. It fills one cache line, as rays hit patches in
     /// no order.
     struct alignas(64) Arrived {
@@ -70,6 +75,7 @@ class Bounces {
         std::uint32_t rays = 0;
     };
 
+    [[nodiscard]] bool has_balls() const { return task_->balls && task_->balls->count() > 0; }
     void begin(const StepResult& result);
     /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
     std::uint64_t bounce(std::uint64_t stream, StepResult& result);
@@ -81,6 +87,11 @@ class Bounces {
     void divide_work(double rays);
     void shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result);
     void shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const;
+    // The same to the balls of a target.
+    void shoot_to_balls(const Workers& workers, std::uint64_t stream, StepResult& result);
+    void shoot_to_balls(std::span<const double> rays_before, double from, double to,
+                        std::uint64_t stream, BallShots& shots) const;
+    void collect(const BallShots& shots, StepResult& result);
     // These add the rays to be drawn to `groups`.
     void schedule(const WorkItem& item, std::vector<RayGroup>& groups) const;
     void schedule(std::size_t sender, const WorkItem& item, const Allocation& allocation,
@@ -90,8 +101,11 @@ class Bounces {
     void trace(std::uint64_t stream, RayBatch& batch) const;
 
     void collect(const RayBatch& batch, StepResult& result);
-    std::array<std::uint32_t, 2> receive(const Vec3& power,
-                                         std::span<const std::uint32_t> receivers);
+    /// Rays of one power.
+    struct Lost {
+        std::uint32_t escaped = 0, absorbed = 0, shot_apart = 0;
+    };
+    Lost receive(const Vec3& power, std::span<const std::uint32_t> receivers);
     void teach(const RayBatch& batch) const;
     void reflect(StepResult& result);
     void add_sender(std::uint32_t patch, const Vec3& power);

@@ -2,7 +2,8 @@
 // Draws rays that are listed: where on their patch they start, and where they go.
 
 #include "bvh/tracer.h"
-#include "radiosity/rays/patch_starts.h"
+#include "geometry/frame.h"
+#include "geometry/polygon_sampler.h"
 #include "radiosity/shooting/strategy.h"
 
 #include <cstdint>
@@ -28,7 +29,6 @@ struct RayGroup {
 /// What the rays are drawn from.
 struct RaySource {
     const Mesh& mesh;
-    const PatchStarts& starts;
     const CellDirections& directions;
     const Strategy& strategy;
     bool literal;
@@ -45,6 +45,14 @@ class GroupedRays {
 
     /// The next rays, as many as a batch has room for; none if all have been drawn.
     [[nodiscard]] std::span<const Ray> next();
+    /// Calls found(k, patch) for the rays that next() has given, in their order.
+    template <class Found>
+    void for_each_patch(const Found& found) const {
+        std::size_t k = 0;
+        for (const Run& run : runs_)
+            for (std::uint32_t ray = 0; ray < run.rays; ++ray)
+                found(k++, run.patch);
+    }
 
   private:
     /// Rays of a patch among those that are drawn now: of a private cell, or of all others.
@@ -56,12 +64,19 @@ class GroupedRays {
         PrivateCell cell;
         std::uint32_t first; ///< the number of its first ray
     };
+    /// How rays leave a patch.
+    struct Start {
+        PolygonSampler points;
+        Frame frame; ///< Mesh::hemisphere_frame
+        std::uint32_t patch, facet;
+    };
     void list();
     void list_group(RayGroup& group, std::uint32_t rays);
     void list_private(RayGroup& group, std::uint32_t rays, const PrivateCell& own);
     void add_to_batch(RayGroup& group, std::uint32_t rays, std::uint16_t cell, double power);
+    [[nodiscard]] const Start& start_of(std::uint32_t patch);
     void fill(const Run& run, std::size_t first);
-    void fill_private(const OwnCell& own, const PatchStart& start, std::size_t first,
+    void fill_private(const OwnCell& own, const Start& start, std::size_t first,
                       std::span<Ray> rays);
 
     RaySource source_;
@@ -75,7 +90,7 @@ class GroupedRays {
     std::vector<Run> runs_;
     std::vector<OwnCell> own_;
     DirectionBatch batch_;
-    std::optional<PatchStart> start_; ///< memory of one
+    std::optional<Start> start_; ///< of the last patch
 };
 
 } // namespace hemilux

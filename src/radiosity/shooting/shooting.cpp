@@ -12,7 +12,7 @@ ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strat
     : StepwiseSolver(input, !input.options.literal), tools_{input, Hemisphere(input.options.depth),
                                                             CellDirections(tools_.hemisphere,
                                                                            input.options.literal),
-                                                            PatchStarts(input.mesh), nullptr} {
+                                                            nullptr} {
     const auto start = std::chrono::steady_clock::now();
     input_.monitor.phase = "density";
     tools_.strategy = make_strategy(input_, tools_.hemisphere, Workers(input.options.threads));

@@ -26,6 +26,7 @@ class ShootingSolver final : public StepwiseSolver {
     [[nodiscard]] bool steps_are_alike() const override {
         return tools_.strategy->is_same_in_all_steps();
     }
+    [[nodiscard]] bool shoots_to_balls() const override { return true; }
     void save_more(StateWriter& state) const override { tools_.strategy->save(state); }
     /// Throws StateError also where the strategy would take far more rays than are asked for.
     void load_more(StateReader& state) override;

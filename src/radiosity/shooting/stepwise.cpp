@@ -54,7 +54,8 @@ void StepwiseSolver::work_ahead() {
     const auto work = [&](unsigned at, std::size_t k, std::size_t) {
         const std::uint64_t number = mean_.solution.steps + k;
         const StepTask task{
-            number, number + 1, mean_.ray_power, at, k + 1 == count ? workers_ : own, mean_.aimed};
+            number,      number + 1, mean_.ray_power, at, k + 1 == count ? workers_ : own,
+            mean_.aimed, &balls_};
         try {
             ahead_[k].result = StepResult(input_.mesh);
             ahead_[k].done = solve_once(task, ahead_[k].result);
@@ -122,7 +123,9 @@ bool StepwiseSolver::find_ray_power() {
 bool StepwiseSolver::shoot_pilot(const StepTask& task, StepResult& pilot) {
     if (input_.target.empty())
         return solve_once(task, pilot);
-    mean_.aimed = aim_rays(input_, task, pilot);
+    Aim aim = aim_rays(input_, task, shoots_to_balls(), pilot);
+    mean_.aimed = std::move(aim.times);
+    balls_ = std::move(aim.balls);
     return !mean_.aimed.empty();
 }
 
@@ -166,6 +169,8 @@ void StepwiseSolver::save(StateWriter& state) const {
     if (!input_.target.empty()) {
         state.add(hash_of_weights(input_.target));
         state.add(std::span<const double>(mean_.aimed));
+        state.add(std::uint64_t{balls_.count() > 0});
+        state.add(std::as_const(balls_).times());
     }
     save_more(state);
 }
@@ -216,6 +221,14 @@ void StepwiseSolver::load(StateReader& state) {
     load_more(state);
 }
 
+/// Those that it had; none were written where none got rays.
+void StepwiseSolver::load_balls(StateReader& state) {
+    constexpr Bounds times{0, 1e6};
+    if (!state.flag())
+        balls_ = {};
+    state.get(balls_.times(), times);
+}
+
 /// Over all power a patch gets about as many rays as by power alone.
 void StepwiseSolver::load_aim(StateReader& state) {
     constexpr Bounds times{1e-6, 1e6};
@@ -225,12 +238,17 @@ void StepwiseSolver::load_aim(StateReader& state) {
     const bool is_aimed = mean_.ray_power > 0 && mean_.ray_power <= bounds::largest;
     mean_.aimed.resize(is_aimed && input_.needs.bounces ? input_.target.size() : 0);
     state.get(std::span(mean_.aimed), times);
+    if (is_aimed && shoots_to_balls())
+        balls_ = TargetBalls(input_.mesh, values_of_arrival(input_));
+    load_balls(state);
     double power = 0, rays = 0;
     for (std::uint32_t i = 0; i < mean_.aimed.size(); ++i) {
         const double of_patch =
             input_.mesh.patches()[i].area * mean_of_channels(mean_.solution.radiosity[i]);
         power += of_patch;
         rays += of_patch * mean_.aimed[i];
+        for (std::size_t k = 0; k < balls_.count(); ++k)
+            rays += of_patch * balls_.times(i, k);
     }
     if (!(rays <= most_rays * power))
         throw StateError("its patches would trace far more rays than are asked for");

@@ -4,6 +4,7 @@
 
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/workers.h"
+#include "radiosity/shooting/target_balls.h"
 #include "radiosity/solving/mean_of_steps.h"
 
 #include <cstdint>
@@ -22,8 +23,9 @@ struct StepTask {
     unsigned place;       ///< among those that are worked out at the same time, from 0
     Workers workers;      ///< for this one
     std::span<const double> aimed = {}; ///< MeanOfSteps::aimed
+    const TargetBalls* balls = nullptr; ///< that get rays of their own
 
-    /// Is how many the patch is to shoot, on average.
+    /// Returns how many rays the patch is to shoot, on average.
     [[nodiscard]] double rays(std::uint32_t patch, const Vec3& power) const {
         return mean_of_channels(power) / ray_power * (aimed.empty() ? 1 : aimed[patch]);
     }
@@ -55,6 +57,8 @@ class StepwiseSolver : public Solver {
     virtual void make_places(unsigned /*count*/) {}
     /// Whether no step depends on those before.
     [[nodiscard]] virtual bool steps_are_alike() const { return false; }
+    /// Whether solve_once shoots to the balls of a task.
+    [[nodiscard]] virtual bool shoots_to_balls() const { return false; }
 
     /// Save and load what the next steps depend on besides, as Solver does.
     virtual void save_more(StateWriter&) const {}
@@ -85,12 +89,14 @@ class StepwiseSolver : public Solver {
     bool find_ray_power();
     bool shoot_pilot(const StepTask& task, StepResult& pilot);
     void load_aim(StateReader& state);
+    void load_balls(StateReader& state);
     void check_ray_power() const;
 
     Workers workers_;
     std::deque<Ahead> ahead_;     ///< the next steps
     double seconds_per_step_ = 0; ///< of one thread, when several are worked out; 0: unknown
     std::vector<Vec3> pilot_;     ///< its radiosity; empty where there was none
+    TargetBalls balls_;           ///< of the target
 };
 
 } // namespace hemilux

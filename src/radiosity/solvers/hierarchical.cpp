@@ -61,28 +61,21 @@ constexpr double least_reflectance = .1;
 class HierarchicalSolver final : public Solver {
   public:
     explicit HierarchicalSolver(const SolverInput& input)
-        : input_((check_input(input), input)), workers_(input.options.threads), tree_(input.mesh),
-          links_(input.mesh, tree_),
+        : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
+          tree_(input.mesh), links_(input.mesh, tree_),
           lost_rays_(input.mesh, input.tracer, input.options.seed, batches),
           rays_(std::clamp(input.options.rays, 1.0, most_rays)) {
         const auto n = static_cast<std::uint32_t>(input.mesh.patches().size());
         for (std::uint32_t i = 0; i < n; ++i) {
             const Material& material = input.mesh.material(i);
-            solution_.radiosity.push_back(material.emission);
             area_.push_back(input.mesh.patches()[i].area);
             emission_.push_back(material.emission);
             reflectance_.push_back(material.reflectance);
             mean_reflectance_.push_back(
                 std::max(mean_of_channels(material.reflectance), least_reflectance));
         }
-        solution_.standard_error.assign(n, Vec3(unknown));
         solution_.error_batches = batches;
-        solution_.may_find_light = input.needs.bounces;
-        solution_.hits.resize(n);
         emitted_ = mean_of_channels(emitted_power(input.mesh));
-        solution_.energy.emitted =
-            input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
-        solution_.energy.unshot = solution_.energy.emitted;
         guesses_.assign(batches, solution_.radiosity);
     }
 
@@ -335,6 +328,7 @@ class HierarchicalSolver final : public Solver {
     }
 
     SolverInput input_;
+    Solution solution_;
     Workers workers_;
     PatchTree tree_;
     Links links_;
@@ -349,7 +343,6 @@ class HierarchicalSolver final : public Solver {
     double tolerance_ = first_tolerance;
     double rays_; ///< per patch, of the next step
     std::uint64_t traced_ = 0;
-    Solution solution_;
 };
 
 std::unique_ptr<Solver> make_hierarchical(const SolverInput& input) {

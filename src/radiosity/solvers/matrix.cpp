@@ -62,9 +62,7 @@ std::vector<std::uint32_t> few_emitters(const Mesh& mesh) {
 class MatrixSolver final : public Solver {
   public:
     explicit MatrixSolver(const SolverInput& input)
-        : input_(input), workers_(input.options.threads) {
-        check_input(input);
-        const auto patches = input.mesh.patches();
+        : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads) {
         std::vector<std::uint32_t> emitters;
         if (input.options.factors.kind == FactorKind::exact)
             exact_.emplace(input.mesh, workers_, input.monitor);
@@ -76,15 +74,7 @@ class MatrixSolver final : public Solver {
         for (std::uint64_t r = 0; r < batches; ++r)
             factors_.emplace_back(input.mesh, input.tracer, emitters,
                                   hash_words({input.options.seed, r}), needs);
-        solution_.standard_error.resize(patches.size());
         solution_.error_batches = batches;
-        solution_.may_find_light = input.needs.bounces;
-        solution_.hits.resize(patches.size());
-        for (std::uint32_t i = 0; i < patches.size(); ++i)
-            solution_.radiosity.push_back(input.mesh.material(i).emission);
-        solution_.energy.emitted =
-            input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
-        solution_.energy.unshot = solution_.energy.emitted;
         guesses_.assign(batches, solution_.radiosity);
     }
 
@@ -255,6 +245,7 @@ class MatrixSolver final : public Solver {
     }
 
     SolverInput input_;
+    Solution solution_;
     Workers workers_;
     std::vector<SampledFormFactors> factors_;
     std::optional<ExactFormFactors> exact_;
@@ -263,7 +254,6 @@ class MatrixSolver final : public Solver {
     std::uint32_t rays_ = 0;                 ///< per patch and batch
     std::uint32_t rays_of_step_ = 0;         ///< those of the step under way
     std::uint64_t traced_ = 0;
-    Solution solution_;
 };
 
 std::unique_ptr<Solver> make_matrix(const SolverInput& input) {

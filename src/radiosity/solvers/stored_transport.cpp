@@ -56,21 +56,12 @@ constexpr double merging = 3.5;
 class StoredTransportSolver final : public Solver {
   public:
     explicit StoredTransportSolver(const SolverInput& input)
-        : input_(input), workers_(input.options.threads), emitters_(small_emitters(input.mesh)),
-          system_(input.mesh, emitters_, input.needs.closed),
+        : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
+          emitters_(small_emitters(input.mesh)), system_(input.mesh, emitters_, input.needs.closed),
           aim_(input.mesh, system_, input.target), plan_(first_plan(input, !emitters_.empty())),
           light_(batches, input.mesh.patches().size()) {
-        check_input(input);
+        solution_.standard_error.assign(input.mesh.patches().size(), Vec3(0.0)); // can be saved
         renew();
-        const auto patches = input.mesh.patches();
-        solution_.energy.emitted =
-            input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
-        solution_.energy.unshot = solution_.energy.emitted;
-        solution_.radiosity.assign(system_.emission().begin(), system_.emission().end());
-        solution_.standard_error.resize(patches.size());
-        solution_.may_find_light = input.needs.bounces;
-        solution_.hits.resize(patches.size());
-        solution_.weight.assign(input.target.begin(), input.target.end());
         plan_.aim(aim_.importance());
     }
 
@@ -317,6 +308,7 @@ class StoredTransportSolver final : public Solver {
     }
 
     SolverInput input_;
+    Solution solution_;
     Workers workers_;
     std::vector<std::uint32_t> emitters_; ///< those reached by shadow rays
     TransportSystem system_;
@@ -329,7 +321,6 @@ class StoredTransportSolver final : public Solver {
     bool drained_ = true;  ///< the rays of the last try have seen a way out for the light
     double variance_ = 0, direct_variance_ = 0;
     std::uint64_t traced_ = 0;
-    Solution solution_;
 };
 
 std::unique_ptr<Solver> make_stored_transport(const SolverInput& input) {

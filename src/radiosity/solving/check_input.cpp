@@ -1,5 +1,6 @@
 #include "radiosity/solving/check_input.h"
 
+#include "radiosity/rays/shot.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/lossless_component.h"
 #include "radiosity/solving/solve_error.h"
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 
 namespace hemilux {
@@ -117,6 +119,22 @@ void check_input(const SolverInput& input) {
     if (trapped)
         throw SolveError(describe(mesh, *trapped) + advice(input.needs),
                          face_of(mesh, trapped->patches.front()));
+}
+
+Solution solution_before_steps(const SolverInput& input) {
+    check_input(input);
+    Solution solution;
+    const std::size_t patches = input.mesh.patches().size();
+    const double unknown = input.needs.bounces ? std::numeric_limits<double>::quiet_NaN() : 0;
+    for (const Patch& patch : input.mesh.patches())
+        solution.radiosity.push_back(input.mesh.material(patch).emission);
+    solution.standard_error.assign(patches, Vec3(unknown));
+    solution.hits.assign(patches, 0);
+    solution.weight.assign(input.target.begin(), input.target.end());
+    solution.may_find_light = input.needs.bounces;
+    solution.energy.emitted = input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
+    solution.energy.unshot = solution.energy.emitted;
+    return solution;
 }
 
 } // namespace hemilux

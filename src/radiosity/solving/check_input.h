@@ -2,6 +2,7 @@
 // Whether there is anything to solve: what each method asks before it begins.
 
 #include "geometry/vector.h"
+#include "radiosity/solving/solution.h"
 
 namespace hemilux {
 
@@ -14,5 +15,9 @@ struct SolverInput;
 /// negative or not finite, where emitted powers overflow or are too small to be squared, and where
 /// light is trapped between surfaces of reflectance 1 (lossless_component.h).
 void check_input(const SolverInput& input);
+
+/// Checks the input and returns what is known before the first step: the emission, which is still
+/// to be shot. Standard errors are NaN, or 0 where no light can be reflected.
+[[nodiscard]] Solution solution_before_steps(const SolverInput& input);
 
 } // namespace hemilux

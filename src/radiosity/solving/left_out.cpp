@@ -49,11 +49,13 @@ std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
 } // namespace
 
 std::vector<LeftOut> left_out(const Needs& needs) {
-    return left_out_of(needs, {true, true, true, true});
+    return left_out_of(needs,
+                       {.densities = true, .pairs = true, .linear_systems = true, .passes = true});
 }
 
-std::vector<LeftOut> left_out(const Needs& needs, const Method& method, const Solution& solution) {
-    std::vector<LeftOut> list = left_out_of(needs, method.work);
+std::vector<LeftOut> left_out(const Needs& needs, const MethodWork& work,
+                              const Solution& solution) {
+    std::vector<LeftOut> list = left_out_of(needs, work);
     if (solution.unlit > 0 && solution.unlit < solution.radiosity.size())
         list.push_back({"rays of " + patches(solution.unlit) + " after the first step",
                         "no path to them from an emitter was found",

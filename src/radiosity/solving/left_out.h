@@ -6,7 +6,7 @@
 
 namespace hemilux {
 
-struct Method;
+struct MethodWork;
 struct Needs;
 struct Solution;
 
@@ -17,8 +17,8 @@ struct LeftOut {
 
 /// What every method leaves out.
 [[nodiscard]] std::vector<LeftOut> left_out(const Needs& needs);
-/// What `method` left out in the run that found `solution`.
-[[nodiscard]] std::vector<LeftOut> left_out(const Needs& needs, const Method& method,
+/// What a method left out of its work in the run that found `solution`.
+[[nodiscard]] std::vector<LeftOut> left_out(const Needs& needs, const MethodWork& work,
                                             const Solution& solution);
 
 } // namespace hemilux

@@ -14,21 +14,6 @@
 
 namespace hemilux {
 
-Solution solution_before_steps(const SolverInput& input) {
-    check_input(input);
-    Solution solution;
-    const std::size_t patches = input.mesh.patches().size();
-    const double unknown = input.needs.bounces ? std::numeric_limits<double>::quiet_NaN() : 0;
-    solution.radiosity = StepResult(input.mesh).radiosity;
-    solution.standard_error.assign(patches, Vec3(unknown));
-    solution.hits.assign(patches, 0);
-    solution.weight.assign(input.target.begin(), input.target.end());
-    solution.may_find_light = input.needs.bounces;
-    solution.energy.emitted = input.mesh.frame().area_to_world(1.0) * emitted_power(input.mesh);
-    solution.energy.unshot = solution.energy.emitted;
-    return solution;
-}
-
 StepResult::StepResult(const Mesh& mesh) : hits(mesh.patches().size()) {
     radiosity.reserve(mesh.patches().size());
     for (const Patch& patch : mesh.patches())
@@ -146,7 +131,7 @@ double MeanOfSteps::emitted() const {
     return mean_of_channels(solution.energy.emitted / input_.mesh.frame().area_to_world(1.0));
 }
 
-/// What a squared error of the patch counts.
+/// The weight of the squared error of a patch.
 double MeanOfSteps::weighted_area(std::uint32_t patch) const {
     const double area = input_.mesh.patches()[patch].area;
     return solution.weight.empty() ? area : solution.weight[patch] * area;

@@ -14,10 +14,6 @@
 
 namespace hemilux {
 
-/// The solution that a method begins with: the emission, with an unknown error unless nothing
-/// reflects. Throws SolveError as check_input() does.
-[[nodiscard]] Solution solution_before_steps(const SolverInput& input);
-
 /// What one step found. Powers are in local units.
 struct StepResult {
     StepResult() = default;

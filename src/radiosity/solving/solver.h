@@ -107,7 +107,7 @@ struct StopRule {
     static constexpr std::uint32_t default_steps = 16;
 };
 
-/// Is for SolveOptions: more than will be taken where the time ends the run.
+/// SolveOptions::expected_steps for this rule: more than will be taken where the time ends the run.
 [[nodiscard]] inline std::uint32_t expected_steps(const StopRule& stop) {
     return stop.steps.value_or(stop.seconds ? std::numeric_limits<std::uint32_t>::max() : 0);
 }
@@ -162,12 +162,13 @@ class Workers;
 using MakeStrategy = std::unique_ptr<Strategy> (*)(const SolverInput&, const Hemisphere&,
                                                    const Workers&);
 
-/// Work of a method that a scene may not need.
+/// Work of a method that a scene may not need, and what comes of it.
 struct MethodWork {
     bool densities = false;      ///< counts surfaces before it solves
     bool pairs = false;          ///< looks from patches to patches
     bool linear_systems = false; ///< solves one for each channel
     bool passes = false;         ///< solves again and again, to take the mean or with more rays
+    bool estimates_error = true; ///< else a run ends by itself, and how far off it is is not known
 };
 
 /// An option that few methods take: a flag.
@@ -227,6 +228,16 @@ struct Method {
     std::string_view former_name = {}; ///< what --method takes too; empty where there is none
 
     [[nodiscard]] bool can_resume() const { return saves || strategy; }
+    /// What it does with these options. Hemicubes look from all patches whatever the scene needs,
+    /// once, and what lies between their pixels is not random.
+    [[nodiscard]] MethodWork work_with(const SolveOptions& options) const {
+        MethodWork done = work;
+        if (options.factors.kind == FactorKind::hemicube) {
+            done.pairs = done.passes = false;
+            done.estimates_error = false;
+        }
+        return done;
+    }
 };
 
 /// All methods, one per file of strategies/ and solvers/, in alphabetical order.

@@ -1,6 +1,6 @@
 #pragma once
 // The light that is solved for: of each of its independent batches of rays, and of all
-// together. Where rays had to be forgotten for want of memory, what they told is kept as a
+// together. Where rays had to be forgotten for want of memory, what they showed is kept as a
 // generation, and the light is the mean of the generations.
 
 #include "radiosity/solving/solution.h"
@@ -21,13 +21,13 @@ class BatchLight {
 
     [[nodiscard]] std::size_t batches() const { return batches_; }
 
-    /// Is what one batch has found.
+    /// The light that one batch has found.
     struct Light {
         explicit Light(std::size_t patches) : incident(patches, Vec3(0.0)) {}
         std::vector<Vec3> incident; ///< arrives at each patch [W/m2]
         EnergyBalance energy;       ///< local units
     };
-    /// What the rays of the present generation tell, batch by batch; at last of all together.
+    /// The light by the rays of the present generation: of each batch, then of all together.
     [[nodiscard]] std::vector<Light>& solved() { return solved_; }
 
     /// Mean over the generations.
@@ -35,7 +35,7 @@ class BatchLight {
         const Vec3& now = solved_[batch].incident[patch];
         return before_.empty() ? now : (before_[batch].incident[patch] + now) / generations();
     }
-    /// What each of the batches is off from their mean.
+    /// How far each of the batches is off their mean.
     template <std::size_t Sets>
     [[nodiscard]] std::array<Vec3, Sets> deviations(std::size_t patch) const {
         std::array<Vec3, Sets> off;
@@ -52,7 +52,7 @@ class BatchLight {
     [[nodiscard]] double generations() const { return static_cast<double>(generation_ + 1); }
     /// Counts from 0.
     [[nodiscard]] std::uint64_t generation() const { return generation_; }
-    /// What was solved last counts from now on as one generation more.
+    /// From now on the light that was solved last counts as one more generation.
     void begin_generation();
 
     void save(StateWriter& state) const;

@@ -1,5 +1,6 @@
 #include "radiosity/stored_transport/emitter_choice.h"
 
+#include "geometry/median.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/scene/mesh.h"
 
@@ -18,7 +19,7 @@ namespace {
 constexpr std::size_t most_emitters = 1024, most_clusters = 128;
 
 /// Of the rays of a receiver, to emitters from which no light was seen to come.
-constexpr double share_of_doubtful = 1.0 / 16;
+constexpr double share_of_unlinked = 1.0 / 16;
 
 /// The light of each emitter, as the mean of its channels relative to the most that any has in that
 /// channel: a lamp that is faint, but the only one in its channel, is as important as any.
@@ -132,22 +133,9 @@ void EmitterChoice::divide(std::uint32_t cluster) {
     const auto [begin, end] = std::pair(clusters_[cluster].begin, clusters_[cluster].end);
     if (end - begin == 1)
         return;
-    Vec3 low = centre(order_[begin]), high = low;
-    for (std::uint32_t k = begin; k < end; ++k) {
-        low = glm::min(low, centre(order_[k]));
-        high = glm::max(high, centre(order_[k]));
-    }
-    const Vec3 extent = high - low;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
-                     : extent.y >= extent.z                       ? 1
-                                                                  : 2;
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         return centre(a)[axis] != centre(b)[axis]
-                                    ? centre(a)[axis] < centre(b)[axis]
-                                    : a < b;
-                     });
+    const auto half = halve_at_median(std::span(order_).subspan(begin, end - begin),
+                                      [this](std::uint32_t place) { return centre(place); });
+    const std::uint32_t middle = begin + static_cast<std::uint32_t>(half);
     const std::uint32_t left = add(begin, middle), right = add(middle, end);
     clusters_[cluster].left = left;
     clusters_[cluster].right = right;
@@ -165,7 +153,7 @@ double EmitterChoice::nearness(const EmitterReceiver& to, const Cluster& cluster
 void EmitterChoice::weigh(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const {
     weigh_all(receiver_at(receiver), cut);
     if (!part_.empty())
-        doubt_others(receiver, bright, cut);
+        limit_unlinked(receiver, bright, cut);
     add_up(cut);
 }
 
@@ -210,28 +198,28 @@ void EmitterChoice::set_parts(std::span<const std::uint32_t> part,
         part_of_emitter_.push_back(part[patch]);
 }
 
-/// A cluster of several emitters may belong to several parts and is not doubted.
-void EmitterChoice::doubt_others(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const {
+/// A cluster of several emitters may belong to several parts and counts as linked.
+void EmitterChoice::limit_unlinked(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const {
     const auto is_dark = [&](std::uint32_t place) {
         return part_of_emitter_[place] != part_[receiver] && (bright & bit_of(place)) == 0;
     };
-    const auto is_doubtful = [&](std::size_t k) {
+    const auto is_unlinked = [&](std::size_t k) {
         if (cut.clusters.empty())
             return is_dark(order_[k]);
         const Cluster& cluster = clusters_[cut.clusters[k]];
         return cluster.left == 0 && is_dark(order_[cluster.begin]);
     };
-    double linked = 0, doubtful = 0;
+    double linked = 0, unlinked = 0;
     const std::size_t count = cut.found.size();
     for (std::size_t k = 0; k < count; ++k)
-        (is_doubtful(k) ? doubtful : linked) += cut.sums[k + 1];
-    const double most = linked * share_of_doubtful / (1 - share_of_doubtful);
-    if (!(linked > 0) || doubtful <= most)
+        (is_unlinked(k) ? unlinked : linked) += cut.sums[k + 1];
+    const double most = linked * share_of_unlinked / (1 - share_of_unlinked);
+    if (!(linked > 0) || unlinked <= most)
         return;
     for (std::size_t k = 0; k < count; ++k)
-        if (is_doubtful(k)) {
-            cut.sums[k + 1] *= most / doubtful;
-            cut.found[k] *= most / doubtful;
+        if (is_unlinked(k)) {
+            cut.sums[k + 1] *= most / unlinked;
+            cut.found[k] *= most / unlinked;
         }
 }
 

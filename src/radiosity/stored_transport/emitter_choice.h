@@ -88,7 +88,7 @@ class EmitterChoice {
     [[nodiscard]] EmitterReceiver receiver_at(std::uint32_t patch) const;
     void weigh_all(const EmitterReceiver& to, Cut& cut) const;
     void choose_clusters(const EmitterReceiver& to, Cut& cut) const;
-    void doubt_others(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const;
+    void limit_unlinked(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const;
     void weigh_clusters(const EmitterReceiver& to, Cut& cut) const;
     static void add_up(Cut& cut);
     [[nodiscard]] Choice choose_within(const Cluster& cluster, double share) const;

@@ -69,7 +69,7 @@ class TargetAim {
     void step_done(const ExchangeMatrix& factors, std::span<const std::uint32_t> part,
                    const std::vector<bool>& lit, const Workers& workers);
 
-    /// Is that of the rays of each patch (importance_of_rays); 0: it needs no more.
+    /// The importance of the rays of each patch (importance_of_rays); 0: it needs no more rays.
     [[nodiscard]] std::span<const double> importance() const { return of_rays_; }
     /// What the squared error of a patch's own light counts, times its area and reflectance
     /// squared, where it errs for itself, as by shadow rays: m_k with c = 1.

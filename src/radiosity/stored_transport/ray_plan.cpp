@@ -41,6 +41,11 @@ constexpr double share_of_unlit = 1.0 / 8;
 /// can reach takes a ray of each patch.
 constexpr double least_first = 1.5;
 
+/// With a target, so many times as many rays in the first step as patches of the target would get
+/// if all were the target. More waste rays before it is known where they count; fewer take one more
+/// step, and each step solves for all patches however few its rays are.
+constexpr double times_in_first = 4;
+
 /// With a target, what each of the two kinds gets of the rays that are added, at least: how much
 /// of the error comes from which kind is known of the target's own rays, and less of others'.
 constexpr double least_of_kind = 1.0 / 4;
@@ -134,12 +139,13 @@ std::vector<std::uint32_t> RayPlan::allocate(std::span<const double> weights, do
     return allocate_rays(aimed, mean, already, usual_rays(weights));
 }
 
-/// Of one kind, so that patches of the target get as many as they would if all were the target.
+/// Of one kind; not more than without a target.
 double RayPlan::first_mean(double mean) const {
     if (!has_target() || !goal_.growing)
         return mean;
     const double sum = std::accumulate(aim_.begin(), aim_.end(), 0.0);
-    return std::clamp(mean * sum / double(aim_.size()), std::min(least_first, mean), mean);
+    return std::clamp(times_in_first * mean * sum / double(aim_.size()),
+                      std::min(least_first, mean), mean);
 }
 
 void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers) {

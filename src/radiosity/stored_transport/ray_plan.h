@@ -29,7 +29,7 @@ struct RayGoal {
     double aim = 0;
 };
 
-/// Is the error of the solution so far.
+/// The error of the solution so far.
 struct ErrorSoFar {
     double relative = 0;               ///< as it is reported
     double variance = 0;               ///< in any unit

@@ -20,7 +20,7 @@ namespace {
 
 bool any(const Vec3& v) { return v != Vec3(0.0); }
 
-/// What a patch's squared error counts.
+/// The weight of the squared error of a patch.
 double weighted_area(const TransportResult& result, std::size_t patch) {
     return (result.weight.empty() ? 1 : result.weight[patch]) * result.system.area()[patch];
 }
@@ -193,7 +193,7 @@ double raised(double together) {
     return 1 + (of_few - 1) * together;
 }
 
-/// What a patch's neighbours and itself are off in each batch.
+/// How far a patch and its neighbours are off the mean in each batch.
 template <std::size_t Sets>
 class Window {
   public:

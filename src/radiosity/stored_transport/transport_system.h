@@ -30,7 +30,7 @@ class TransportSystem {
     [[nodiscard]] std::span<const double> area() const { return area_; }
     [[nodiscard]] std::span<const Vec3> reflectance() const { return reflectance_; }
     [[nodiscard]] std::span<const Vec3> emission() const { return emission_; }
-    /// Is the emission [W/m2] of the patches that rays at random are to find, 0 elsewhere.
+    /// The emission [W/m2] of the patches that random rays are to find, 0 elsewhere.
     [[nodiscard]] std::span<const Vec3> seen_emission() const { return seen_emission_; }
     /// Whether the geometry proves that no ray is lost.
     [[nodiscard]] bool closed() const { return closed_; }

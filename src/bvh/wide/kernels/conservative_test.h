@@ -33,7 +33,7 @@ inline F8 error_bound(V3 a, F8 e) {
     return F8::splat(error_share) * e * (sum_abs(a) + e + F8::splat(error_offset));
 }
 
-/// What is known of the lanes of one test.
+/// The outcome of one test, lane by lane.
 struct EdgeFunctions {
     F8 u, w, d, rest; ///< rest = D - U - W; struck where u, w, rest have one sign
     F8 error;

@@ -1,0 +1,79 @@
+#include "io/gltf/texture_maps.h"
+
+#include "io/files/error.h"
+#include "io/gltf/uri.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hemilux::gltf {
+
+void TextureMaps::read(std::size_t material, Scene& scene) {
+    const MaterialInfo& info = buffers_.document().materials[material];
+    if (info.base_texture)
+        add(*info.base_texture, material, &Material::reflectance, &MaterialTextures::reflectance,
+            scene);
+    if (info.emissive_texture)
+        add(*info.emissive_texture, material, &Material::emission, &MaterialTextures::emission,
+            scene);
+}
+
+void TextureMaps::fail(const std::string& place, const std::string& message) const {
+    throw InputError(buffers_.path(), place + ": " + message);
+}
+
+/// The transform of KHR_texture_transform: scale, then rotation, then offset.
+void TextureMaps::add(const TextureInfo& info, std::size_t material, Vec3 Material::*colour,
+                      TextureMap MaterialTextures::*map, Scene& scene) {
+    const Document& document = buffers_.document();
+    const TextureSource& source = document.textures[info.texture];
+    if (!source.image || *source.image >= document.images.size())
+        fail("/textures/" + std::to_string(info.texture) + "/source",
+             "expected an image below " + std::to_string(document.images.size()));
+    std::shared_ptr<const Texture> texture = read_image(*source.image);
+    if (!texture) {
+        ++missing_;
+        return;
+    }
+    const auto wrap_of = [](Wrapping wrapping) {
+        return wrapping == Wrapping::clamp    ? Wrap::clamp
+               : wrapping == Wrapping::mirror ? Wrap::mirror
+                                              : Wrap::repeat;
+    };
+    SceneTextures& textures = scene.textures;
+    textures.of_material.resize(document.materials.size());
+    TextureMap& to = textures.of_material[material].*map;
+    to.texture = std::move(texture);
+    to.wraps = {wrap_of(source.wrap_s), wrap_of(source.wrap_t)};
+    to.set = static_cast<std::uint32_t>(info.set);
+    const double c = std::cos(info.rotation), s = std::sin(info.rotation);
+    to.origin = info.offset;
+    to.x = info.scale.x * Vec2(c, -s);
+    to.y = info.scale.y * Vec2(s, c);
+    Vec3& of_material = scene.materials[material].*colour;
+    to.factor = of_material;
+    of_material *= to.texture->mean();
+    sets_ = std::max(sets_, info.set + 1);
+}
+
+/// Empty where the image is missing or of a kind that is not read.
+std::shared_ptr<const Texture> TextureMaps::read_image(std::size_t image) {
+    const ImageInfo& info = buffers_.document().images[image];
+    const std::string place = "/images/" + std::to_string(image);
+    const std::string key = buffers_.path() + ": " + place;
+    if (info.view)
+        return files_.decode(buffers_.view(*info.view), key);
+    if (is_data_uri(info.uri)) {
+        const std::optional<std::string> bytes = decode_data_uri(info.uri);
+        if (!bytes)
+            fail(place + "/uri", "expected data in base 64");
+        return files_.decode(*bytes, key);
+    }
+    const std::optional<std::string> file = path_of_uri(info.uri, buffers_.path());
+    if (!file)
+        fail(place + "/uri", "expected a data URI or a path relative to this file");
+    paths_.push_back(*file);
+    return files_.read(*file);
+}
+
+} // namespace hemilux::gltf

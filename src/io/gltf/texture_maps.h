@@ -1,0 +1,41 @@
+#pragma once
+// The textures of materials (sections 3.8 and 3.9, KHR_texture_transform).
+
+#include "io/gltf/elements.h"
+#include "io/textures/texture_files.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hemilux::gltf {
+
+class TextureMaps {
+  public:
+    /// Both must outlive this object.
+    TextureMaps(Buffers& buffers, const ReadGuard& guard) : buffers_(buffers), files_(guard) {}
+
+    /// Reads the textures of a material of the document, the scene's material of the same number.
+    /// Its colours become their means. Throws InputError.
+    void read(std::size_t material, Scene& scene);
+
+    /// The sets of texture coordinates that textures use: those before this number.
+    [[nodiscard]] std::size_t sets() const { return sets_; }
+    /// How many textures are not found, or of a kind that is not read.
+    [[nodiscard]] std::size_t missing() const { return missing_; }
+    /// Paths of the pictures that were asked for.
+    [[nodiscard]] const std::vector<std::string>& paths() const { return paths_; }
+
+  private:
+    void add(const TextureInfo& info, std::size_t material, Vec3 Material::*colour,
+             TextureMap MaterialTextures::*map, Scene& scene);
+    [[nodiscard]] std::shared_ptr<const Texture> read_image(std::size_t image);
+    [[noreturn]] void fail(const std::string& place, const std::string& message) const;
+
+    Buffers& buffers_;
+    TextureFiles files_;
+    std::size_t sets_ = 0, missing_ = 0;
+    std::vector<std::string> paths_;
+};
+
+} // namespace hemilux::gltf
