@@ -259,7 +259,8 @@ bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
            (patches < most_patches_by_default || gives_gathered_light(settings)) &&
            settings.method == &method_of(Role::standard) && !settings.plain &&
            settings.scene.mesh.max_edge == 0 && settings.target.names().empty() &&
-           !settings.stop.steps && !settings.every_step && settings.reference.empty();
+           !settings.stop.steps && !settings.every_step && settings.reference.empty() &&
+           settings.checkpoint.path.empty() && settings.checkpoint.resumed.empty();
 }
 
 double whole_error(const SolveSettings& settings) {
