@@ -27,8 +27,8 @@ echo "3. Error against rays: the paper's method, random directions, and the defa
 $hemilux compare "$scene" --methods hemisphere,progressive-monte-carlo,stored-transport \
     --reference "$out/reference.csv" --budget-rays 500000 -q -o "$out/compare"
 echo
-echo "4. The default: as many rays as an error of 0.5 % takes"
-$hemilux solve "$scene" --error .005 -o "$out/picture.png" -o "$out/mesh.ply" --stats "$out/statistics.json"
+echo "4. The default: as many patches and rays as an error of 5 % of the light on the surfaces takes"
+$hemilux solve "$scene" -o "$out/picture.png" -o "$out/mesh.ply" --stats "$out/statistics.json"
 
 cat <<END
 

@@ -11,6 +11,7 @@
 #include "division_families.h"
 #include "path_reference.h"
 #include "radiosity/division/adaptive_division.h"
+#include "radiosity/final_gather/final_gather.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/rays/make_tracer.h"
 #include "radiosity/sampling/rng.h"
@@ -34,6 +35,7 @@ struct Settings {
     std::vector<std::string> scenes, families, asked{"0.05"};
     std::size_t seeds = 10, points = 10000, paths = 256;
     double max_edge = 0; ///< 0: --divide auto
+    bool gathered = false; ///< light gathered from the patches, in place of theirs
     unsigned threads = 0;
     bool every_run = false;
 };
@@ -127,18 +129,36 @@ class Truth {
 
     /// Relative to the light as it is, RMS over area and channels.
     [[nodiscard]] TrueError error_of(const Mesh& mesh, const Solution& solution) const {
-        double sum = 0, squares = 0, size = 0;
+        Sums sums;
         for (const TruthPoint& point : points_) {
             const std::uint32_t patch = mesh.patch_at(point.hit);
             const Vec3 light = radiosity_at(mesh, solution, patch, point.at.position) -
                                mesh.material(patch).emission;
-            const double product = glm::dot(light - point.first, light - point.second);
-            sum += product;
-            squares += product * product;
-            size += glm::dot(point.first, point.second);
+            sums.add(point, light, light);
         }
-        const double value = std::sqrt(std::max(sum / size, 0.0));
-        return {value, .5 * std::sqrt(squares) / size / value};
+        return sums.error();
+    }
+    /// The same of light that is gathered from the solution, as --points gives it.
+    [[nodiscard]] TrueError error_of_gathered(const Mesh& mesh, const Tracer& tracer,
+                                              const Solution& solution, unsigned threads) const {
+        constexpr unsigned rounds = 32;
+        FinalGather gather(mesh, tracer, solution);
+        gather.set_rounds(rounds);
+        std::vector<SurfacePoint> at;
+        std::vector<std::uint64_t> streams;
+        for (const TruthPoint& point : points_) {
+            at.push_back(point.at);
+            streams.push_back(hash_words({7, streams.size()}));
+        }
+        const StopFlag never;
+        const std::vector<Vec3> light =
+            gather.irradiance(at, streams, 2, Workers(threads), never);
+        Sums sums;
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            const Vec3& rho = mesh.material(mesh.patch_at(points_[k].hit)).reflectance;
+            sums.add(points_[k], rho * light[2 * k], rho * light[2 * k + 1]);
+        }
+        return sums.error();
     }
     [[nodiscard]] Mesh mesh(double max_edge) const {
         MeshOptions options = options_;
@@ -147,6 +167,21 @@ class Truth {
     }
 
   private:
+    /// Over points, of products of two independent differences.
+    struct Sums {
+        double sum = 0, squares = 0, size = 0;
+
+        void add(const TruthPoint& point, const Vec3& light1, const Vec3& light2) {
+            const double product = glm::dot(light1 - point.first, light2 - point.second);
+            sum += product;
+            squares += product * product;
+            size += glm::dot(point.first, point.second);
+        }
+        [[nodiscard]] TrueError error() const {
+            const double value = std::sqrt(std::max(sum / size, 0.0));
+            return {value, .5 * std::sqrt(squares) / size / value};
+        }
+    };
     void follow(const Mesh& mesh, const PathReference& reference, std::size_t k,
                 std::size_t paths) {
         std::mt19937_64 numbers(k + 1);
@@ -177,6 +212,8 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     solve.options.threads = settings.threads;
     solve.stop.error = error;
     solve.verbosity = Verbosity::quiet;
+    if (settings.gathered)
+        solve.points.path = "points";
     const MadeTracer made = make_tracer(mesh, find_needs(mesh).tree, settings.threads);
     Monitor monitor;
     Statistics statistics;
@@ -205,7 +242,10 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     done.sampling = statistics.error_sampling;
     done.division = statistics.error_division;
     done.patches = mesh.patches().size();
-    const TrueError off = truth.error_of(mesh, solution);
+    const TrueError off =
+        settings.gathered
+            ? truth.error_of_gathered(mesh, *made.tracer, solution, settings.threads)
+            : truth.error_of(mesh, solution);
     done.truth = off.value;
     done.doubt = off.uncertainty;
     return done;
@@ -275,6 +315,8 @@ void add_options(Command command, Settings& settings) {
     add_number(command, "--divide", "LENGTH", settings.max_edge, positive,
                "patches of one size instead of --divide auto");
     add_whole<unsigned>(command, "--threads", settings.threads, 0, 1024, "0: all cores");
+    command.add_flag("--gathered", settings.gathered,
+                     "the light that is gathered from the patches, in place of theirs");
     command.add_flag("--every-run", settings.every_run, "a line for each run too");
 }
 

@@ -16,7 +16,7 @@ using test::Workplace;
 TEST_CASE("a run on fixed patches reports what sampling and what the division leaves") {
     const Workplace place;
     place.write_room();
-    const auto outcome = place.hemilux("solve room.obj -o r.csv --stats s.json");
+    const auto outcome = place.hemilux("solve room.obj --divide none -o r.csv --stats s.json");
     REQUIRE(outcome.code == 0);
     CHECK_THAT(outcome.err, Contains("of the patches' mean light") &&
                                 Contains("within patches the light differs by") &&
@@ -52,7 +52,7 @@ TEST_CASE("--divide auto gives out linear functions, with their gradients in the
     const Workplace place;
     place.write_room();
     REQUIRE(place.hemilux("solve room.obj --divide auto --error .1 -q -o a.csv").code == 0);
-    REQUIRE(place.hemilux("solve room.obj -q -o b.csv").code == 0);
+    REQUIRE(place.hemilux("solve room.obj --divide none -q -o b.csv").code == 0);
     CHECK_THAT(place.read("a.csv"), Contains(",gradient_r_x,gradient_r_y,gradient_r_z,"));
     CHECK(place.read("b.csv").find("gradient") == std::string::npos);
 }
@@ -95,6 +95,57 @@ TEST_CASE("a run that divides patches can be resumed to the same bytes") {
     CHECK(place.read("whole.csv") == place.read("resumed.csv"));
 }
 
+TEST_CASE("a plain solve divides, but for runs that are about patches or single steps") {
+    const Workplace place;
+    place.write_room();
+    const auto table = [&](const std::string& options) {
+        REQUIRE(place.hemilux("solve room.obj -q -o a.csv " + options).code == 0);
+        return place.read("a.csv");
+    };
+    CHECK(table("") == table("--divide auto"));
+    CHECK(table("") != table("--divide none"));
+    REQUIRE(place.hemilux("solve room.obj -q --divide none -o fixed.csv").code == 0);
+    for (const std::string options :
+         {"--steps 2", "--method hemisphere --steps 2", "--reference fixed.csv", "--for camera --camera .5,.5,.5,0,.5,.5",
+          "--checkpoint saved", "--plain --steps 2"})
+        CHECK(table(options) == table(options + " --divide none"));
+}
+
+TEST_CASE("where all light is gathered the reported error is that of gathered light") {
+    const Workplace place;
+    place.write_room();
+    place.write("points.txt", "1,0,1,0,1,0\n");
+    const auto error_of = [&](const std::string& options) {
+        REQUIRE(place.hemilux("solve room.obj -q --stats s.json " + options).code == 0);
+        return place.read("s.json");
+    };
+    for (const std::string gathered :
+         {"-o a.png --size 32x24", "--points points.txt --points-output p.csv",
+          "-o a.hdr --size 32x24 --points points.txt --points-output p.csv"}) {
+        const std::string json = error_of(gathered);
+        CHECK_THAT(json, Contains("\"estimated_error_of\": \"gathered\""));
+        CHECK(statistic(json, "estimated_error") <= .02);
+        CHECK(statistic(json, "error_division") > statistic(json, "estimated_error"));
+    }
+    for (const std::string of_patches :
+         {"-o a.png --size 32x24 --no-gather", "-o a.png --size 32x24 -o a.csv", "-o a.ply",
+          "-o a.png --size 32x24 --error-map e.png"})
+        CHECK_THAT(error_of(of_patches), Contains("\"estimated_error_of\": \"surfaces\""));
+    CHECK_THAT(error_of("-o a.png --size 32x24 --divide none"),
+               Contains("\"estimated_error_of\": \"patches\""));
+}
+
+TEST_CASE("gathered light is the same for any number of threads, and so is what it asks for") {
+    const Workplace place;
+    place.write_room();
+    const std::string command = "solve room.obj --size 64x48 --seed 3 ";
+    REQUIRE(place.hemilux(command + "-t 1 -o 1.png --stats 1.json").code == 0);
+    REQUIRE(place.hemilux(command + "-t 2 -o 2.png --stats 2.json -q").code == 0);
+    CHECK(place.read("1.png") == place.read("2.png"));
+    CHECK(statistic(place.read("1.json"), "estimated_error") ==
+          statistic(place.read("2.json"), "estimated_error"));
+}
+
 TEST_CASE("a time limit is of the division and the solution together") {
     const Workplace place;
     place.write_room();
@@ -126,10 +177,7 @@ TEST_CASE("--divide takes a length as --max-edge does, and not both") {
     place.write_room();
     REQUIRE(place.hemilux("solve room.obj --divide .2 -q -o a.csv").code == 0);
     REQUIRE(place.hemilux("solve room.obj --max-edge .2 -q -o b.csv").code == 0);
-    REQUIRE(place.hemilux("solve room.obj --divide none -q -o c.csv").code == 0);
-    REQUIRE(place.hemilux("solve room.obj -q -o d.csv").code == 0);
     CHECK(place.read("a.csv") == place.read("b.csv"));
-    CHECK(place.read("c.csv") == place.read("d.csv"));
     const auto both = place.hemilux("solve room.obj --divide auto --max-edge .2 -o e.csv");
     CHECK(both.code == 1);
     for (const std::string wrong : {"0", "-1", "fine", "nan"}) {

@@ -56,6 +56,7 @@ TEST_CASE("statistics are the JSON object of the contract, in its order") {
   "bytes_peak": 1048576,
   "estimated_error": null,
   "estimated_error_uncertainty": null,
+  "estimated_error_of": "patches",
   "error_sampling": null,
   "error_division": null,
   "error_division_uncertainty": null,

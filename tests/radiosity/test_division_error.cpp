@@ -74,6 +74,14 @@ DivisionError division_error_of(const Model& model, const Solution& solution, st
                           never);
 }
 
+DivisionError gathered_error_of(const Model& model, const Solution& solution, std::uint64_t seed,
+                                double negligible = .01) {
+    const StopFlag never;
+    return gathered_error(model.mesh, model.bvh, solution, true,
+                          {.seed = seed, .most_rays = 1'000'000, .negligible = negligible},
+                          Workers(0), never);
+}
+
 } // namespace
 
 TEST_CASE("the error of a division is that against light in closed form") {
@@ -241,4 +249,52 @@ TEST_CASE("the errors of patches add up to that of the division") {
     StopFlag interrupted;
     interrupted = true;
     CHECK(patch_error_levels(model.mesh, model.bvh, solution, 1, Workers(0), interrupted).empty());
+}
+
+TEST_CASE("gathered light is off by what patches are, less a reflection") {
+    // Each wall of the closed box gives out 1, so all have radiosity 1 / (1 - rho).
+    const double rho = GENERATE(.3, .6);
+    const Model model(test::furnace_box(2, rho), {});
+    const double right = 1 / (1 - rho), off = .2;
+    Solution solution = test::solve(model, *find_method("stored-transport"), {},
+                                    {.steps = 1, .seconds = {}, .error = {}});
+    std::ranges::fill(solution.radiosity, Vec3((1 + off) * right));
+    const double expected = rho * off * right / ((1 + off) * right - 1);
+    double mean_square = 0;
+    constexpr int seeds = 8;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const DivisionError found = gathered_error_of(model, solution, seed);
+        // Relative to the light as it is, which differs from the solution by the error.
+        const double relative = expected / std::hypot(1, expected);
+        CHECK(std::abs(found.error - relative) < 4 * found.uncertainty + .01);
+        mean_square += found.error * found.error / seeds;
+    }
+    CHECK(std::sqrt(mean_square) == Approx(expected / std::hypot(1, expected)).epsilon(.1));
+}
+
+TEST_CASE("where gathered light is right, its error is said to be no less than it is known to be") {
+    const Model model(test::furnace_box(2, .5), {});
+    Solution solution = test::solve(model, *find_method("stored-transport"), {},
+                                    {.steps = 1, .seconds = {}, .error = {}});
+    std::ranges::fill(solution.radiosity, Vec3(2));
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const DivisionError found = gathered_error_of(model, solution, seed, .02);
+        CHECK(found.error < .04);
+        CHECK(found.error > 0);
+        CHECK(found.uncertainty <= 1.0001 * found.error);
+    }
+}
+
+TEST_CASE("gathered light holds more of what varies within patches the coarser they are") {
+    const Model coarse(test::room_with_block(), {}), fine(test::room_with_block(), {.max_edge = .15});
+    const auto error = [](const Model& model) {
+        const Solution solution = test::solve(model, *find_method("stored-transport"), {},
+                                              {.steps = {}, .seconds = {}, .error = .01});
+        double sum = 0;
+        constexpr int seeds = 4;
+        for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+            sum += gathered_error_of(model, solution, seed, .005).error / seeds;
+        return sum;
+    };
+    CHECK(error(coarse) > 2 * error(fine));
 }

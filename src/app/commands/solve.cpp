@@ -79,6 +79,8 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
     statistics.estimated_error_uncertainty =
         statistics.estimated_error * error_spread(mesh, solution).uncertainty();
     statistics.target = settings.target.names();
+    if (!statistics.target.empty())
+        statistics.estimated_error_of = ErrorOf::target;
     statistics.estimated_error_elsewhere = estimated_error_elsewhere(mesh, solution);
     statistics.energy = solution.energy;
 }
@@ -226,6 +228,7 @@ void SolveRun::read_scene() {
     points_ = points_of(settings_);
     loaded_ = load_mesh(settings_.scene, files, settings_.options, methods, settings_.verbosity,
                         bytes_of_outputs());
+    settings_.divide_auto |= divides_by_default(settings_, mesh().patches().size());
     check_distances(settings_, points_, mesh());
     if (!settings_.report.empty() ||
         std::ranges::any_of(settings_.outputs, is_picture, &Output::kind))

@@ -19,8 +19,15 @@ namespace {
 /// What stored transport takes, and the patch with its outputs.
 constexpr std::uint64_t bytes_of_patch = 16'384;
 
+/// Where division was not asked for it ends here: some hundred megabytes, some seconds.
+constexpr std::size_t most_patches_by_default = 20'000;
+
 /// Of the time of a run that the division may take.
 constexpr double share_of_time = .5;
+
+/// Where light is gathered, what sampling may leave on patches: at first, as gathers average over
+/// them; and of the whole error at last, a sixth of its square.
+constexpr double first_sampling_of_gathered = .05, sampling_of_gathered = .4;
 
 /// So often the division goes on where the whole error is too large still.
 constexpr unsigned most_attempts = 8;
@@ -28,6 +35,9 @@ constexpr unsigned most_attempts = 8;
 /// Rays to find out the error of the division: of all before, at most one in so many; where patches
 /// were divided by rays the second.
 constexpr std::uint64_t share_of_rays = 2, share_of_divided = 5;
+
+/// Of the whole error asked for, what the error of gathered light is found out to.
+constexpr double share_of_gathered = 1. / 3;
 
 std::string round_text(const DivisionRound& round) {
     return "division: " + counted(round.patches, "patch", "patches") + ", within them the light " +
@@ -38,10 +48,13 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
     AdaptiveDivision division{.error = division_share * whole_error(settings),
                               .seed = settings.options.seed,
                               .threads = settings.options.threads};
+    if (settings.divide == Divide::by_default)
+        division.most_patches = most_patches_by_default;
     if (settings.scene.memory) {
         division.memory = *settings.scene.memory / 2;
         division.most_patches =
-            std::max<std::size_t>(patches, *settings.scene.memory / bytes_of_patch);
+            std::clamp<std::size_t>(*settings.scene.memory / bytes_of_patch, patches,
+                                    std::max(patches, division.most_patches));
     }
     return division;
 }
@@ -53,6 +66,7 @@ class AutoDivision {
                  const BeginSolver& begin, Statistics& statistics)
         : settings_(settings), mesh_(mesh), input_(input), begin_(begin), statistics_(statistics),
           options_(division_of(settings, mesh.patches().size())), whole_(whole_error(settings)),
+          is_gathered_(gives_gathered_light(settings)),
           is_own_(settings.method == &method_of(Role::standard) && !settings.plain) {}
 
     [[nodiscard]] Divided divide();
@@ -60,12 +74,14 @@ class AutoDivision {
   private:
     /// The light of the mesh as it is: by the run to come, where that is of the standard method.
     void run_to(double error, const StopRule& most);
-    [[nodiscard]] DivisionError error_of(const Solution& light, std::uint64_t most_rays,
-                                         double negligible, std::span<const double> square);
+    /// How far the light that is given out is off: of the division alone, or all that is off in
+    /// light that is gathered.
+    void measure(std::uint64_t most_rays, double negligible, std::span<const double> square);
+    void begin_gathered();
     void divide_once(Division& division);
     void divide_until_enough();
     /// Whether the whole error is as asked for; else less is left to what has the larger part.
-    [[nodiscard]] bool is_enough(double division, double sampling);
+    [[nodiscard]] bool is_enough(double sampling);
     [[nodiscard]] bool is_over() const {
         return input_.monitor.interrupted || divided_.rough.steps == 0;
     }
@@ -78,7 +94,7 @@ class AutoDivision {
     Statistics& statistics_;
     AdaptiveDivision options_;
     double whole_;
-    bool is_own_;
+    bool is_gathered_, is_own_;
     std::uint64_t gathers_ = 0;
     double seconds_of_errors_ = 0;
     bool divides_ = true; ///< in the next attempt
@@ -111,24 +127,46 @@ void AutoDivision::forget_run() {
     divided_.before = {};
 }
 
-DivisionError AutoDivision::error_of(const Solution& light, std::uint64_t most_rays,
-                                     double negligible, std::span<const double> square) {
+void AutoDivision::measure(std::uint64_t most_rays, double negligible,
+                           std::span<const double> square) {
     const Stopwatch watch;
+    const DivisionErrorOptions options{
+        .seed = hash_words({settings_.options.seed, 4, gathers_++}),
+        .most_rays = most_rays,
+        .negligible = is_gathered_ ? share_of_gathered * whole_ : negligible,
+        .square = is_gathered_ ? std::span<const double>() : square};
+    const Workers workers(settings_.options.threads);
     const DivisionError found =
-        division_error(mesh_, input_.tracer, light,
-                       {.seed = hash_words({settings_.options.seed, 4, gathers_++}),
-                        .most_rays = most_rays,
-                        .negligible = negligible,
-                        .square = square},
-                       Workers(settings_.options.threads), input_.monitor.interrupted);
+        is_gathered_ ? gathered_error(mesh_, input_.tracer, divided_.rough, gathers_near(settings_),
+                                      options, workers, input_.monitor.interrupted)
+                     : division_error(mesh_, input_.tracer, divided_.rough, options, workers,
+                                      input_.monitor.interrupted);
+    (is_gathered_ ? divided_.gathered : divided_.error) = found;
     statistics_.rays_division_error += found.rays;
     seconds_of_errors_ += watch.seconds();
-    return found;
+}
+
+/// Light on patches may vary so much as it does on those that there are, but for what gathered
+/// light is to gain.
+void AutoDivision::begin_gathered() {
+    options_.error = division_error(mesh_, input_.tracer, divided_.rough,
+                                    {.seed = hash_words({settings_.options.seed, 6})},
+                                    Workers(settings_.options.threads), input_.monitor.interrupted)
+                         .error;
+    (void)is_enough(0);
 }
 
 /// What is left is aimed at with some room, as what was found is known to a tenth.
-bool AutoDivision::is_enough(double division, double sampling) {
+bool AutoDivision::is_enough(double sampling) {
     constexpr double safe = .9, least_sampling = .6, least_step = .5, most_step = .9;
+    if (is_gathered_) { // which falls faster than the error of patches
+        const double step =
+            std::clamp(std::sqrt(safe * whole_ / divided_.gathered->error), least_step, most_step);
+        options_.error *= step;
+        divided_.sampling = std::max(step * *divided_.sampling, sampling_of_gathered * whole_);
+        return divided_.gathered->error <= whole_;
+    }
+    const double division = divided_.error->error;
     if (std::hypot(division, sampling) <= whole_)
         return true;
     const auto left = [&](double other) {
@@ -167,10 +205,9 @@ void AutoDivision::divide_until_enough() {
         statistics_.rays_divide += division.add_slopes(divided_.rough, options_.error);
         const double sampling = estimated_error(mesh_, divided_.rough);
         const std::uint64_t rays = divided_.rough.rays_energy + statistics_.rays_divide;
-        divided_.error =
-            error_of(divided_.rough, rays / share_of_divided, sampling / 2, division.squares());
+        measure(rays / share_of_divided, sampling / 2, division.squares());
         const bool is_limited = !(sampling <= *divided_.sampling); // by rays or steps
-        if (is_over() || is_enough(divided_.error->error, sampling) || is_limited)
+        if (is_over() || is_enough(sampling) || is_limited)
             break;
         division.doubt();
     }
@@ -179,19 +216,34 @@ void AutoDivision::divide_until_enough() {
 
 Divided AutoDivision::divide() {
     const Stopwatch watch;
+    StopRule rough = rough_stop(options_, mesh_.patches().size());
     divided_.sampling = sampling_share * whole_;
-    const StopRule rough = rough_stop(options_, mesh_.patches().size());
+    if (is_gathered_)
+        divided_.sampling = rough.error =
+            std::max(first_sampling_of_gathered, sampling_of_gathered * whole_);
     run_to(*rough.error, rough);
     if (!is_over()) {
         const double most = division_share * whole_;
-        divided_.error = error_of(divided_.rough, 0, most, {});
-        divided_.linear = divided_.error->error > most;
+        measure(0, most, {});
+        divided_.linear =
+            is_gathered_ ? divided_.gathered->error > whole_ : divided_.error->error > most;
     }
+    if (is_gathered_ && mesh_.patches().size() >= options_.most_patches) {
+        // Less than half of what is off is not worth its rays.
+        if (divided_.linear)
+            divided_.sampling =
+                std::clamp(.5 * divided_.gathered->error, sampling_of_gathered * whole_,
+                           *divided_.sampling);
+        divided_.linear = false;
+    }
+    if (is_gathered_ && divided_.linear)
+        begin_gathered();
     if (divided_.linear)
         divide_until_enough();
     if (!is_own_) {
         forget_run();
         divided_.error.reset();
+        divided_.gathered.reset();
     }
     if (divided_.begun)
         divided_.rough = {}; // which has it
@@ -202,9 +254,31 @@ Divided AutoDivision::divide() {
 
 } // namespace
 
+bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
+    return settings.divide == Divide::by_default &&
+           (patches < most_patches_by_default || gives_gathered_light(settings)) &&
+           settings.method == &method_of(Role::standard) && !settings.plain &&
+           settings.scene.mesh.max_edge == 0 && settings.target.names().empty() &&
+           !settings.stop.steps && !settings.every_step && settings.reference.empty() &&
+           settings.checkpoint.path.empty() && settings.checkpoint.resumed.empty();
+}
+
 double whole_error(const SolveSettings& settings) {
-    constexpr double usual = .05;
-    return settings.stop.error.value_or(usual);
+    constexpr double usual = .05, usual_gathered = .02;
+    return settings.stop.error.value_or(gives_gathered_light(settings) ? usual_gathered : usual);
+}
+
+bool gathers_near(const SolveSettings& settings) {
+    return std::ranges::any_of(settings.outputs, is_picture, &Output::kind);
+}
+
+bool gives_gathered_light(const SolveSettings& settings) {
+    const bool is_of_patches =
+        !settings.error_map.empty() || !settings.report.empty() ||
+        !std::ranges::all_of(settings.outputs, is_picture, &Output::kind);
+    const bool pictures = !settings.outputs.empty() && settings.gather_pictures;
+    return !is_of_patches && (settings.outputs.empty() || pictures) &&
+           (pictures || !settings.points.path.empty());
 }
 
 std::uint64_t default_max_rays(std::size_t patches) {
@@ -234,39 +308,58 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
     statistics.error_sampling = statistics.estimated_error;
     if (!solution.weight.empty()) // all that was not asked for is too rough to tell
         return;
-    const bool is_known = divided.error && solution.steps == divided.before.steps;
-    if (!is_known && (solution.steps == 0 || interrupted)) {
+    const bool gathered = settings.divide_auto && gives_gathered_light(settings);
+    const bool is_same = solution.steps == divided.before.steps;
+    const bool is_known = is_same && divided.error, is_gathered_known = is_same && divided.gathered;
+    if (settings.divide_auto)
+        statistics.estimated_error_of = gathered ? ErrorOf::gathered : ErrorOf::surfaces;
+    if (!(is_known || is_gathered_known) && (solution.steps == 0 || interrupted)) {
         if (settings.divide_auto) // the whole error is not known
             statistics.estimated_error = statistics.estimated_error_uncertainty =
                 std::numeric_limits<double>::quiet_NaN();
         return;
     }
-    DivisionError found;
-    if (is_known)
-        found = *divided.error;
-    else {
-        const Stopwatch watch;
-        found = division_error(
-            mesh, tracer, solution,
-            {.seed = hash_words({settings.options.seed, 1}),
-             .most_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
-                          share_of_rays,
-             .negligible = statistics.error_sampling / 2},
-            Workers(settings.options.threads), interrupted);
+    const Stopwatch watch;
+    const Workers workers(settings.options.threads);
+    const auto options = [&](std::uint64_t number, double negligible) {
+        return DivisionErrorOptions{
+            .seed = hash_words({settings.options.seed, number}),
+            .most_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
+                         share_of_rays,
+            .negligible = negligible};
+    };
+    const auto count = [&](const DivisionError& found) {
         statistics.rays_division_error += found.rays;
+        return found;
+    };
+    const DivisionError found =
+        is_known ? *divided.error
+                 : count(division_error(mesh, tracer, solution,
+                                        options(1, statistics.error_sampling / 2), workers,
+                                        interrupted));
+    statistics.error_division = found.error;
+    statistics.error_division_uncertainty = found.uncertainty;
+    if (gathered) {
+        const DivisionError all =
+            is_gathered_known
+                ? *divided.gathered
+                : count(gathered_error(mesh, tracer, solution, gathers_near(settings),
+                                       options(5, share_of_gathered * whole_error(settings)),
+                                       workers, interrupted));
+        statistics.estimated_error = all.error;
+        statistics.estimated_error_uncertainty = all.uncertainty;
+    } else if (settings.divide_auto) {
+        const double whole = std::hypot(statistics.error_sampling, found.error);
+        statistics.estimated_error_uncertainty =
+            std::hypot(statistics.error_sampling * statistics.estimated_error_uncertainty,
+                       found.error * found.uncertainty) /
+            whole;
+        statistics.estimated_error = whole;
+    }
+    if (!is_known) {
         const double before = statistics.seconds_division_error;
         statistics.seconds_division_error = (before > 0 ? before : 0) + watch.seconds();
     }
-    statistics.error_division = found.error;
-    statistics.error_division_uncertainty = found.uncertainty;
-    if (!settings.divide_auto)
-        return;
-    const double whole = std::hypot(statistics.error_sampling, found.error);
-    statistics.estimated_error_uncertainty =
-        std::hypot(statistics.error_sampling * statistics.estimated_error_uncertainty,
-                   found.error * found.uncertainty) /
-        whole;
-    statistics.estimated_error = whole;
 }
 
 std::string whole_error_note(const SolveSettings& settings, const Statistics& statistics) {
@@ -274,10 +367,16 @@ std::string whole_error_note(const SolveSettings& settings, const Statistics& st
     if (!settings.divide_auto || !is_asked || statistics.estimated_error <= whole_error(settings) ||
         !std::isfinite(statistics.error_division))
         return "";
+    const std::string options =
+        settings.divide == Divide::by_default ? "--divide auto" : "--memory, --time";
+    if (statistics.estimated_error_of == ErrorOf::gathered)
+        return "the run ended before the error of " + percent(whole_error(settings)) +
+               " of gathered light was reached, which more patches (" + options +
+               ") and more rays (--max-rays, --time) make less";
     const bool of_division = statistics.error_division > statistics.error_sampling;
     return "the run ended before the whole error of " + percent(whole_error(settings)) +
            " was reached; most of what is left is of " +
-           (of_division ? "the division, which more patches (--memory, --time) make less"
+           (of_division ? "the division, which more patches (" + options + ") make less"
                         : "sampling, which more rays (--max-rays, --time) make less");
 }
 

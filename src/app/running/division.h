@@ -17,8 +17,18 @@ namespace hemilux {
 /// and which by sampling, at first.
 inline constexpr double division_share = .7, sampling_share = .5;
 
+/// Whether a plain run on so many patches divides them: where the method is the standard one, and
+/// what was asked for says nothing of patches or single steps.
+[[nodiscard]] bool divides_by_default(const SolveSettings& settings, std::size_t patches);
+
 /// The whole error that a run with --divide auto is to reach.
 [[nodiscard]] double whole_error(const SolveSettings& settings);
+
+/// Whether all light that is given out is gathered at points or for pictures, none as patches have
+/// it. The whole error is then that of gathered light.
+[[nodiscard]] bool gives_gathered_light(const SolveSettings& settings);
+/// Whether it is gathered for pictures, whose rays read the patches that they meet however near.
+[[nodiscard]] bool gathers_near(const SolveSettings& settings);
 
 /// A run to an error ends at a number of rays at the latest, if nothing else ends it.
 [[nodiscard]] std::uint64_t default_max_rays(std::size_t patches);
@@ -40,6 +50,8 @@ struct Divided {
     std::optional<double> sampling = {};
     /// The error of the division, if that run does not go on.
     std::optional<DivisionError> error = {};
+    /// In its place the error of gathered light, where that is given out.
+    std::optional<DivisionError> gathered = {};
 };
 
 using BeginSolver = std::function<std::unique_ptr<Solver>()>;

@@ -41,7 +41,10 @@ std::string errors_text(const Statistics& s) {
         return error;
     const std::string division =
         percent(s.error_division) + ", give or take " + percent(s.error_division_uncertainty);
-    if (s.estimated_error != s.error_sampling)
+    if (s.estimated_error_of == ErrorOf::gathered)
+        return error + ", of light gathered from the patches, whose own errors are: sampling " +
+               percent(s.error_sampling) + ", division " + division;
+    if (s.estimated_error_of == ErrorOf::surfaces)
         return error + ", of the light on the surfaces: sampling " + percent(s.error_sampling) +
                ", division " + division;
     return error + ", of the patches' mean light\nwithin patches the light differs by " + division +

@@ -10,6 +10,20 @@
 namespace hemilux {
 namespace {
 
+const char* name_of(ErrorOf what) {
+    switch (what) {
+    case ErrorOf::surfaces:
+        return "surfaces";
+    case ErrorOf::gathered:
+        return "gathered";
+    case ErrorOf::target:
+        return "target";
+    case ErrorOf::patches:
+        break;
+    }
+    return "patches";
+}
+
 using Json = nlohmann::ordered_json;
 
 Json channels(const Vec3& power) { return Json::array({power.x, power.y, power.z}); }
@@ -58,6 +72,7 @@ Json to_object(const Statistics& s) {
                    {"bytes_peak", s.bytes_peak},
                    {"estimated_error", s.estimated_error},
                    {"estimated_error_uncertainty", s.estimated_error_uncertainty},
+                   {"estimated_error_of", name_of(s.estimated_error_of)},
                    {"error_sampling", s.error_sampling},
                    {"error_division", s.error_division},
                    {"error_division_uncertainty", s.error_division_uncertainty},

@@ -17,6 +17,11 @@ struct GivenOption {
     std::vector<std::string> values; ///< none: a flag
 };
 
+/// Of what light the estimated error is: of the patches' means; of the light on the surfaces, as
+/// functions on patches have it; of the light that is gathered at points or for pictures; of that
+/// on the target of --for.
+enum class ErrorOf { patches, surfaces, gathered, target };
+
 struct Statistics {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); ///< JSON: null
 
@@ -45,9 +50,8 @@ struct Statistics {
     std::uint64_t links = 0;               ///< that `hierarchical` gathers over
     std::uint64_t bytes_density_paper = 0; ///< 4 (4^(n+1) - 1) / 3 per patch (paper section 6)
     std::uint64_t bytes_peak = 0;          ///< of the process
-    /// The relative error of the light on the surfaces where patches are divided as the light asks
-    /// for; else that of the patches' means.
-    double estimated_error = unknown;
+    double estimated_error = unknown; ///< relative; of what: see ErrorOf
+    ErrorOf estimated_error_of = ErrorOf::patches;
     double estimated_error_uncertainty = unknown; ///< one sigma; NaN before two steps
     /// The groups, points or camera that the estimated error is of, as they were asked for; empty:
     /// all patches alike. Where there are any, the error of all that has no weight stands beside

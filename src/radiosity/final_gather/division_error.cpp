@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -20,7 +21,19 @@ namespace hemilux {
 namespace {
 
 /// Rounds of points: many, since the spread of a few would end them when it happens to be small.
-constexpr std::size_t points_per_round = 64, least_rounds = 16;
+constexpr std::size_t least_rounds = 16;
+
+/// What depends on how the error varies over the surfaces: of patches few hold most of it, that of
+/// gathered light is much the same everywhere.
+struct Manner {
+    std::size_t points_per_round;
+    /// Noise of a gather beside the error that it is to find, both squared.
+    double noise_beside_error;
+    /// Whether a few points say how long gathers are to be. Where their noise hides the error, what
+    /// is negligible says it.
+    bool by_first_points;
+};
+constexpr Manner of_patches{64, 4, true}, of_gathered{16, 16, false};
 
 /// By which the length of gathers is chosen.
 constexpr std::size_t first_rounds = 4;
@@ -52,19 +65,20 @@ struct Products {
     double noise = 0; ///< of (g1 - g2)^2 / 2
 };
 
-Products products_over_surface(const Mesh& mesh, const Solution& solution, FinalGather& gather,
-                               const PointsOverSurface& surface, std::uint64_t seed,
-                               const Workers& workers, const StopFlag& interrupted) {
+/// By how much B is off at a point, from one gather there [W/m2].
+using OffAt = std::function<Vec3(const PatchPoint& point, const Vec3& gathered)>;
+
+Products products_over_surface(const Mesh& mesh, const OffAt& off_at, FinalGather& gather,
+                               const PointsOverSurface& surface, std::size_t count,
+                               std::uint64_t seed, const Workers& workers,
+                               const StopFlag& interrupted) {
     const auto [points, irradiance] =
-        gather_twice(surface, gather, points_per_round, seed, workers, interrupted);
+        gather_twice(surface, gather, count, seed, workers, interrupted);
     Products sums;
     for (std::size_t k = 0; k < points.size(); ++k) {
-        const Material& material = mesh.material(points[k].patch);
-        const Vec3 reflected =
-            radiosity_at(mesh, solution, points[k].patch, points[k].at.position) -
-            material.emission;
-        const Vec3 off1 = material.reflectance * irradiance[2 * k] - reflected;
-        const Vec3 off2 = material.reflectance * irradiance[2 * k + 1] - reflected;
+        const Vec3& rho = mesh.material(points[k].patch).reflectance;
+        const Vec3 off1 = off_at(points[k], rho * irradiance[2 * k]);
+        const Vec3 off2 = off_at(points[k], rho * irradiance[2 * k + 1]);
         sums.error += points[k].area * glm::dot(off1, off2);
         sums.noise += points[k].area * .5 * glm::dot(off1 - off2, off1 - off2);
     }
@@ -87,9 +101,9 @@ std::vector<double> density_of_points(const Mesh& mesh, std::span<const double> 
 /// How long gathers are to be, in units of the shortest. The variance of a product is about
 /// (error^2 + noise^2 / length)^2, so that long ones know a small error sooner than many short
 /// ones; more points are needed anyway, as the error is not the same everywhere.
-unsigned length_of_gathers(double error_square, double noise_square) {
-    constexpr double noise_beside_error = 4, longest = 64;
-    const double length = noise_square / (noise_beside_error * error_square);
+unsigned length_of_gathers(double error_square, double noise_square, const Manner& manner) {
+    const double longest = 4096.0 / double(manner.points_per_round);
+    const double length = noise_square / (manner.noise_beside_error * error_square);
     return static_cast<unsigned>(std::clamp(std::round(length), 1.0, longest));
 }
 
@@ -127,6 +141,45 @@ void set_error(DivisionError& result, const Rounds& rounds, const OtherError& ot
     result.uncertainty = relative(square + sigma) - result.error;
 }
 
+DivisionError error_at_points(const Mesh& mesh, double size, const OffAt& off_at,
+                              FinalGather& gather, const OtherError& other, const Manner& manner,
+                              const DivisionErrorOptions& options, const Workers& workers,
+                              const StopFlag& interrupted) {
+    DivisionError result;
+    const double negligible = options.negligible * options.negligible;
+    const PointsOverSurface surface(mesh, density_of_points(mesh, options.square));
+    const auto products = [&](std::uint64_t number) {
+        const Products sums =
+            products_over_surface(mesh, off_at, gather, surface,
+                                  manner.points_per_round, hash_words({options.seed, number}),
+                                  workers, interrupted);
+        return Products{sums.error / size, sums.noise / size};
+    };
+    Rounds first, noise;
+    for (std::size_t k = 0; k < first_rounds && !interrupted; ++k) {
+        const Products found = products(k);
+        first.add(found.error);
+        noise.add(found.noise);
+    }
+    const double expected =
+        std::max({manner.by_first_points ? first.mean() : 0, other.square, negligible});
+    gather.set_rounds(length_of_gathers(expected, noise.mean(), manner));
+    Rounds rounds;
+    while (rounds.count < least_rounds || gather.rays() < options.most_rays) {
+        const double product = products(first_rounds + rounds.count).error;
+        if (interrupted)
+            return result;
+        rounds.add(product);
+        const double enough = std::max(well_known * (rounds.mean() - other.square), negligible);
+        if (rounds.count >= least_rounds && rounds.uncertainty() <= enough)
+            break;
+    }
+    set_error(result, rounds, other);
+    result.points = rounds.count * manner.points_per_round;
+    result.rays = gather.rays();
+    return result;
+}
+
 } // namespace
 
 double reflected_square(const Mesh& mesh, const Solution& solution) {
@@ -141,43 +194,33 @@ double reflected_square(const Mesh& mesh, const Solution& solution) {
 DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
                              const DivisionErrorOptions& options, const Workers& workers,
                              const StopFlag& interrupted) {
-    DivisionError result;
     const double size = reflected_square(mesh, solution);
     if (!(size > 0))
-        return result;
+        return {};
     FinalGather gather(mesh, tracer, solution);
     const double known = seen_variance(mesh, solution) / size;
     const double freedom = std::max(error_spread(mesh, solution).freedom, 1.0);
-    const double negligible = options.negligible * options.negligible;
-    const PointsOverSurface surface(mesh, density_of_points(mesh, options.square));
-    const auto products = [&](std::uint64_t number) {
-        const Products sums =
-            products_over_surface(mesh, solution, gather, surface,
-                                  hash_words({options.seed, number}), workers, interrupted);
-        return Products{sums.error / size, sums.noise / size};
+    const OffAt off_at = [&](const PatchPoint& point, const Vec3& gathered) {
+        return gathered - (radiosity_at(mesh, solution, point.patch, point.at.position) -
+                           mesh.material(point.patch).emission);
     };
-    Rounds first, noise;
-    for (std::size_t k = 0; k < first_rounds && !interrupted; ++k) {
-        const Products found = products(k);
-        first.add(found.error);
-        noise.add(found.noise);
-    }
-    const double least = std::max(known, negligible);
-    gather.set_rounds(length_of_gathers(std::max(first.mean(), least), noise.mean()));
-    Rounds rounds;
-    while (rounds.count < least_rounds || gather.rays() < options.most_rays) {
-        const double product = products(first_rounds + rounds.count).error;
-        if (interrupted)
-            return result;
-        rounds.add(product);
-        const double enough = std::max(well_known * (rounds.mean() - known), negligible);
-        if (rounds.count >= least_rounds && rounds.uncertainty() <= enough)
-            break;
-    }
-    set_error(result, rounds, {known, known * std::sqrt(2 / freedom)});
-    result.points = rounds.count * points_per_round;
-    result.rays = gather.rays();
-    return result;
+    return error_at_points(mesh, size, off_at, gather, {known, known * std::sqrt(2 / freedom)},
+                           of_patches, options, workers, interrupted);
+}
+
+DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                             bool reads_near, const DivisionErrorOptions& options,
+                             const Workers& workers, const StopFlag& interrupted) {
+    const double size = reflected_square(mesh, solution);
+    if (!(size > 0))
+        return {};
+    FinalGather gather(mesh, tracer, solution);
+    gather.find_missing(reads_near);
+    const OffAt off_at = [](const PatchPoint&, const Vec3& missing) { return missing; };
+    DivisionError found = error_at_points(mesh, size, off_at, gather, {}, of_gathered, options,
+                                          workers, interrupted);
+    found.error = std::max(found.error, found.uncertainty); // which it may be
+    return found;
 }
 
 std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,

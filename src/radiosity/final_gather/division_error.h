@@ -43,6 +43,17 @@ struct DivisionErrorOptions {
     std::span<const double> square = {};
 };
 
+/// The error of light that is gathered from the solution, as pictures and --points show it. At such
+/// points it is how much what reaches them from other patches is off: product of two independent
+/// differences between paths of rays, which read no patch, and gathers (the two-bounce form of the
+/// above). So it holds all of the error, that of sampling too, and is smaller by a reflection than
+/// that of the patches, whose errors average out. `reads_near`: gathers read each patch that a ray
+/// meets, as those of pictures do.
+[[nodiscard]] DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer,
+                                           const Solution& solution, bool reads_near,
+                                           const DivisionErrorOptions& options,
+                                           const Workers& workers, const StopFlag& interrupted);
+
 /// The sum over patches of area times reflected radiosity squared, to which errors are relative.
 [[nodiscard]] double reflected_square(const Mesh& mesh, const Solution& solution);
 

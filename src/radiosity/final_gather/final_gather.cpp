@@ -29,6 +29,10 @@ constexpr std::uint32_t shared_weights = 64;
 constexpr double near_sides = .5;
 constexpr unsigned most_bounces = 8;
 
+/// So many paths go on at the most where they end by chance alone: else they would not end in a
+/// closed room of reflectance 1.
+constexpr double most_kept = .9;
+
 } // namespace
 
 FinalGather::FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
@@ -93,8 +97,9 @@ void FinalGather::gather(const SurfacePoint& point, std::uint64_t seed, std::siz
                 batch.from_patch.push_back({place, Vec3(1.0 / (random_rays_ * rounds_))});
                 batch.sees_emission.push_back(any && !by_shadow_rays);
                 batch.seeds.push_back(hash_words({seed, e, round * random_rays_ + k}));
+                batch.in_gather.push_back(find_ != Find::light);
             }
-            if (by_shadow_rays)
+            if (by_shadow_rays && find_ == Find::light)
                 add_shadow_rays(point, numbers, 0, shadow_rays_, shadow_rays_ * rounds_, place,
                                 batch);
         }
@@ -141,30 +146,55 @@ void FinalGather::weigh(const SurfacePoint& point, Batch& batch) const {
     batch.weighed = point.patch;
 }
 
+bool FinalGather::is_near(const Met& met, unsigned bounce) const {
+    return find_ != Find::missing_however_near && bounce < most_bounces &&
+           met.distance * met.distance < near_sides * near_sides * mesh_.patches()[met.patch].area;
+}
+
+bool FinalGather::end_ray(const Batch& batch, const Met& met, unsigned bounce,
+                          std::span<Vec3> found) const {
+    const Material& material = mesh_.material(met.patch);
+    const bool reflects = material.reflectance != Vec3(0.0);
+    const bool near = reflects && is_near(met, bounce);
+    const auto sent = [&] { return radiosity_at(mesh_, light_, met.patch, met.point); };
+    const auto& [place, share] = batch.from_patch[met.ray];
+    if (find_ == Find::light) {
+        const Vec3 light = near ? material.emission : sent();
+        found[place] += share * (light - left_out_of(batch, met.ray, met.patch));
+        return near;
+    }
+    if (!batch.in_gather[met.ray])
+        found[place] += share * (material.emission - left_out_of(batch, met.ray, met.patch));
+    else if (!near)
+        found[place] -= share * (sent() - material.emission);
+    return reflects;
+}
+
 /// One ray at random, and one to an emitter where such are taken, of a path that goes on.
-void FinalGather::go_on(const Batch& from, std::size_t ray, std::uint32_t patch, const Vec3& point,
-                        Batch& next) const {
-    const std::uint64_t seed = from.seeds[ray];
-    const Patch& on = mesh_.patches()[patch];
-    const auto& [place, share] = from.from_patch[ray];
-    // Russian roulette (Arvo and Kirk 1990) keeps the paths in narrow gaps short.
+void FinalGather::go_on(const Batch& from, const Met& met, bool in_gather, Batch& next) const {
+    const std::uint64_t seed = from.seeds[met.ray];
+    const Patch& on = mesh_.patches()[met.patch];
+    const auto& [place, share] = from.from_patch[met.ray];
+    // Russian roulette (Arvo and Kirk 1990) keeps the paths in narrow gaps and bright rooms short.
     const Vec3& rho = mesh_.material(on).reflectance;
-    const double kept = std::max({rho.x, rho.y, rho.z});
+    const double kept =
+        std::min(std::max({rho.x, rho.y, rho.z}), find_ == Find::light ? 1 : most_kept);
     if (Rng(hash_words({seed, 2})).uniform() >= kept)
         return;
     const Vec3 light = share * rho / kept;
-    const SurfacePoint at{point, on.normal, on.facet, patch};
+    const SurfacePoint at{met.point, on.normal, on.facet, met.patch};
     Rng rng(seed);
-    const bool any = !emitters_.empty();
+    const bool any = !in_gather && !emitters_.empty();
     if (any)
         weigh(at, next);
     const bool by_shadow_rays = any && !next.cut.dark() && next.cut.pays();
-    Ray further{point, Frame::from_normal(on.normal).to_world(sample_cosine(rng))};
+    Ray further{met.point, Frame::from_normal(on.normal).to_world(sample_cosine(rng))};
     further.from = on.facet;
     next.random.push_back(further);
     next.from_patch.push_back({place, light});
     next.sees_emission.push_back(any && !by_shadow_rays);
     next.seeds.push_back(hash_words({seed, 1}));
+    next.in_gather.push_back(in_gather);
     if (!by_shadow_rays)
         return;
     EmitterChoice::Choices choices;
@@ -175,7 +205,7 @@ void FinalGather::go_on(const Batch& from, std::size_t ray, std::uint32_t patch,
     const Emitter& emitter = emitters_[index];
     const double u = rng.uniform(), v = rng.uniform();
     Ray shadow{};
-    const double factor = look_from(point, on.normal, on.facet, emitter.side, emitter.points,
+    const double factor = look_from(met.point, on.normal, on.facet, emitter.side, emitter.points,
                                     {u, v}, emitter.near, shadow);
     if (!(factor > 0))
         return;
@@ -192,12 +222,7 @@ void FinalGather::send(Batch& batch, std::span<Vec3> found) const {
                          [&](std::uint32_t place, const Vec3& light) { found[place] += light; });
         batch.receivers.clear();
         find_receivers(batch.random, mesh_, tracer_, batch.receivers);
-        struct Near {
-            std::uint32_t patch;
-            std::size_t ray;
-            Vec3 point;
-        };
-        std::vector<Near> near;
+        std::vector<Met> further;
         for (std::size_t k = 0; k < batch.random.size(); ++k) {
             const std::uint32_t patch = batch.receivers[k];
             if (patch == escaped || patch == absorbed)
@@ -207,22 +232,15 @@ void FinalGather::send(Batch& batch, std::span<Vec3> found) const {
             const double along = glm::dot(ray.direction, on.normal);
             const double way =
                 along < 0 ? std::max(glm::dot(on.centre - ray.origin, on.normal) / along, 0.0) : 0;
-            const Vec3 point = ray.origin + way * ray.direction;
-            const Material& material = mesh_.material(on);
-            const bool goes_on = bounce < most_bounces && material.reflectance != Vec3(0.0) &&
-                                 way * way < near_sides * near_sides * on.area;
-            if (goes_on)
-                near.push_back({patch, k, point});
-            const Vec3 sent =
-                goes_on ? material.emission : radiosity_at(mesh_, light_, patch, point);
-            const auto& [place, share] = batch.from_patch[k];
-            found[place] += share * (sent - left_out_of(batch, k, patch));
+            const Met met{k, patch, ray.origin + way * ray.direction, way};
+            if (end_ray(batch, met, bounce, found))
+                further.push_back(met);
         }
         // Those on one patch after each other, as emitters are weighed for it.
-        std::ranges::stable_sort(near, {}, &Near::patch);
+        std::ranges::stable_sort(further, {}, &Met::patch);
         Batch next;
-        for (const auto& [patch, ray, point] : near)
-            go_on(batch, ray, patch, point, next);
+        for (const Met& met : further)
+            go_on(batch, met, batch.in_gather[met.ray] && is_near(met, bounce), next);
         rays_ += batch.random.size();
         if (bounce == 0)
             met_first = std::move(batch.receivers);

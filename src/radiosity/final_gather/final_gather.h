@@ -79,6 +79,11 @@ class FinalGather {
     /// From now on irradiance() also says what each cosine-distributed ray met: a patch, `escaped`
     /// or `absorbed` (receivers.h), in the order of the estimates, rounds * random_rays of each.
     void record_receivers(std::vector<std::uint32_t>& receivers) { receivers_ = &receivers; }
+    /// From now on irradiance() finds what a gather misses instead: the irradiance itself, by paths
+    /// that read no patch, less what it would be by the solution. Right on average; light straight
+    /// from emitters has no part in it, as a gather has that right. `reads_near`: as indirect(),
+    /// which reads each patch that a ray meets.
+    void find_missing(bool reads_near) { find_ = reads_near ? Find::missing_however_near : Find::missing; }
     /// Traced so far.
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
@@ -86,6 +91,7 @@ class FinalGather {
     FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light, unsigned random_rays,
                 unsigned shadow_rays, const std::vector<std::uint32_t>& emitters);
 
+    enum class Find { light, missing, missing_however_near };
     struct Emitter {
         Patch side; ///< of a whole facet
         PolygonSampler points;
@@ -104,6 +110,8 @@ class FinalGather {
         std::vector<std::uint8_t> blocked;
         std::vector<bool> sees_emission;  ///< of random rays: emitters are left to them
         std::vector<std::uint64_t> seeds; ///< of random rays, for what follows from them
+        /// Of random rays: nothing is to be found before their path has left the gather.
+        std::vector<bool> in_gather;
         EmitterChoice::Cut cut;
         std::uint32_t weighed = none; ///< the patch that the cut is of
 
@@ -120,8 +128,18 @@ class FinalGather {
                          std::uint32_t first, std::uint32_t count, std::uint32_t of,
                          std::uint32_t place, Batch& batch) const;
     void weigh(const SurfacePoint& point, Batch& batch) const;
-    void go_on(const Batch& from, std::size_t ray, std::uint32_t patch, const Vec3& point,
-               Batch& next) const;
+    /// What a random ray meets.
+    struct Met {
+        std::size_t ray; ///< in the batch
+        std::uint32_t patch;
+        Vec3 point;
+        double distance; ///< local frame
+    };
+    /// Whether a gather takes the light of a patch that is met from so near as a path.
+    [[nodiscard]] bool is_near(const Met& met, unsigned bounce) const;
+    /// Adds what is found where a ray ends. True: its path goes on.
+    bool end_ray(const Batch& batch, const Met& met, unsigned bounce, std::span<Vec3> found) const;
+    void go_on(const Batch& from, const Met& met, bool in_gather, Batch& next) const;
     [[nodiscard]] Vec3 left_out_of(const Batch& batch, std::size_t ray, std::uint32_t patch) const {
         return batch.sees_emission[ray] ? Vec3(0.0) : left_out_[patch];
     }
@@ -136,6 +154,7 @@ class FinalGather {
     PatchLight light_;
     unsigned random_rays_, shadow_rays_;
     unsigned rounds_ = 1;
+    Find find_ = Find::light;
     std::vector<std::uint32_t>* receivers_ = nullptr;
     std::vector<Vec3> left_out_; ///< by patch, what the emitters below emit
     std::vector<Patch> sides_;

@@ -236,8 +236,8 @@ void Bounces::shoot_to_balls(const Workers& workers, std::uint64_t stream, StepR
 void Bounces::shoot_to_balls(std::span<const double> rays_before, double from, double to,
                              std::uint64_t stream, BallShots& shots) const {
     const TargetBalls& balls = *task_->balls;
-    std::optional<PatchStart> memory;
-    std::size_t end = 1; // where the interval that holds the ray ends
+    std::optional<PatchStart> start; // of the last ray
+    std::size_t end = 1;             // where the interval that holds the ray ends
     if (!input_.monitor.interrupted)
         end = static_cast<std::size_t>(std::ranges::lower_bound(rays_before, from + 1) -
                                        rays_before.begin());
@@ -249,8 +249,10 @@ void Bounces::shoot_to_balls(std::span<const double> rays_before, double from, d
         const double before = whole_below(rays_before[end - 1]);
         const double here = whole_below(rays_before[end]) - before;
         const double expected = rays_before[end] - rays_before[end - 1];
+        if (!start || start->patch != patch)
+            start.emplace(input_.mesh, patch);
         const auto shot =
-            balls.draw(tools_.starts.of(patch, memory), ball,
+            balls.draw(*start, ball,
                        hash_words({stream, patch, ball, static_cast<std::uint64_t>(ray - before)}));
         if (!shot)
             continue;

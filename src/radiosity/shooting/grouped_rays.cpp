@@ -73,17 +73,15 @@ void GroupedRays::add_to_batch(RayGroup& group, std::uint32_t rays, std::uint16_
         batch_.add(key_, group.first + drawn_ + k, cell);
 }
 
-const GroupedRays::Start& GroupedRays::start_of(std::uint32_t patch) {
-    const Patch& from = source_.mesh.patches()[patch];
+const PatchStart& GroupedRays::start_of(std::uint32_t patch) {
     if (!start_ || start_->patch != patch)
-        start_ = {PolygonSampler(from.shape), source_.mesh.hemisphere_frame(patch), patch,
-                  from.facet};
+        start_.emplace(source_.mesh, patch);
     return *start_;
 }
 
 /// As printed, rays into triangles leave from the centre; those of plain Monte Carlo do not.
 void GroupedRays::fill(const Run& run, std::size_t first) {
-    const Start& start = start_of(run.patch);
+    const PatchStart& start = start_of(run.patch);
     const std::span<Ray> rays = std::span(rays_).subspan(first, run.rays);
     if (run.own != none)
         return fill_private(own_[run.own], start, first, rays);
@@ -101,7 +99,7 @@ void GroupedRays::fill(const Run& run, std::size_t first) {
                 ray.origin = source_.mesh.patches()[run.patch].centre;
 }
 
-void GroupedRays::fill_private(const OwnCell& own, const Start& start, std::size_t first,
+void GroupedRays::fill_private(const OwnCell& own, const PatchStart& start, std::size_t first,
                                std::span<Ray> rays) {
     const PrivateCell& cell = own.cell;
     const PolygonSampler part(cell.origins);

@@ -2,8 +2,7 @@
 // Draws rays that are listed: where on their patch they start, and where they go.
 
 #include "bvh/tracer.h"
-#include "geometry/frame.h"
-#include "geometry/polygon_sampler.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/shooting/strategy.h"
 
 #include <cstdint>
@@ -64,19 +63,13 @@ class GroupedRays {
         PrivateCell cell;
         std::uint32_t first; ///< the number of its first ray
     };
-    /// How rays leave a patch.
-    struct Start {
-        PolygonSampler points;
-        Frame frame; ///< Mesh::hemisphere_frame
-        std::uint32_t patch, facet;
-    };
     void list();
     void list_group(RayGroup& group, std::uint32_t rays);
     void list_private(RayGroup& group, std::uint32_t rays, const PrivateCell& own);
     void add_to_batch(RayGroup& group, std::uint32_t rays, std::uint16_t cell, double power);
-    [[nodiscard]] const Start& start_of(std::uint32_t patch);
+    [[nodiscard]] const PatchStart& start_of(std::uint32_t patch);
     void fill(const Run& run, std::size_t first);
-    void fill_private(const OwnCell& own, const Start& start, std::size_t first,
+    void fill_private(const OwnCell& own, const PatchStart& start, std::size_t first,
                       std::span<Ray> rays);
 
     RaySource source_;
@@ -90,7 +83,7 @@ class GroupedRays {
     std::vector<Run> runs_;
     std::vector<OwnCell> own_;
     DirectionBatch batch_;
-    std::optional<Start> start_; ///< of the last patch
+    std::optional<PatchStart> start_; ///< of the last patch
 };
 
 } // namespace hemilux

@@ -192,7 +192,6 @@ TargetBalls::Sights TargetBalls::look(const SolverInput& input, std::span<const 
                                       const Workers& workers) const {
     constexpr std::uint64_t stream = 0xba11; // of no step
     const Mesh& mesh = input.mesh;
-    const PatchStarts starts(mesh);
     std::vector<double> squares(times_.size()), values(times_.size());
     std::vector<std::uint64_t> rays_from(mesh.patches().size());
     Sights sights{values, values, 0};
@@ -201,15 +200,14 @@ TargetBalls::Sights TargetBalls::look(const SolverInput& input, std::span<const 
         std::vector<double> power;
         std::vector<std::size_t> place;
         std::vector<std::uint32_t> receivers;
-        std::optional<PatchStart> memory;
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
             if (!input.needs.power(i) || !(mesh.patches()[i].area > 0))
                 continue;
+            const PatchStart start(mesh, i);
             for (std::size_t k = 0; k < count(); ++k)
                 for (std::uint64_t look = 0; look < looks; ++look)
                     if (const auto shot =
-                            draw(starts.of(i, memory), k,
-                                 hash_words({input.options.seed, stream, i, k, look}))) {
+                            draw(start, k, hash_words({input.options.seed, stream, i, k, look}))) {
                         rays.push_back(shot->ray);
                         power.push_back(shot->power);
                         place.push_back(i * count() + k);

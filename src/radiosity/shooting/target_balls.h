@@ -14,7 +14,7 @@
 // Some rays look for that, and for what hides the ball, before the first step.
 
 #include "bvh/tracer.h"
-#include "radiosity/rays/patch_starts.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/sampling/workers.h"
 
 #include <cstddef>
