@@ -34,7 +34,7 @@ namespace {
 struct Settings {
     std::vector<std::string> scenes, families, asked{"0.05"};
     std::size_t seeds = 10, points = 10000, paths = 256;
-    double max_edge = 0; ///< 0: --divide auto
+    double max_edge = 0;   ///< 0: --divide auto
     bool gathered = false; ///< light gathered from the patches, in place of theirs
     unsigned threads = 0;
     bool every_run = false;
@@ -151,8 +151,7 @@ class Truth {
             streams.push_back(hash_words({7, streams.size()}));
         }
         const StopFlag never;
-        const std::vector<Vec3> light =
-            gather.irradiance(at, streams, 2, Workers(threads), never);
+        const std::vector<Vec3> light = gather.irradiance(at, streams, 2, Workers(threads), never);
         Sums sums;
         for (std::size_t k = 0; k < points_.size(); ++k) {
             const Vec3& rho = mesh.material(mesh.patch_at(points_[k].hit)).reflectance;
@@ -243,9 +242,8 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     done.division = statistics.error_division;
     done.patches = mesh.patches().size();
     const TrueError off =
-        settings.gathered
-            ? truth.error_of_gathered(mesh, *made.tracer, solution, settings.threads)
-            : truth.error_of(mesh, solution);
+        settings.gathered ? truth.error_of_gathered(mesh, *made.tracer, solution, settings.threads)
+                          : truth.error_of(mesh, solution);
     done.truth = off.value;
     done.doubt = off.uncertainty;
     return done;

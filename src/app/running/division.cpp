@@ -130,11 +130,11 @@ void AutoDivision::forget_run() {
 void AutoDivision::measure(std::uint64_t most_rays, double negligible,
                            std::span<const double> square) {
     const Stopwatch watch;
-    const DivisionErrorOptions options{
-        .seed = hash_words({settings_.options.seed, 4, gathers_++}),
-        .most_rays = most_rays,
-        .negligible = is_gathered_ ? share_of_gathered * whole_ : negligible,
-        .square = is_gathered_ ? std::span<const double>() : square};
+    const DivisionErrorOptions options{.seed = hash_words({settings_.options.seed, 4, gathers_++}),
+                                       .most_rays = most_rays,
+                                       .negligible =
+                                           is_gathered_ ? share_of_gathered * whole_ : negligible,
+                                       .square = is_gathered_ ? std::span<const double>() : square};
     const Workers workers(settings_.options.threads);
     const DivisionError found =
         is_gathered_ ? gathered_error(mesh_, input_.tracer, divided_.rough, gathers_near(settings_),
@@ -231,9 +231,8 @@ Divided AutoDivision::divide() {
     if (is_gathered_ && mesh_.patches().size() >= options_.most_patches) {
         // Less than half of what is off is not worth its rays.
         if (divided_.linear)
-            divided_.sampling =
-                std::clamp(.5 * divided_.gathered->error, sampling_of_gathered * whole_,
-                           *divided_.sampling);
+            divided_.sampling = std::clamp(.5 * divided_.gathered->error,
+                                           sampling_of_gathered * whole_, *divided_.sampling);
         divided_.linear = false;
     }
     if (is_gathered_ && divided_.linear)
@@ -275,7 +274,9 @@ bool gathers_near(const SolveSettings& settings) {
 bool gives_gathered_light(const SolveSettings& settings) {
     const bool is_of_patches =
         !settings.error_map.empty() || !settings.report.empty() ||
-        !std::ranges::all_of(settings.outputs, is_picture, &Output::kind);
+        !std::ranges::all_of(settings.outputs, [](const Output& output) {
+            return is_picture(output.kind) && output.kind != OutputKind::exr; // layers of patches
+        });
     const bool pictures = !settings.outputs.empty() && settings.gather_pictures;
     return !is_of_patches && (settings.outputs.empty() || pictures) &&
            (pictures || !settings.points.path.empty());

@@ -107,22 +107,22 @@ unsigned length_of_gathers(double error_square, double noise_square, const Manne
     return static_cast<unsigned>(std::clamp(std::round(length), 1.0, longest));
 }
 
-/// The share of the variance that shows where the points are: all of what patches err each for
-/// itself; of what they err together only what a reflection takes away, as the gathers err with
-/// them.
-double seen_share(const Mesh& mesh, const Solution& solution) {
-    const double common = 1 / std::max(error_spread(mesh, solution).freedom, 1.0);
-    const double taken_away = 1 - mean_reflectance(mesh);
-    return 1 - common + common * taken_away * taken_away;
-}
+/// The variance of the patches' values, relative to their square, in its two parts.
+struct KnownVariance {
+    double own = 0;     ///< of what patches err each for itself
+    double common = 0;  ///< of what they err together
+    double freedom = 1; ///< effective degrees of freedom
+};
 
-double seen_variance(const Mesh& mesh, const Solution& solution) {
+KnownVariance known_variance(const Mesh& mesh, const Solution& solution, double size) {
     double sum = 0;
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
         const Vec3& sigma = solution.standard_error[i];
         sum += mesh.patches()[i].area * glm::dot(sigma, sigma);
     }
-    return seen_share(mesh, solution) * solution.variance.value_or(std::isfinite(sum) ? sum : 0);
+    const double all = solution.variance.value_or(std::isfinite(sum) ? sum : 0) / size;
+    const double freedom = std::max(error_spread(mesh, solution).freedom, 1.0);
+    return {all * (1 - 1 / freedom), all / freedom, freedom};
 }
 
 /// What is not of the division, relative to the square of the patches' values as all else. One
@@ -141,6 +141,9 @@ void set_error(DivisionError& result, const Rounds& rounds, const OtherError& ot
     result.uncertainty = relative(square + sigma) - result.error;
 }
 
+/// What the gather misses is off.
+Vec3 missing_at(const PatchPoint&, const Vec3& missing) { return missing; }
+
 DivisionError error_at_points(const Mesh& mesh, double size, const OffAt& off_at,
                               FinalGather& gather, const OtherError& other, const Manner& manner,
                               const DivisionErrorOptions& options, const Workers& workers,
@@ -150,9 +153,8 @@ DivisionError error_at_points(const Mesh& mesh, double size, const OffAt& off_at
     const PointsOverSurface surface(mesh, density_of_points(mesh, options.square));
     const auto products = [&](std::uint64_t number) {
         const Products sums =
-            products_over_surface(mesh, off_at, gather, surface,
-                                  manner.points_per_round, hash_words({options.seed, number}),
-                                  workers, interrupted);
+            products_over_surface(mesh, off_at, gather, surface, manner.points_per_round,
+                                  hash_words({options.seed, number}), workers, interrupted);
         return Products{sums.error / size, sums.noise / size};
     };
     Rounds first, noise;
@@ -197,15 +199,36 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
     const double size = reflected_square(mesh, solution);
     if (!(size > 0))
         return {};
+    const KnownVariance known = known_variance(mesh, solution, size);
+    const double scatter = std::sqrt(2 / known.freedom), rho = mean_reflectance(mesh);
+    // Of what patches err together a gather errs with them, but for what a reflection takes away.
+    const double seen = known.own + known.common * (1 - rho) * (1 - rho);
     FinalGather gather(mesh, tracer, solution);
-    const double known = seen_variance(mesh, solution) / size;
-    const double freedom = std::max(error_spread(mesh, solution).freedom, 1.0);
     const OffAt off_at = [&](const PatchPoint& point, const Vec3& gathered) {
         return gathered - (radiosity_at(mesh, solution, point.patch, point.at.position) -
                            mesh.material(point.patch).emission);
     };
-    return error_at_points(mesh, size, off_at, gather, {known, known * std::sqrt(2 / freedom)},
-                           of_patches, options, workers, interrupted);
+    DivisionError found = error_at_points(mesh, size, off_at, gather, {seen, seen * scatter},
+                                          of_patches, options, workers, interrupted);
+    DivisionErrorOptions of_spread = options;
+    of_spread.seed = hash_words({options.seed, 1});
+    of_spread.negligible = std::max(found.error, std::sqrt(known.own + known.common)) / 3;
+    of_spread.square = {};
+    if (!(of_spread.negligible > 0))
+        return found;
+    FinalGather missing(mesh, tracer, solution);
+    missing.find_missing(false);
+    const double spread_by_sampling = known.common * rho * rho;
+    const DivisionError spread = error_at_points(mesh, size, missing_at, missing,
+                                                 {spread_by_sampling, spread_by_sampling * scatter},
+                                                 of_gathered, of_spread, workers, interrupted);
+    const double both = std::hypot(found.error, spread.error);
+    if (both > 0)
+        found.uncertainty =
+            std::hypot(found.error * found.uncertainty, spread.error * spread.uncertainty) / both;
+    found.error = both;
+    found.rays += spread.rays;
+    return found;
 }
 
 DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
@@ -216,8 +239,7 @@ DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer, const Solut
         return {};
     FinalGather gather(mesh, tracer, solution);
     gather.find_missing(reads_near);
-    const OffAt off_at = [](const PatchPoint&, const Vec3& missing) { return missing; };
-    DivisionError found = error_at_points(mesh, size, off_at, gather, {}, of_gathered, options,
+    DivisionError found = error_at_points(mesh, size, missing_at, gather, {}, of_gathered, options,
                                           workers, interrupted);
     found.error = std::max(found.error, found.uncertainty); // which it may be
     return found;

@@ -6,8 +6,9 @@
 //     A (g1 - B)(g2 - B)
 // is the squared error of the solution there, free of the noise of either gather. It holds what the
 // patches lack in detail and the noise of each patch's own value; the latter is known and taken
-// off. It does not hold how far the light that the solution sends is off itself, which is smaller
-// by a reflection (Lischinski, Smits and Greenberg 1994 bound that part).
+// off. It does not hold how far the light that the solution sends is off itself (Lischinski, Smits
+// and Greenberg 1994 bound that part). In most rooms it is smaller by a reflection, in bright ones
+// it is the larger part, so it is measured too: as gathered_error().
 
 #include "bvh/tracer.h"
 
