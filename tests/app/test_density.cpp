@@ -104,7 +104,7 @@ TEST_CASE("density says what is wrong with what it is asked") {
     fails(1, "room.obj -o a.svg --parts 4 --part 1", "numbered from 0 to 0");
     fails(1, "room.obj -o a.svg --parts 16", "--parts is for --method hemisphere-1997");
     fails(1, "room.obj -o a.svg --method hemisphere-1997 --part 4", "numbered from 0 to 3");
-    fails(1, "room.obj -o a.svg --guide learned", "unknown guide");
+    fails(1, "room.obj -o a.svg --guide learned", "unknown choice");
     fails(1, "room.obj -o a.svg --guide pyramid --plane", "--guide pyramid has none");
     fails(1, "room.obj -o a.svg --guide pyramid --method hemisphere-1997", "counts along rays");
     fails(1, "room.obj -o a.png --plane", "there is none");
