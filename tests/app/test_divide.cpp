@@ -106,8 +106,8 @@ TEST_CASE("a plain solve divides, but for runs that are about patches or single 
     CHECK(table("") != table("--divide none"));
     REQUIRE(place.hemilux("solve room.obj -q --divide none -o fixed.csv").code == 0);
     for (const std::string options :
-         {"--steps 2", "--method hemisphere --steps 2", "--reference fixed.csv", "--for camera --camera .5,.5,.5,0,.5,.5",
-          "--checkpoint saved", "--plain --steps 2"})
+         {"--steps 2", "--method hemisphere --steps 2", "--reference fixed.csv",
+          "--for camera --camera .5,.5,.5,0,.5,.5", "--checkpoint saved", "--plain --steps 2"})
         CHECK(table(options) == table(options + " --divide none"));
 }
 

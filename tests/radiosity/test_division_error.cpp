@@ -286,7 +286,8 @@ TEST_CASE("where gathered light is right, its error is said to be no less than i
 }
 
 TEST_CASE("gathered light holds more of what varies within patches the coarser they are") {
-    const Model coarse(test::room_with_block(), {}), fine(test::room_with_block(), {.max_edge = .15});
+    const Model coarse(test::room_with_block(), {}),
+        fine(test::room_with_block(), {.max_edge = .15});
     const auto error = [](const Model& model) {
         const Solution solution = test::solve(model, *find_method("stored-transport"), {},
                                               {.steps = {}, .seconds = {}, .error = .01});

@@ -102,7 +102,7 @@ struct SolveSettings {
     /// Patches are divided where the light changes within them; by default as divides_by_default()
     /// says.
     bool divide_auto = false;
-    StopRule stop;            ///< as given; the method's own rule stands in for an empty one
+    StopRule stop; ///< as given; the method's own rule stands in for an empty one
     ViewSettings view;
     std::vector<Output> outputs;
     Bake bake = Bake::radiosity;                 ///< what mesh files hold

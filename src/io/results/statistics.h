@@ -50,7 +50,7 @@ struct Statistics {
     std::uint64_t links = 0;               ///< that `hierarchical` gathers over
     std::uint64_t bytes_density_paper = 0; ///< 4 (4^(n+1) - 1) / 3 per patch (paper section 6)
     std::uint64_t bytes_peak = 0;          ///< of the process
-    double estimated_error = unknown; ///< relative; of what: see ErrorOf
+    double estimated_error = unknown;      ///< relative; of what: see ErrorOf
     ErrorOf estimated_error_of = ErrorOf::patches;
     double estimated_error_uncertainty = unknown; ///< one sigma; NaN before two steps
     /// The groups, points or camera that the estimated error is of, as they were asked for; empty:

@@ -83,7 +83,9 @@ class FinalGather {
     /// that read no patch, less what it would be by the solution. Right on average; light straight
     /// from emitters has no part in it, as a gather has that right. `reads_near`: as indirect(),
     /// which reads each patch that a ray meets.
-    void find_missing(bool reads_near) { find_ = reads_near ? Find::missing_however_near : Find::missing; }
+    void find_missing(bool reads_near) {
+        find_ = reads_near ? Find::missing_however_near : Find::missing;
+    }
     /// Traced so far.
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
