@@ -299,7 +299,7 @@ TEST_CASE("Things on a table take a fifth of the rays", "[slow]") {
         exactly.aim = .002;
         const Solution exact = solve_for(model, *find_method("stored-transport"), target, exactly,
                                          {.steps = {}, .seconds = {}, .error = .002});
-        for (const char* name : {"stratified", "hemisphere", "progressive-monte-carlo"}) {
+        for (const char* name : {"hemisphere", "progressive-monte-carlo"}) {
             const Method& method = *find_method(name);
             const Runs without = runs_for(model, method, {}, target, exact, 10, 256);
             const Runs with = runs_for(model, method, target, target, exact, 10, 256);
@@ -319,7 +319,7 @@ TEST_CASE("One room of a building takes a third of the rays", "[slow]") {
     exactly.aim = .001;
     const Solution exact = solve_for(model, *find_method("stored-transport"), target, exactly,
                                      {.steps = {}, .seconds = {}, .error = .001});
-    for (const char* name : {"stratified", "hemisphere", "progressive-monte-carlo"}) {
+    for (const char* name : {"hemisphere", "progressive-monte-carlo"}) {
         const Method& method = *find_method(name);
         const Runs without = runs_for(model, method, {}, target, exact, 10);
         const Runs with = runs_for(model, method, target, target, exact, 10);

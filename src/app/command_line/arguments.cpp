@@ -167,7 +167,7 @@ Option Option::separated_by(char letter) const {
 
 Option Command::added(CLI::Option* option) const {
     if (!heading_.empty())
-        option->group(heading_);
+        option->group(std::string(heading_));
     return Option(*option);
 }
 

@@ -53,12 +53,11 @@ struct CommandText {
 /// write to, outlives the parsing. `type` is what --help says of an option's value.
 class Command {
   public:
-    explicit Command(CLI::App& app, std::string heading = {})
-        : app_(&app), heading_(std::move(heading)) {}
-    /// The same command, whose options that are added stand under a heading of --help.
-    [[nodiscard]] Command under(const std::string& heading) const {
-        return Command(*app_, heading);
-    }
+    explicit Command(CLI::App& app, std::string_view heading = {})
+        : app_(&app), heading_(heading) {}
+    /// The same command, whose options that are added stand under a heading of --help. The text of
+    /// the heading outlives it.
+    [[nodiscard]] Command under(std::string_view heading) const { return Command(*app_, heading); }
     /// `read` gets all values that were given, and throws UsageError for those that it refuses.
     Option add_values(const std::string& name, const std::string& type, const std::string& help,
                       std::function<void(const std::vector<std::string>&)> read) const;
@@ -98,7 +97,7 @@ class Command {
     [[nodiscard]] Option added(CLI::Option* option) const;
 
     CLI::App* app_;
-    std::string heading_; ///< empty: that of the parser
+    std::string_view heading_; ///< empty: that of the parser
 };
 
 class Arguments {
