@@ -29,6 +29,9 @@ constexpr double share_of_time = .5;
 /// them; and of the whole error at last, a sixth of its square.
 constexpr double first_sampling_of_gathered = .05, sampling_of_gathered = .4;
 
+/// A goal is set lower by a factor in this range, with some room.
+constexpr double safe = .9, least_step = .5, most_step = .9;
+
 /// So often the division goes on where the whole error is too large still.
 constexpr unsigned most_attempts = 8;
 
@@ -78,6 +81,7 @@ class AutoDivision {
     /// light that is gathered.
     void measure(std::uint64_t most_rays, double negligible, std::span<const double> square);
     void begin_gathered();
+    void lower_goals();
     void divide_once(Division& division);
     void divide_until_enough();
     /// Whether the whole error is as asked for; else less is left to what has the larger part.
@@ -153,17 +157,22 @@ void AutoDivision::begin_gathered() {
                                     {.seed = hash_words({settings_.options.seed, 6})},
                                     Workers(settings_.options.threads), input_.monitor.interrupted)
                          .error;
-    (void)is_enough(0);
+    lower_goals();
+}
+
+/// Of patches, by less than gathered light is to gain: its error falls faster than theirs.
+void AutoDivision::lower_goals() {
+    const double step =
+        std::clamp(std::sqrt(safe * whole_ / divided_.gathered->error), least_step, most_step);
+    options_.error *= step;
+    divided_.sampling = std::max(step * *divided_.sampling, sampling_of_gathered * whole_);
 }
 
 /// What is left is aimed at with some room, as what was found is known to a tenth.
 bool AutoDivision::is_enough(double sampling) {
-    constexpr double safe = .9, least_sampling = .6, least_step = .5, most_step = .9;
-    if (is_gathered_) { // which falls faster than the error of patches
-        const double step =
-            std::clamp(std::sqrt(safe * whole_ / divided_.gathered->error), least_step, most_step);
-        options_.error *= step;
-        divided_.sampling = std::max(step * *divided_.sampling, sampling_of_gathered * whole_);
+    constexpr double least_sampling = .6;
+    if (is_gathered_) {
+        lower_goals();
         return divided_.gathered->error <= whole_;
     }
     const double division = divided_.error->error;
