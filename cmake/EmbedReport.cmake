@@ -1,17 +1,20 @@
-# hemilux_embed_report(OUTPUT FOLDER): writes the source file that holds the page of `solve --report`,
-# its style and its scripts, one after the other.
+# hemilux_embed_report(OUTPUT FOLDER): writes the source file that holds the pages of `solve --report` and
+# `compare --report`, their style, and their scripts: those of both one after the other.
 function(hemilux_embed_report output folder)
-  set(report_script "")
-  foreach(script data text camera scene chart layers steering page)
-    list(APPEND scripts ${folder}/${script}.js)
+  set(report_shared "")
+  foreach(script data text camera scene chart layers steering)
+    list(APPEND shared ${folder}/page/${script}.js)
   endforeach()
-  foreach(file IN LISTS scripts)
+  foreach(file IN LISTS shared)
     file(READ ${file} text)
-    string(APPEND report_script "${text}")
+    string(APPEND report_shared "${text}")
   endforeach()
-  file(READ ${folder}/page.html report_html)
-  file(READ ${folder}/page.css report_style)
+  set(files page/page.css page/page.html page/page.js page/compare.html page/compare.js)
+  set(names style solve_markup solve_script compare_markup compare_script)
+  foreach(file name IN ZIP_LISTS files names)
+    file(READ ${folder}/${file} report_${name})
+  endforeach()
   configure_file(${folder}/assets.cpp.in ${output} @ONLY)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
-               ${scripts} ${folder}/page.html ${folder}/page.css)
+  list(TRANSFORM files PREPEND ${folder}/)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${shared} ${files})
 endfunction()

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Opens pages of `solve --report` in headless Chromium: no console message, a canvas that is not blank, clicks,
-# keys, layers and the chart work, in a wide and in a narrow window.
+# Opens pages of `solve --report` and `compare --report` in headless Chromium: no console message, a canvas that
+# is not blank, clicks, keys, layers, sliders and charts work, in a wide and in a narrow window.
 #   check_report.sh HEMILUX [FOLDER]     FOLDER: where pages and screenshots are kept
 # Exit code 77 where there is no Chromium.
 set -eu
@@ -51,12 +51,18 @@ OBJ
 "$hemilux" solve -t 1 "$root/examples/scenes/office_3576.obj" -q --steps 5 --report "$folder/office.html"
 "$hemilux" solve -t 1 hostile.obj -q --max-edge .1 --steps 3 --report "$folder/hostile.html"
 "$hemilux" solve -t 1 "$root/examples/scenes/room_1002.obj" -q --steps 3 --sky 1 --report "$folder/sky.html"
+compare="compare -t 1 -q -o compared --runs 2 --rays 10 --reference-error .05"
+"$hemilux" $compare "$root/examples/scenes/office_3576.obj" --methods hemisphere,stratified,stored-transport \
+    --budget-rays 1e6 --report "$folder/compared.html" >/dev/null
+"$hemilux" $compare hostile.obj --max-edge .1 --methods stratified,monte-carlo --budget-rays 3e4 \
+    --report "$folder/compared-hostile.html" >/dev/null
 
 status=0
-[ "$(wc -c <"$folder/office.html")" -lt 3000000 ] || { echo "FAILS: the page is too large"; status=1; }
-for page in office hostile sky; do
+for page in office hostile sky compared compared-hostile; do
+    [ "$(wc -c <"$folder/$page.html")" -lt 3000000 ] || { echo "FAILS: $page is too large"; status=1; }
+    case $page in compared*) check=check_comparison.js ;; *) check=check_report.js ;; esac
     sed '/^<\/body>/,$d' "$folder/$page.html" >checked.html
-    { echo '<script>'; cat "$root/scripts/check_report.js"; echo '</script></body></html>'; } >>checked.html
+    { echo '<script>'; cat "$root/scripts/$check"; echo '</script></body></html>'; } >>checked.html
     for size in 1360,1000 500,900; do
         echo "== $page, window of $size"
         look --window-size=$size --dump-dom "file://$scratch/checked.html" >dom || status=1

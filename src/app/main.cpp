@@ -121,6 +121,7 @@ int run_program(std::vector<std::string> words, std::string& advice) {
     }
     if (compare_command.parsed()) {
         compare_settings.from = provenance(compare_command, compare_settings.options.seed);
+        compare_settings.given = compare_command.options_given();
         return compare(compare_settings);
     }
     if (density_command.parsed())

@@ -1,5 +1,6 @@
 // What `hemilux compare` writes and says.
 #include "app/check_fails.h"
+#include "app/split.h"
 #include "radiosity/solving/solver.h"
 #include "support/catch.h"
 
@@ -9,23 +10,12 @@
 #include <sstream>
 
 using Catch::Contains;
+using test::split;
 using test::Workplace;
 
 namespace {
 
 const std::string quick = "--reference-error .02 --size 40x30 ";
-
-std::vector<std::vector<std::string>> split(const std::string& text, char separator) {
-    std::vector<std::vector<std::string>> rows;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream stream(line);
-        std::vector<std::string>& row = rows.emplace_back();
-        for (std::string field; std::getline(stream, field, separator);)
-            row.push_back(field);
-    }
-    return rows;
-}
 
 /// The rows of the table on stdout, by method; a field never has two blanks side by side.
 std::map<std::string, std::vector<std::string>> table_of(const std::string& out) {

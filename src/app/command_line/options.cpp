@@ -224,12 +224,9 @@ void add_error_map_option(Command command, SolveSettings& settings) {
              [&settings](const std::string& path) { settings.error_map = path; });
 }
 
-void add_report_option(Command command, std::string& report) {
-    add_path(
-        command, "--report", "FILE.html",
-        "a page for a browser: the lit scene to turn around, the numbers of each patch, how the "
-        "run went",
-        ".html", [&report](const std::string& path) { report = path; });
+void add_report_option(Command command, std::string& report, const char* contents) {
+    add_path(command, "--report", "FILE.html", contents, ".html",
+             [&report](const std::string& path) { report = path; });
 }
 
 void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
@@ -392,7 +389,9 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_output_options(outputs, settings);
     add_point_options(outputs, settings);
     add_error_map_option(outputs, settings);
-    add_report_option(outputs, settings.report);
+    add_report_option(outputs, settings.report,
+                      "a page for a browser: the lit scene to turn around, the numbers of each "
+                      "patch, how the run went");
     add_checkpoint_options(command.under("Checkpoints"), settings.checkpoint);
     add_comparison_options(command.under(comparison_group), settings);
     add_verbosity_options(command, settings.verbosity);
@@ -417,6 +416,9 @@ Command add_compare_command(Arguments& program, CompareSettings& settings) {
                   "folder, made where it is not there: error.csv, error.svg, reference.csv, "
                   "reference.png and two pictures per method")
         .required();
+    add_report_option(outputs, settings.report,
+                      "a page for a browser: errors as plots and tables, and the light of two "
+                      "methods after 1, 2, 4 and more steps side by side, to turn around");
     add_view_options(outputs, settings.view);
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(methods_text() + compare_examples + exit_codes);

@@ -5,6 +5,7 @@
 #include "app/commands/compare_run.h"
 #include "app/commands/compare_summary.h"
 #include "app/loading/load.h"
+#include "app/report/comparison_page.h"
 #include "app/running/signals.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/memory.h"
@@ -59,13 +60,6 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
     return Reference{solution.radiosity, solution.standard_error, {}};
 }
 
-double own_error(const Mesh& mesh, const Reference& reference) {
-    Solution solution;
-    solution.radiosity = reference.radiosity;
-    solution.standard_error = reference.standard_error;
-    return estimated_error(mesh, solution);
-}
-
 std::vector<MethodRuns> run_with_progress(const Comparison& comparison,
                                           std::optional<SolveError>& fault) {
     std::atomic<double> share_done{0};
@@ -100,15 +94,27 @@ void drop_empty(std::vector<MethodRuns>& results) {
     std::erase_if(results, [](const MethodRuns& result) { return result.runs.empty(); });
 }
 
-void check_reference(const Comparison& comparison, std::span<const MethodSummary> summaries) {
-    const double own = own_error(comparison.mesh, comparison.reference);
-    log_line(comparison.settings.verbosity, Verbosity::normal,
-             "the reference's own error: " + percent(own));
+/// Where the reference is not much better than what is compared with it; else empty.
+std::string reference_warning(double own, std::span<const MethodSummary> summaries) {
+    std::string methods;
     for (const MethodSummary& summary : summaries)
         if (own > reference_share * summary.error.all)
-            log_line(comparison.settings.verbosity, Verbosity::normal,
-                     "warning: that is much of the " + percent(summary.error.all) + " of " +
-                         summary.label + "; --reference-error asks for a better one");
+            methods += (methods.empty() ? "" : ", ") + summary.label + " (" +
+                       percent(summary.error.all) + ")";
+    return methods.empty()
+               ? ""
+               : "the reference's own error, " + percent(own) + ", is much of the error of " +
+                     methods + "; --reference-error asks for a better one";
+}
+
+/// With those of reading, which were logged before.
+std::vector<std::string> page_warnings(const Comparison& comparison, std::string of_reference) {
+    std::vector<std::string> all(comparison.warnings.begin(), comparison.warnings.end());
+    all.push_back(std::move(of_reference));
+    if (comparison.monitor.interrupted)
+        all.emplace_back("interrupted; the results are those of the steps that were done");
+    std::erase(all, std::string());
+    return all;
 }
 
 int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
@@ -117,9 +123,14 @@ int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
     WriteReport report;
     if (!results.empty()) {
         const auto summaries = summarise(results, comparison.settings.options.literal);
-        report = write_comparison(comparison, results, summaries);
-        check_reference(comparison, summaries);
-        std::cout << summary_table(summaries) << std::flush;
+        const double own = own_error(comparison.mesh, comparison.reference);
+        const std::string warning = reference_warning(own, summaries);
+        report =
+            write_comparison(comparison, results, summaries, page_warnings(comparison, warning));
+        log_line(verbosity, Verbosity::normal, "the reference's own error: " + percent(own));
+        if (!warning.empty())
+            log_line(verbosity, Verbosity::normal, "warning: " + warning);
+        std::cout << aligned(summary_rows(summaries)) << std::flush;
         if (const std::string note = gain_note(summaries); !note.empty())
             log_line(verbosity, Verbosity::normal, note);
         if (!std::cout)
@@ -176,8 +187,15 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     reference->detail = std::move(detail);
     const std::optional<KnownLight> light =
         find_light(settings, mesh, *tracer, *reference, monitor.interrupted);
-    const Comparison comparison{mesh,    *tracer, settings, *reference, light ? &*light : nullptr,
-                                monitor, needs};
+    const Comparison comparison{mesh,
+                                *tracer,
+                                settings,
+                                *reference,
+                                light ? &*light : nullptr,
+                                monitor,
+                                needs,
+                                loaded.warnings,
+                                mean_light(mesh, reference->radiosity)};
     if (settings.reference.empty()) {
         const WriteReport report = write_reference(comparison);
         report.log(settings.verbosity);

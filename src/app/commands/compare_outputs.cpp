@@ -1,5 +1,6 @@
 #include "app/commands/compare_outputs.h"
 
+#include "app/report/comparison_page.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
 #include "io/drawings/false_colour.h"
@@ -63,11 +64,16 @@ void write_chart(const Comparison& comparison, std::span<const MethodSummary> su
                    [&] { write_atomically(path, chart_svg(chart_of(comparison, summaries))); });
 }
 
+Camera camera_of(const Comparison& comparison) {
+    return camera_of(comparison.settings.view, comparison.mesh, comparison.tracer,
+                     comparison.reference.radiosity);
+}
+
 void write_pictures(const Comparison& comparison, std::span<const MethodRuns> results,
                     WriteReport& report) {
     const ViewSettings& view = comparison.settings.view;
     const Reference& reference = comparison.reference;
-    const Camera camera = camera_of(view, comparison.mesh, comparison.tracer, reference.radiosity);
+    const Camera camera = camera_of(comparison);
     const PictureTime time(comparison.monitor.interrupted);
     const auto picture = [&](std::span<const Vec3> radiosity) {
         return render_view(view, comparison.mesh, comparison.tracer, radiosity, camera,
@@ -90,6 +96,42 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
     for (std::size_t i = 0; i < results.size(); ++i)
         write(results[i].variant.name + "_difference.png",
               false_colour(differences[i], truth.width, truth.height, scale), 1);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : "  ") + word;
+    return text;
+}
+
+/// What the numbers of a comparison rest on.
+std::vector<std::pair<std::string, std::string>> facts_of(const Comparison& comparison) {
+    const CompareSettings& settings = comparison.settings;
+    std::vector<std::pair<std::string, std::string>> facts = {
+        {"runs of each method", std::to_string(settings.runs)},
+        {"seed of the first run", std::to_string(settings.options.seed)},
+        {"threads", std::to_string(Workers(settings.options.threads).threads())},
+        {"patches", std::to_string(comparison.mesh.patches().size())},
+        {"the reference's own error", percent(own_error(comparison.mesh, comparison.reference))}};
+    for (const GivenOption& option : settings.given)
+        facts.emplace_back(option.name, option.values.empty() ? "yes" : joined(option.values));
+    return facts;
+}
+
+void write_page(const Comparison& comparison, std::span<const MethodRuns> results,
+                std::span<const MethodSummary> summaries, std::span<const StepRow> rows,
+                std::span<const std::string> warnings) {
+    const CompareSettings& settings = comparison.settings;
+    std::vector<ComparedMethod> methods;
+    for (std::size_t m = 0; m < results.size(); ++m)
+        methods.push_back(
+            {results[m].variant.name, summaries[m].label, results[m].runs.front().lights});
+    write_comparison_page(settings.report,
+                          {comparison.mesh, comparison.reference.radiosity, comparison.unit,
+                           methods, rows, summary_rows(summaries), facts_of(comparison), warnings,
+                           settings.scene.path, settings.from.command, camera_of(comparison),
+                           settings.view.exposure});
 }
 
 } // namespace
@@ -115,6 +157,8 @@ RunFiles check_files(const CompareSettings& settings) {
         names.push_back("reference.csv");
     for (std::string& name : names)
         name = (fs::path(settings.folder) / name).string();
+    if (!settings.report.empty())
+        names.push_back(settings.report);
     RunFiles files = check_files(names, settings.scene.path);
     if (!settings.reference.empty()) {
         files.read("reference", settings.reference);
@@ -123,11 +167,22 @@ RunFiles check_files(const CompareSettings& settings) {
     return files;
 }
 
+double own_error(const Mesh& mesh, const Reference& reference) {
+    Solution solution;
+    solution.radiosity = reference.radiosity;
+    solution.standard_error = reference.standard_error;
+    return estimated_error(mesh, solution);
+}
+
 WriteReport write_comparison(const Comparison& comparison, std::span<const MethodRuns> results,
-                             std::span<const MethodSummary> summaries) {
+                             std::span<const MethodSummary> summaries,
+                             std::span<const std::string> warnings) {
     WriteReport report;
     const std::string log = path_in(comparison, "error.csv");
-    report.attempt(log, [&] { write_steps_log(log, all_rows(results)); });
+    const std::vector<StepRow> rows = all_rows(results);
+    report.attempt(log, [&] { write_steps_log(log, rows); });
+    if (const std::string& page = comparison.settings.report; !page.empty())
+        report.attempt(page, [&] { write_page(comparison, results, summaries, rows, warnings); });
     write_chart(comparison, summaries, report);
     try {
         write_pictures(comparison, results, report);

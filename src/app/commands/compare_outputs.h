@@ -19,11 +19,15 @@ void make_folder(const std::string& folder);
 [[nodiscard]] RunFiles check_files(const CompareSettings& settings);
 
 /// Writes error.csv, error.svg, reference.png, and METHOD.png with METHOD_difference.png from the
-/// first run of each method. All pictures have one camera and one exposure, all differences one
-/// scale.
+/// first run of each method; and the page of --report. All pictures have one camera and one
+/// exposure, all differences one scale. `warnings`: for the page.
 [[nodiscard]] WriteReport write_comparison(const Comparison& comparison,
                                            std::span<const MethodRuns> results,
-                                           std::span<const MethodSummary> summaries);
+                                           std::span<const MethodSummary> summaries,
+                                           std::span<const std::string> warnings);
+
+/// The estimated error of the reference itself, relative; NaN where it is not known.
+[[nodiscard]] double own_error(const Mesh& mesh, const Reference& reference);
 
 /// Writes reference.csv, for use with --reference.
 [[nodiscard]] WriteReport write_reference(const Comparison& comparison);

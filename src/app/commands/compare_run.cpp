@@ -6,6 +6,7 @@
 #include "radiosity/solving/time_limit.h"
 
 #include <algorithm>
+#include <bit>
 #include <memory>
 
 namespace hemilux {
@@ -52,6 +53,8 @@ class Runner {
         step_before_ = last_step_;
         last_step_ = used() - before;
         result_.rows.push_back(row());
+        if (std::has_single_bit(result_.rows.size()))
+            keep_light();
         return true;
     }
 
@@ -70,6 +73,8 @@ class Runner {
 
     [[nodiscard]] MethodRun result() {
         const Solution& solution = solver_->solution();
+        if (!result_.rows.empty() && !std::has_single_bit(result_.rows.size()))
+            keep_light();
         result_.radiosity = solution.radiosity;
         result_.bytes_density = solution.bytes_density;
         result_.complete = done();
@@ -99,6 +104,12 @@ class Runner {
                 comparison_.reference.error(comparison_.mesh, solution.radiosity),
                 comparison_.light ? std::optional(comparison_.light->error(solution.radiosity))
                                   : std::nullopt};
+    }
+
+    void keep_light() {
+        if (run_ == 0 && !comparison_.settings.report.empty())
+            result_.lights.push_back({result_.rows.back().record.step,
+                                      halves_of(solver_->solution().radiosity, comparison_.unit)});
     }
 
     const Comparison& comparison_;

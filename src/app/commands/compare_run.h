@@ -3,6 +3,7 @@
 // all alike: the next step is always that of the method which is least far in its budget.
 
 #include "app/loading/reference.h"
+#include "app/report/run_data.h"
 #include "app/settings/settings.h"
 #include "io/results/tables.h"
 #include "radiosity/final_gather/known_light.h"
@@ -17,6 +18,8 @@ namespace hemilux {
 struct MethodRun {
     std::vector<StepRow> rows;
     std::vector<Vec3> radiosity; ///< at the end of the budget
+    /// Of the first run after steps 1, 2, 4 and so on and the last one, for a page; else none.
+    std::vector<LightOfStep> lights;
     std::uint64_t bytes_density = 0;
     bool complete = false; ///< not interrupted
 };
@@ -36,6 +39,8 @@ struct Comparison {
     const KnownLight* light; ///< none: errors are those on the patches
     Monitor& monitor;
     const Needs& needs;
+    std::span<const std::string> warnings; ///< of reading the scene
+    double unit;                           ///< of the light on a page [W/m2]
 };
 
 /// `after_step` is told the share of all runs that is done, 0 to 1.

@@ -114,7 +114,8 @@ std::vector<std::string> table_row(const MethodSummary& s) {
     return row;
 }
 
-/// Columns two blanks apart, the first flush left, the others flush right.
+} // namespace
+
 std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths(rows.front().size());
     for (const auto& row : rows)
@@ -130,8 +131,6 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     }
     return text;
 }
-
-} // namespace
 
 std::vector<MethodSummary> summarise(std::span<const MethodRuns> results, bool literal) {
     std::vector<MethodSummary> summaries;
@@ -153,7 +152,7 @@ std::vector<MethodSummary> summarise(std::span<const MethodRuns> results, bool l
     return summaries;
 }
 
-std::string summary_table(std::span<const MethodSummary> summaries) {
+std::vector<std::vector<std::string>> summary_rows(std::span<const MethodSummary> summaries) {
     std::vector<std::vector<std::string>> rows{{"method", "rays", "seconds", "error %", "detail %",
                                                 "rest %", "estimated %", "estimated/error",
                                                 "time gain", "ray gain", "density bytes"}};
@@ -161,7 +160,7 @@ std::string summary_table(std::span<const MethodSummary> summaries) {
         rows.front().insert(rows.front().begin() + total_column, "total %");
     for (const MethodSummary& summary : summaries)
         rows.push_back(table_row(summary));
-    return aligned(rows);
+    return rows;
 }
 
 std::string gain_note(std::span<const MethodSummary> summaries) {

@@ -36,9 +36,13 @@ struct MethodSummary {
 [[nodiscard]] std::vector<MethodSummary> summarise(std::span<const MethodRuns> results,
                                                    bool literal);
 
-/// A line of headings, then one per method; errors in per cent. A gain comes with its standard
+/// A row of headings, then one per method; errors in per cent. A gain comes with its standard
 /// error, or with a question mark where that is unknown.
-[[nodiscard]] std::string summary_table(std::span<const MethodSummary> summaries);
+[[nodiscard]] std::vector<std::vector<std::string>>
+summary_rows(std::span<const MethodSummary> summaries);
+
+/// Lines of text: columns two blanks apart, the first flush left, the others flush right.
+[[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& rows);
 
 /// What the standard errors of the gains come from; empty where no gain has or lacks one.
 [[nodiscard]] std::string gain_note(std::span<const MethodSummary> summaries);

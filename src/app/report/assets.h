@@ -1,10 +1,13 @@
 #pragma once
-// The files page.html, page.css and *.js of this folder, embedded at build time.
+// The files of the folder page, embedded at build time.
 
 #include <string_view>
 
 namespace hemilux::assets {
 
-extern const std::string_view html, style, script;
+extern const std::string_view style;
+extern const std::string_view shared_script;                  ///< of all pages
+extern const std::string_view solve_markup, solve_script;     ///< page.html and page.js
+extern const std::string_view compare_markup, compare_script; ///< compare.html and compare.js
 
 } // namespace hemilux::assets

@@ -1,5 +1,6 @@
 #include "app/report/run_data.h"
 
+#include "app/terminal/machine.h"
 #include "radiosity/scene/mesh.h"
 
 #include <nlohmann/json.hpp>
@@ -41,34 +42,79 @@ Json steps_json(std::span<const StepRow> rows) {
     return list;
 }
 
-/// As JSON has it, also where JSON stands within HTML.
-std::string without_tags(const std::string& json) {
-    std::string text;
-    for (const char c : json)
-        if (c == '<')
-            text += "\\u003c";
-        else
-            text += c;
-    return text;
-}
-
-} // namespace
-
-std::string run_json(const ReportContent& content) {
+/// What a page says of any run. Content: ReportContent or ComparisonContent.
+template <class Content>
+Json common_json(const Content& content) {
     const Mesh& mesh = content.mesh;
-    const Json run = {
+    return {
         {"scene", content.scene},
         {"command", content.command},
         {"version", HEMILUX_VERSION},
+        {"machine", machine_text()},
         {"centre", numbers(mesh.frame().centre)},
         {"materials", materials_of(mesh)},
         {"groups", mesh.scene().groups},
         {"camera", camera_json(content.camera)},
         {"exposure", content.exposure ? Json(*content.exposure) : Json()},
-        {"statistics", Json::parse(to_json(content.statistics))},
-        {"steps", steps_json(content.steps)},
         {"warnings", std::vector<std::string>(content.warnings.begin(), content.warnings.end())}};
-    return without_tags(run.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+std::string text_of(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json methods_json(std::span<const ComparedMethod> methods) {
+    Json list = Json::array();
+    for (const ComparedMethod& method : methods) {
+        Json steps = Json::array();
+        for (const LightOfStep& light : method.lights)
+            steps.push_back(light.step);
+        list.push_back({{"name", method.name}, {"label", method.label}, {"steps", steps}});
+    }
+    return list;
+}
+
+Json row_json(const StepRow& row) {
+    const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(); };
+    const auto error = [&](double RelativeError::*which) {
+        return row.error ? Json((*row.error).*which) : Json();
+    };
+    const StepRecord& record = row.record;
+    return Json::array({row.method, row.run, record.step, record.rays, record.seconds,
+                        record.estimated_error, error(&RelativeError::all),
+                        error(&RelativeError::detail), error(&RelativeError::rest),
+                        number(row.total_error)});
+}
+
+} // namespace
+
+std::string run_json(const ReportContent& content) {
+    Json run = common_json(content);
+    run["statistics"] = Json::parse(to_json(content.statistics));
+    run["steps"] = steps_json(content.steps);
+    return text_of(run);
+}
+
+std::string comparison_json(const ComparisonContent& content) {
+    Json run = common_json(content);
+    run["unit"] = content.unit;
+    run["methods"] = methods_json(content.methods);
+    run["summary"] = content.summary;
+    run["facts"] = content.facts;
+    run["columns"] = {"method",
+                      "run",
+                      "step",
+                      "rays",
+                      "seconds",
+                      "estimated_error",
+                      "true_error",
+                      "true_error_detail",
+                      "true_error_rest",
+                      "total_error"};
+    run["rows"] = Json::array();
+    for (const StepRow& row : content.rows)
+        run["rows"].push_back(row_json(row));
+    return text_of(run);
 }
 
 } // namespace hemilux

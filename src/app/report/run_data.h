@@ -1,6 +1,8 @@
 #pragma once
-// What a report says of a run besides its patches, as JSON.
+// What a report says of a run, or of several, besides the patches, as JSON. What is not UTF-8 is
+// replaced; NaN is null.
 
+#include "app/report/half_light.h"
 #include "io/pictures/camera.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
@@ -26,9 +28,41 @@ struct ReportContent {
     std::optional<double> exposure; ///< empty: the page chooses one
 };
 
-/// The keys are scene, command, version, centre, materials, groups, camera, exposure, statistics
-/// (as of to_json), steps and warnings. Every `<` is written as \u003c, so that no name ends the
-/// element of the page that holds the text. What is not UTF-8 is replaced; NaN is null.
+/// The keys are scene, command, version, machine, centre, materials, groups, camera, exposure,
+/// warnings, statistics (as of to_json) and steps.
 [[nodiscard]] std::string run_json(const ReportContent& content);
+
+/// The light that a method had found after some step.
+struct LightOfStep {
+    std::uint32_t step = 0;
+    std::vector<std::uint16_t> halves; ///< halves_of()
+};
+
+/// A method of a comparison.
+struct ComparedMethod {
+    std::string name, label;
+    std::span<const LightOfStep> lights; ///< of its first run, ascending
+};
+
+/// What the report of a comparison is made of; refers to what lives in the caller.
+struct ComparisonContent {
+    const Mesh& mesh;
+    std::span<const Vec3> reference; ///< radiosity
+    double unit;                     ///< of LightOfStep [W/m2]
+    std::vector<ComparedMethod> methods;
+    std::span<const StepRow> rows;                 ///< of all runs, as the CSV has them
+    std::vector<std::vector<std::string>> summary; ///< table with a row of headings
+    std::vector<std::pair<std::string, std::string>>
+        facts; ///< name and text of what it all rests on
+    std::span<const std::string> warnings;
+    std::string scene, command; ///< path; command line
+    Camera camera;
+    std::optional<double> exposure;
+};
+
+/// The keys scene to warnings of run_json(), and unit, methods (name, label and steps, the numbers
+/// of those with a light), summary, facts, columns and rows: those of the CSV, where an empty field
+/// is null.
+[[nodiscard]] std::string comparison_json(const ComparisonContent& content);
 
 } // namespace hemilux

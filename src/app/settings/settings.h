@@ -153,8 +153,10 @@ struct CompareSettings {
     double reference_error = .002; ///< estimated error at which it is good enough
     bool total = false;            ///< errors are those of the light itself, division included
     ViewSettings view;
-    Provenance from; ///< of the files
+    Provenance from;                ///< of the files
+    std::vector<GivenOption> given; ///< options and their values
     std::string folder;
+    std::string report;              ///< path of a page; empty: none
     std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
     Verbosity verbosity = Verbosity::normal;
 };

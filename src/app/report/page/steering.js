@@ -1,7 +1,7 @@
 // Mouse, touch and keys.
 
-/** Mouse, touch and keys move the camera; `choose(patch)` is called for a click. */
-function steer(view, choose) {
+/** Mouse, touch and keys move the camera, after which `moved` is called; `choose(patch)` is called for a click. */
+function steer(view, choose, moved = () => view.redraw()) {
   const { canvas, camera } = view;
   const pointers = new Map();
   let travelled = 0, spread = 0;
@@ -31,7 +31,7 @@ function steer(view, choose) {
       spread = now;
     } else if (event.shiftKey || (event.buttons & 6)) camera.move(-dx / height, dy / height);
     else camera.turn((-4 * dx) / height, (4 * dy) / height);
-    view.redraw();
+    moved();
   });
   const release = (event) => {
     if (!pointers.delete(event.pointerId)) return;
@@ -42,7 +42,7 @@ function steer(view, choose) {
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
     camera.zoom(Math.exp(0.0015 * event.deltaY * (event.deltaMode === 1 ? 16 : 1)));
-    view.redraw();
+    moved();
   }, { passive: false });
   const actions = {
     ArrowLeft: (moving) => (moving ? camera.move(-0.05, 0) : camera.turn(-0.1, 0)),
@@ -57,6 +57,6 @@ function steer(view, choose) {
     if (!actions[event.key] || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
     actions[event.key](event.shiftKey);
-    view.redraw();
+    moved();
   });
 }

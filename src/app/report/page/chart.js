@@ -29,7 +29,7 @@ function logAxis(numbers, from, to) {
 }
 
 /** The chart of `curves`, each { name, kind, points: [{ x, y, text }] }, so many pixels wide; null without a
-    point. */
+    point. A curve without a name is not labelled; it may have a `style`. A dot calls `choose` of its point. */
 function errorChart(curves, xLabel, width) {
   const height = Math.round(clamp(0.55 * width, 240, 400)), left = 64, right = 20, top = 34, bottom = 52;
   const drawn = curves.map((curve) => ({ ...curve, points: curve.points.filter(({ x, y }) => x > 0 && y > 0) }))
@@ -51,15 +51,17 @@ function errorChart(curves, xLabel, width) {
   return svg;
 }
 
-function curveElement({ name, kind, points }, x, y, labelX, labelY) {
-  const group = svgElement("g", { class: kind });
+function curveElement({ name, kind, points, style }, x, y, labelX, labelY) {
+  const group = svgElement("g", { class: kind, ...(style ? { style } : {}) });
   const places = points.map((point) => [x.place(point.x), y.place(point.y)]);
-  group.append(svgElement("polyline", { class: "curve " + kind, points: places.join(" ") }));
+  group.append(svgElement("polyline", { class: "curve", points: places.join(" ") }));
   const every = Math.ceil(points.length / 100); // dots of long runs would hide the curve
   places.forEach(([cx, cy], k) => {
-    if (k % every === 0 || k === places.length - 1)
-      group.append(svgElement("circle", { cx, cy, r: 4 }, svgElement("title", {}, points[k].text)));
+    if (k % every !== 0 && k !== places.length - 1) return;
+    const dot = svgElement("circle", { cx, cy, r: 4 }, svgElement("title", {}, points[k].text));
+    if (points[k].choose) dot.addEventListener("click", points[k].choose);
+    group.append(dot);
   });
-  group.append(svgElement("text", { class: "label", x: labelX, y: labelY }, "● " + name));
+  if (name) group.append(svgElement("text", { class: "label", x: labelX, y: labelY }, "● " + name));
   return group;
 }

@@ -1,19 +1,37 @@
 // The data of the page: JSON, and arrays of numbers in base64 (report_page.h lists them).
 
-/** The numbers of an array of the page; null where it has none. Type: Float32Array or Uint32Array. */
-function readArray(name, Type) {
+/** The bytes of an array of the page; null where it has none. */
+function readBytes(name) {
   const element = document.getElementById(name);
   if (!element || element.type !== "application/base64") return null;
   const text = atob(element.textContent);
   const bytes = new DataView(new ArrayBuffer(text.length));
   for (let i = 0; i < text.length; ++i) bytes.setUint8(i, text.charCodeAt(i));
-  const numbers = new Type(text.length / 4); // the file is little-endian, the machine may not be
+  element.remove(); // its text is no longer needed
+  return bytes;
+}
+
+/** Words of four bytes; null where there are none. Type: Float32Array or Uint32Array. */
+function readArray(name, Type) {
+  const bytes = readBytes(name);
+  if (!bytes) return null;
+  const numbers = new Type(bytes.byteLength / 4); // the file is little-endian, the machine may not be
   for (let i = 0; i < numbers.length; ++i)
     numbers[i] = Type === Float32Array ? bytes.getFloat32(4 * i, true) : bytes.getUint32(4 * i, true);
-  element.remove(); // its text is no longer needed
   return numbers;
 }
 
+/** Halves (IEEE 754 binary16), each times the unit. */
+function readHalves(name, unit) {
+  const bytes = readBytes(name);
+  return Float32Array.from({ length: bytes.byteLength / 2 }, (_, i) => {
+    const half = bytes.getUint16(2 * i, true), exponent = (half >> 10) & 31, fraction = half & 1023;
+    const size = exponent ? (1 + fraction / 1024) * 2 ** (exponent - 15) : fraction * 2 ** -24;
+    return (half & 0x8000 ? -size : size) * unit;
+  });
+}
+
+/** The JSON of the page with its arrays by patch or vertex. */
 function readRun() {
   const run = JSON.parse(document.getElementById("run").textContent);
   for (const name of ["position", "light", "area", "radiosity", "error", "hits", "reflectance", "emission"])

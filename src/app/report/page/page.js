@@ -29,8 +29,7 @@ function showScene(run) {
     for (const part of ["low", "high", "unit"]) at("legend-" + part).textContent = layer[part] ?? "";
     expose(layer);
   };
-  at("ramp").style.background = "linear-gradient(to right, " +
-    rampColours.map((c) => `rgb(${c.map((x) => Math.round(255 * x))})`) + ")";
+  at("ramp").style.background = rampGradient();
   at("layer").addEventListener("change", showLayer);
   at("smooth").addEventListener("change", showLayer);
   at("exposure").addEventListener("input", () => expose(current()));
@@ -108,6 +107,7 @@ function showTexts(run) {
   at("title").textContent = name;
   at("version").textContent = `version ${run.version}, seed ${run.statistics.seed}, threads: ${run.statistics.threads}`;
   at("command").textContent = run.command;
+  at("machine").textContent = run.machine;
   at("warnings-section").hidden = run.warnings.length === 0;
   at("warnings").append(...run.warnings.map((text) => element("li", { text })));
   const leftOut = run.statistics.left_out;

@@ -8,6 +8,8 @@ function rampColour(share) {
   const below = Math.min(Math.floor(place), rampColours.length - 2);
   return rampColours[below].map((x, k) => x + (place - below) * (rampColours[below + 1][k] - x));
 }
+const rampGradient = () =>
+  `linear-gradient(to right, ${rampColours.map((c) => `rgb(${c.map((x) => Math.round(255 * x))})`)})`;
 const unknownColour = [0.45, 0.45, 0.45];
 
 /** A tint of a number: hues by the golden ratio differ most. */
