@@ -107,3 +107,25 @@ TEST_CASE("the axis that is upwards is chosen, or reported where it is guessed")
     CHECK_THAT(place.read("y.glb"), !Catch::Contains("\"rotation\""));
     test::check_fails(place, 1, run + "--up x -o a.png", "--up: expected y or z, not 'x'");
 }
+
+TEST_CASE("--lightmap writes a picture beside the .glb file, the same for any number of threads") {
+    const Workplace place;
+    place.write_room();
+    const std::string with = run + "-q --lightmap 64 ";
+    REQUIRE(place.hemilux(with + "-t 1 -o a.glb").code == 0);
+    REQUIRE(place.hemilux(with + "-t 3 -o b.glb").code == 0);
+    REQUIRE(place.hemilux(run + "-q -o c.glb").code == 0);
+    CHECK(place.read("a.glb") == place.read("b.glb"));
+    CHECK(place.read("a.lightmap.exr") == place.read("b.lightmap.exr"));
+    CHECK_THAT(place.read("a.glb"),
+               Catch::Contains("\"TEXCOORD_0\"") && Catch::Contains("\"TEXCOORD_1\""));
+    CHECK_THAT(place.read("c.glb"), !Catch::Contains("TEXCOORD"));
+    CHECK_FALSE(place.has("c.lightmap.exr"));
+    check_fails(place, 1, run + "--lightmap 64 -o a.png", "--lightmap is for .glb files");
+    check_fails(place, 1, run + "--lightmap 64 -o -.glb", "has none");
+    check_fails(place, 1, run + "--lightmap 64 -o a.glb -o a.lightmap.exr", "are one file");
+    check_fails(place, 1, run + "--lightmap 15 -o a.glb", "--lightmap: expected");
+    check_fails(place, 3, run + "--lightmap 16 -q -o d.glb",
+                "do not fit into a lightmap of 16 x 16");
+    CHECK_FALSE(place.has("d.glb"));
+}

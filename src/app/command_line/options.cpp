@@ -167,6 +167,10 @@ void add_output_options(Command command, SolveSettings& settings) {
         "what .glb and .ply files hold: radiosity: what surfaces send; irradiance: what "
         "arrives, for viewers with textures of their own; indirect: of that what was reflected "
         "before, for viewers that light by lamps, too [radiosity]");
+    add_whole<int>(
+        command, "--lightmap", settings.lightmap, 16, SolveSettings::most_lightmap,
+        "beside .glb files the same light as a picture NAME.lightmap.exr of N x N texels, "
+        "linear floats, for the texture coordinates TEXCOORD_1");
     add_choice(command, "--ply-colours", settings.ply_colours, ply_colour_names,
                "colours of .ply files: linear: the light itself as float; shown: 8 bits as "
                "pictures show it, with the light as further properties [linear]");

@@ -243,7 +243,8 @@ double SolveRun::bytes_of_outputs() const {
     const bool pictures = std::ranges::any_of(settings_.outputs, is_picture, &Output::kind) ||
                           !settings_.error_map.empty();
     return (pictures ? bytes_of_picture(settings_.view.size, settings_.gather_pictures) : 0) +
-           bytes_of_points(points_.size(), settings_.gather);
+           bytes_of_points(points_.size(), settings_.gather) +
+           bytes_of_lightmap(settings_.lightmap.value_or(0));
 }
 
 void SolveRun::build_tree() {

@@ -13,8 +13,10 @@
 #include "io/files/input_file.h"
 #include "io/meshes/glb.h"
 #include "io/meshes/indirect_light.h"
+#include "io/meshes/lightmap.h"
 #include "io/meshes/vtu.h"
 #include "io/pictures/automatic_camera.h"
+#include "io/pictures/exr.h"
 #include "io/pictures/image.h"
 #include "io/results/smooth.h"
 #include "radiosity/sampling/rng.h"
@@ -112,6 +114,30 @@ int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
     return up;
 }
 
+/// A .glb file and its lightmap.
+void write_lightmapped(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
+                       const CornerClasses& classes, VertexLight light, int up) {
+    const int size = *settings.lightmap;
+    try {
+        const std::vector<Chart> charts = find_charts(mesh, size);
+        const ChartCorners corners = divide_by_charts(mesh, classes, charts);
+        std::vector<Vec3> of_class;
+        std::vector<Vec2> texcoords;
+        for (std::size_t k = 0; k < corners.class_of.size(); ++k) {
+            of_class.push_back(light.of_class[corners.class_of[k]]);
+            texcoords.push_back(corners.place[k] / double(size));
+        }
+        light.of_class = std::move(of_class);
+        write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
+        std::vector<ExrChannel> channels;
+        add_exr_channels(channels, "", lightmap(mesh, charts, corners, light.of_class, size));
+        write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
+    } catch (const LightmapTooSmall& error) {
+        throw OutputError(lightmap_path(path),
+                          std::string(error.what()) + "; --lightmap asks for more");
+    }
+}
+
 void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,
                 const CornerClasses& classes) {
     VertexLight light{settings.bake == Bake::indirect
@@ -119,12 +145,14 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
                           : baked_light(results.mesh, classes, results.solution, settings.bake),
                       settings.bake};
     light.display = display_of(settings.view, results.mesh, classes, light.of_class);
-    if (output.kind == OutputKind::glb)
-        write_glb(output.path, results.mesh, classes, light, settings.from,
-                  up_axis(settings.view.up ? settings.view.up : up_of(settings.scene.path),
-                          results.mesh, settings.verbosity));
+    if (output.kind == OutputKind::ply)
+        return write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
+    const int up = up_axis(settings.view.up ? settings.view.up : up_of(settings.scene.path),
+                           results.mesh, settings.verbosity);
+    if (settings.lightmap)
+        write_lightmapped(settings, output.path, results.mesh, classes, light, up);
     else
-        write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
+        write_glb(output.path, results.mesh, classes, light, settings.from, up);
 }
 
 void write_output(const SolveSettings& settings, const Output& output, const Results& results,
@@ -158,12 +186,28 @@ void write_report(const SolveSettings& settings, const Results& results) {
                                         settings.view.exposure});
 }
 
+/// The files of --lightmap.
+std::vector<std::string> lightmap_paths(const SolveSettings& settings) {
+    std::vector<std::string> paths;
+    for (const Output& output : settings.outputs)
+        if (settings.lightmap && output.kind == OutputKind::glb) {
+            if (output.path == standard_output)
+                throw UsageError("--lightmap takes its name from the .glb file; -o -.glb has none");
+            paths.push_back(lightmap_path(output.path));
+        }
+    if (settings.lightmap && paths.empty())
+        throw UsageError("--lightmap is for .glb files; add -o scene.glb");
+    return paths;
+}
+
 } // namespace
 
 RunFiles check_files(const SolveSettings& settings) {
     std::vector<std::pair<std::string, std::string>> written;
     for (const Output& output : settings.outputs)
         written.emplace_back("output", output.path);
+    for (const std::string& path : lightmap_paths(settings))
+        written.emplace_back("file of --lightmap", path);
     for (const auto& [role, path] : {std::pair("file of --points-output", settings.points.output),
                                      std::pair("file of --error-map", settings.error_map),
                                      std::pair("file of --stats", settings.statistics),
@@ -235,6 +279,8 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
         const Output& output = settings.outputs[k];
         reports[k].attempt(output.path,
                            [&] { write_output(settings, output, results, classes, picture); });
+        if (settings.lightmap && output.kind == OutputKind::glb && !reports[k].written.empty())
+            reports[k].written.push_back(lightmap_path(output.path));
     };
     // All pictures are one, made by all threads; meanwhile each of the tables has one. A single
     // thread writes the tables first, as a signal may end the pictures.

@@ -184,6 +184,11 @@ double bytes_of_picture(PixelSize size, bool gathered) {
            static_cast<double>(size.width) * size.height;
 }
 
+double bytes_of_lightmap(int size) {
+    constexpr double bytes_per_texel = 16 + 12 + 24; // light and distance, channels, file
+    return bytes_per_texel * size * size;
+}
+
 double bytes_of_points(std::size_t points, unsigned gather) {
     constexpr double bytes_per_point = 256, bytes_per_ray = 16, rays_per_block = 1 << 20;
     const double rays_per_point = double(gather) * PointSettings::rays_per_gather_ray;

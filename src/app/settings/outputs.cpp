@@ -38,6 +38,10 @@ std::optional<Output> parse_output(std::string_view path) {
     return std::nullopt;
 }
 
+std::string lightmap_path(const std::string& glb) {
+    return fs::path(glb).replace_extension(".lightmap.exr").string();
+}
+
 void check_writable(const std::string& path) {
     if (path == standard_output)
         return;

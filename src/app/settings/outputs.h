@@ -27,6 +27,9 @@ struct Output {
 /// unknown. "-" is a patch table on standard output, and "-.ply" another kind there.
 [[nodiscard]] std::optional<Output> parse_output(std::string_view path);
 
+/// The file of --lightmap beside a .glb file: scene.glb has scene.lightmap.exr.
+[[nodiscard]] std::string lightmap_path(const std::string& glb);
+
 /// Throws OutputError where no file can be made or replaced at the path, links being followed.
 void check_writable(const std::string& path);
 

@@ -106,6 +106,7 @@ struct SolveSettings {
     ViewSettings view;
     std::vector<Output> outputs;
     Bake bake = Bake::radiosity;                 ///< what mesh files hold
+    std::optional<int> lightmap;                 ///< texels along a side, beside .glb files
     PlyColours ply_colours = PlyColours::linear; ///< and how .ply files do
     Provenance from;                             ///< of the files
     std::vector<GivenOption> given;              ///< options and their values
@@ -119,6 +120,7 @@ struct SolveSettings {
     TargetSettings target;
     unsigned gather = default_gather; ///< rays at a point of a surface that a picture shows
     static constexpr unsigned default_gather = 16, most_gather = 1024;
+    static constexpr int most_lightmap = 16384;
     /// From a patch for each ray of --gather, where the indirect light is baked.
     static constexpr unsigned bake_rays_per_gather_ray = 64;
     bool gather_pictures = true; ///< else they interpolate the light of the patches

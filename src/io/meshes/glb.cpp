@@ -19,8 +19,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr int float_component = 5126, uint_component = 5125; // names of OpenGL's constants
 constexpr int vertex_target = 34962, index_target = 34963;
-/// Position, colour and light of a vertex, one after the other.
-constexpr std::size_t vector_bytes = 3 * sizeof(float), vertex_bytes = 3 * vector_bytes;
+/// Position, colour and light of a vertex, one after the other, then its place in a lightmap.
+constexpr std::size_t vector_bytes = 3 * sizeof(float), vectors_bytes = 3 * vector_bytes;
+constexpr std::size_t texcoord_bytes = 2 * sizeof(float);
 
 /// A mesh of one group.
 struct Part {
@@ -83,8 +84,9 @@ void append(std::string& bytes, const glm::vec3& vector) {
 /// The JSON and the buffer of a file: all vertices, then all indices.
 class Document {
   public:
-    Document(const Mesh& mesh, const CornerClasses& classes, const VertexLight& light, int up)
-        : mesh_(mesh), classes_(classes), light_(light), up_(up) {}
+    Document(const Mesh& mesh, const CornerClasses& classes, const VertexLight& light, int up,
+             std::span<const Vec2> texcoords)
+        : mesh_(mesh), classes_(classes), light_(light), up_(up), texcoords_(texcoords) {}
 
     void add(const Part& part) {
         const int first = static_cast<int>(accessors_.size());
@@ -102,13 +104,12 @@ class Document {
             nodes_.back()["translation"] = {centre.x, centre.z, -centre.y};
             nodes_.back()["rotation"] = {-s, 0, 0, s};
         }
-        meshes_.push_back(
-            {{"name", group},
-             {"primitives",
-              Json::array({{{"attributes",
-                             {{"POSITION", first}, {"COLOR_0", first + 1}, {name, first + 2}}},
-                            {"indices", first + 3},
-                            {"material", 0}}})}});
+        Json attributes{{"POSITION", first}, {"COLOR_0", first + 1}, {name, first + 2}};
+        if (!texcoords_.empty())
+            attributes["TEXCOORD_0"] = attributes["TEXCOORD_1"] = first + 3;
+        const Json primitive{
+            {"attributes", attributes}, {"indices", accessors_.size() - 1}, {"material", 0}};
+        meshes_.push_back({{"name", group}, {"primitives", Json::array({primitive})}});
     }
 
     [[nodiscard]] std::string json(const Provenance& from) const {
@@ -121,7 +122,7 @@ class Document {
         const Json view_of_vertices{{"buffer", 0},
                                     {"byteOffset", 0},
                                     {"byteLength", vertices_.size()},
-                                    {"byteStride", vertex_bytes},
+                                    {"byteStride", vertex_bytes()},
                                     {"target", vertex_target}};
         const Json view_of_indices{{"buffer", 0},
                                    {"byteOffset", vertices_.size()},
@@ -160,16 +161,30 @@ class Document {
             append(vertices_, position);
             append(vertices_, light_.display(light));
             append(vertices_, light);
+            if (texcoords_.empty())
+                continue;
+            append_number(vertices_, static_cast<float>(texcoords_[vertex].x));
+            append_number(vertices_, static_cast<float>(texcoords_[vertex].y));
         }
+        const std::size_t first = accessors_.size();
         for (const std::size_t vector : {0u, 1u, 2u})
-            accessors_.push_back({{"bufferView", 0},
-                                  {"byteOffset", begin + vector * vector_bytes},
-                                  {"componentType", float_component},
-                                  {"count", part.vertices.size()},
-                                  {"type", "VEC3"}});
-        Json& positions = accessors_[accessors_.size() - 3];
-        positions["min"] = {low.x, low.y, low.z};
-        positions["max"] = {high.x, high.y, high.z};
+            add_floats("VEC3", begin + vector * vector_bytes, part.vertices.size());
+        if (!texcoords_.empty())
+            add_floats("VEC2", begin + vectors_bytes, part.vertices.size());
+        accessors_[first]["min"] = {low.x, low.y, low.z};
+        accessors_[first]["max"] = {high.x, high.y, high.z};
+    }
+
+    [[nodiscard]] std::size_t vertex_bytes() const {
+        return vectors_bytes + (texcoords_.empty() ? 0 : texcoord_bytes);
+    }
+
+    void add_floats(const char* type, std::size_t offset, std::size_t count) {
+        accessors_.push_back({{"bufferView", 0},
+                              {"byteOffset", offset},
+                              {"componentType", float_component},
+                              {"count", count},
+                              {"type", type}});
     }
 
     void add_indices(const Part& part) {
@@ -186,6 +201,7 @@ class Document {
     const CornerClasses& classes_;
     const VertexLight& light_;
     int up_;
+    std::span<const Vec2> texcoords_;
     std::string vertices_, indices_;
     Json accessors_ = Json::array(), nodes_ = Json::array(), meshes_ = Json::array();
 };
@@ -200,8 +216,9 @@ std::string chunk_header(std::size_t bytes, std::string_view type) {
 } // namespace
 
 void write_glb(const std::string& path, const Mesh& mesh, const CornerClasses& classes,
-               const VertexLight& light, const Provenance& from, int up) {
-    Document document(mesh, classes, light, up);
+               const VertexLight& light, const Provenance& from, int up,
+               std::span<const Vec2> texcoords) {
+    Document document(mesh, classes, light, up, texcoords);
     for (const Part& part : parts_of(mesh, classes))
         document.add(part);
     std::string json = document.json(from);

@@ -1,0 +1,53 @@
+#!/bin/sh
+# Bakes the office into vertices and a lightmap, and compares what viewers show with hemilux's own picture.
+#   check.sh HEMILUX [NODE_MODULES]
+# Blender where it is installed; three.js in headless Chromium and the Khronos validator where NODE_MODULES has them
+# (npm install three gltf-validator). The mean difference has to be below 2 % of the mean light, and the validator has
+# to find no error and no warning. Exit code 77 where there is none of them.
+set -eu
+[ $# -ge 1 ] || { sed -n '2,6s/^# \{0,1\}//p' "$0" >&2; exit 1; }
+hemilux=$(realpath "$1")
+modules=${2:-${HEMILUX_NODE_MODULES:-}}
+[ -z "$modules" ] || modules=$(realpath "$modules")
+here=$(cd "$(dirname "$0")" && pwd)
+scratch=$(mktemp -d)
+server=
+trap '[ -z "$server" ] || kill $server; rm -rf "$scratch"' EXIT
+cd "$scratch"
+view=7.6,2,5.7,2.6,0.7,1.6,58
+"$hemilux" solve "$here/../../examples/scenes/office_3576.obj" -q --divide none --tone srgb --no-gather --size 400x300 \
+    --camera $view -o picture.hdr -o scene.glb --lightmap 2048
+
+ran= status=0
+judge() { # viewer, file and what the line in it begins with
+    line=$(grep -a "^$3:" "$2") || { echo "$1 did not show $3"; tail -5 "$2"; return 1; }
+    echo "$1, $line"
+    echo "$line" | awk '{ exit !($NF == "%" && $(NF - 1) < 2) }'
+}
+if command -v blender >/dev/null; then
+    ran=yes
+    for what in vertices lightmap; do
+        timeout 300 blender --background --factory-startup --python "$here/blender.py" -- $what $view \
+            >log 2>&1 || true
+        judge Blender log $what || status=1
+    done
+fi
+if [ -d "${modules:-/none}/gltf-validator" ]; then
+    ran=yes
+    NODE_PATH=$modules node "$here/validate.js" scene.glb || status=1
+fi
+if [ -d "${modules:-/none}/three" ] && command -v chromium >/dev/null && command -v python3 >/dev/null; then
+    ran=yes
+    ln -s "$modules/three" three
+    cp "$here/three.html" .
+    python3 -u -m http.server 0 --bind 127.0.0.1 >port 2>/dev/null &
+    server=$!
+    while ! grep -q port port; do sleep 0.1; done
+    port=$(sed 's/.* port \([0-9]*\).*/\1/' port)
+    HOME=$scratch timeout 120 chromium --headless --no-sandbox --disable-gpu --use-gl=angle --use-angle=swiftshader \
+        --enable-unsafe-swiftshader --virtual-time-budget=20000 --user-data-dir="$scratch/profile" --dump-dom \
+        "http://127.0.0.1:$port/three.html#$view" >dom 2>log
+    for what in vertices lightmap; do judge three.js dom $what || status=1; done
+fi
+[ -n "$ran" ] || { echo "neither Blender nor three.js nor the validator is here" >&2; exit 77; }
+exit $status

@@ -1,0 +1,50 @@
+#pragma once
+// Where surfaces lie in a lightmap: a chart for each plane group of facets, packed into a square.
+
+#include "geometry/vector.h"
+#include "io/results/smooth.h"
+
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+/// Texels around each chart that have its light too, so that viewers may interpolate at its edges.
+inline constexpr int gutter = 2;
+
+/// One side of facets in one plane that meet at edges and have one material.
+struct Chart {
+    Vec3 along, across;        ///< unit, in the plane, local frame
+    Vec2 low{0.0}, high{0.0};  ///< extent along both, local frame
+    int column = 0, row = 0;   ///< of the texel in whose middle `low` lies
+    int columns = 0, rows = 0; ///< from there to the texel in whose middle `high` lies
+    std::vector<std::uint32_t> patches;
+
+    /// The place of a point in texels, from the corner of the picture. The middle of the first
+    /// texel is (0.5, 0.5).
+    [[nodiscard]] Vec2 place(const Vec3& point) const;
+};
+
+/// Thrown where charts do not fit, however coarse they are.
+struct LightmapTooSmall : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Charts of all patches but suns and skies, in a square of `size` texels: a texel is as large on
+/// every surface as that allows, but a chart has 2 x 2 at least. The edges of a rectangle lie in
+/// the middles of texels, so interpolation is exact there. Throws LightmapTooSmall.
+[[nodiscard]] std::vector<Chart> find_charts(const Mesh& mesh, int size);
+
+/// Classes of corners, divided where charts meet.
+struct ChartCorners {
+    CornerClasses classes;
+    std::vector<std::uint32_t> class_of; ///< before the division
+    std::vector<Vec2> place;             ///< Chart::place()
+};
+[[nodiscard]] ChartCorners divide_by_charts(const Mesh& mesh, const CornerClasses& classes,
+                                            const std::vector<Chart>& charts);
+
+} // namespace hemilux

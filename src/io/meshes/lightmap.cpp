@@ -1,0 +1,102 @@
+#include "io/meshes/lightmap.h"
+
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace hemilux {
+namespace {
+
+double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+
+/// A corner of a triangle in the picture.
+struct Corner {
+    Vec2 place;
+    Vec3 light;
+};
+
+struct Nearest {
+    double distance; ///< squared [texels^2]
+    Vec3 light;
+};
+
+/// On the edge from a to b.
+Nearest nearest_on(const Corner& a, const Corner& b, const Vec2& at) {
+    const Vec2 edge = b.place - a.place;
+    const double length = glm::dot(edge, edge);
+    const double t = length > 0 ? std::clamp(glm::dot(at - a.place, edge) / length, 0.0, 1.0) : 0.0;
+    const Vec2 gap = a.place + t * edge - at;
+    return {glm::dot(gap, gap), a.light + t * (b.light - a.light)};
+}
+
+Nearest nearest_on(const std::array<Corner, 3>& triangle, const Vec2& at) {
+    const auto& [a, b, c] = triangle;
+    const double area = cross(b.place - a.place, c.place - a.place);
+    const double u = cross(at - a.place, c.place - a.place) / area;
+    const double v = cross(b.place - a.place, at - a.place) / area;
+    if (u >= 0 && v >= 0 && u + v <= 1) // false where the triangle has no area
+        return {0, a.light + u * (b.light - a.light) + v * (c.light - a.light)};
+    return std::ranges::min({nearest_on(a, b, at), nearest_on(b, c, at), nearest_on(c, a, at)}, {},
+                            &Nearest::distance);
+}
+
+/// The picture under way, and how far each texel is from what it shows.
+class Painter {
+  public:
+    explicit Painter(int size)
+        : image_(size, size), distance_(image_.pixels.size(), std::numeric_limits<float>::max()) {}
+
+    /// Paints the texels of the chart that are at most the gutter away from the triangle, and not
+    /// nearer to another one.
+    void paint(const Chart& chart, const std::array<Corner, 3>& triangle) {
+        const auto& [a, b, c] = triangle;
+        const Vec2 low = glm::min(a.place, glm::min(b.place, c.place)) - double(gutter);
+        const Vec2 high = glm::max(a.place, glm::max(b.place, c.place)) + double(gutter);
+        const auto range = [](double from, double to, int first, int count) {
+            return std::pair(std::max(first - gutter, static_cast<int>(std::floor(from))),
+                             std::min(first + count + gutter, static_cast<int>(std::ceil(to))));
+        };
+        const auto [left, right] = range(low.x, high.x, chart.column, chart.columns);
+        const auto [top, bottom] = range(low.y, high.y, chart.row, chart.rows);
+        for (int y = top; y < bottom; ++y)
+            for (int x = left; x < right; ++x)
+                offer(x, y, nearest_on(triangle, {x + 0.5, y + 0.5}));
+    }
+
+    [[nodiscard]] Image take() { return std::move(image_); }
+
+  private:
+    void offer(int x, int y, const Nearest& nearest) {
+        float& distance = distance_[image_.index(x, y)];
+        if (!(static_cast<float>(nearest.distance) < distance))
+            return;
+        distance = static_cast<float>(nearest.distance);
+        image_.at(x, y) = glm::vec3(nearest.light);
+    }
+
+    Image image_;
+    std::vector<float> distance_;
+};
+
+} // namespace
+
+Image lightmap(const Mesh& mesh, const std::vector<Chart>& charts, const ChartCorners& corners,
+               std::span<const Vec3> light, int size) {
+    Painter painter(size);
+    for (const Chart& chart : charts)
+        for (const std::uint32_t i : chart.patches) {
+            const auto corner = [&](std::size_t c) {
+                const std::uint32_t k = corners.classes.of_patch[i][c];
+                return Corner{corners.place[k], light[k]};
+            };
+            painter.paint(chart, {corner(0), corner(1), corner(2)});
+            if (!mesh.patches()[i].shape.is_triangle())
+                painter.paint(chart, {corner(0), corner(2), corner(3)});
+        }
+    return painter.take();
+}
+
+} // namespace hemilux
