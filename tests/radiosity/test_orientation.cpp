@@ -256,6 +256,13 @@ TEST_CASE("A lamp shines to the side where there is something to light") {
     }
 }
 
+TEST_CASE("A small lamp far from a small thing in the open shines outwards") {
+    Scene scene = empty_scene();
+    add_block(scene, Vec3(-1), Vec3(1));
+    add_block(scene, {4, 5.9, 1}, {4.01, 5.91, 1.01}, all_lamps);
+    CHECK(find_orientation(scene).faces == 0);
+}
+
 TEST_CASE("A lamp shade open at the bottom stays, and is in doubt where it swallows the light") {
     for (const bool inwards : {false, true}) {
         Scene scene = room({-2, 0, -2}, {2, 3, 2});

@@ -46,7 +46,7 @@ class Lamp {
     [[nodiscard]] std::optional<EmitterSide> side() const {
         const Shell& shell = shells_.all[shell_];
         View front = look(false, false), back = look(true, false);
-        if (shell.closed && std::max(front.others, back.others) < nothing)
+        if (shell.closed && std::max(front.others, back.others) < nothing && lies_alone())
             return EmitterSide{shell.outwards > 0, true};
         const double ahead = front.median(), behind = back.median();
         // How near a side must be so that it is a wall at once.
@@ -61,6 +61,10 @@ class Lamp {
     }
 
   private:
+    /// Whether rays that are sent to other surfaces miss them: they are not only small from here.
+    [[nodiscard]] bool lies_alone() const {
+        return std::max(look(false, true).others, look(true, true).others) < nothing;
+    }
     /// Whether it is the back that alone lies before something.
     [[nodiscard]] std::optional<bool> only_one(const View& front, const View& back) const {
         if (const double dark = std::max(front.dark, back.dark); dark > something)
