@@ -33,6 +33,11 @@
   check("its numbers are those of the data", chosen !== null &&
     rows().some(([name, value]) => name === "Material" && value === run.materials[run.material[chosen]].name) &&
     rows().some(([name, value]) => name === "Radiosity [W/m²]" && value.includes(number(run.radiosity[3 * chosen]))));
+  const hemisphere = document.querySelector(".hemisphere");
+  check("it has a divided hemisphere where there are densities", run.counts
+    ? hemisphere && hemisphere.querySelectorAll("polygon").length >= 4 &&
+      hemisphere.querySelectorAll("circle").length === [...countsOf(run, chosen)].filter((count) => count < 255).length
+    : !hemisphere);
   check("the patch is marked", differ(first, pixels()));
   key("Escape");
   check("Escape lets it go", view.selected === null && !differ(first, pixels()));

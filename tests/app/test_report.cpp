@@ -109,6 +109,27 @@ TEST_CASE("a report is the same for any number of threads, but for its times") {
     }
 }
 
+TEST_CASE("a report of a method that is guided by densities has them") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(place.hemilux("solve room.obj -q --steps 1 --method hemisphere --report a.html").code ==
+            0);
+    const std::string page = place.read("a.html");
+    const std::size_t patches = floats_of(page, "area").size(), vertices = 41; // of depth 2
+    CHECK(floats_of(page, "vertices").size() == 3 * vertices);
+    const std::string counts = test::from_base64(element_of(page, "counts"));
+    REQUIRE(counts.size() == patches * vertices);
+    // A closed room without a thing in it has one surface in every direction, and all is divided.
+    CHECK(counts == std::string(counts.size(), 1));
+    double shares = 0;
+    for (const float share : floats_of(page, "shares"))
+        shares += double(share);
+    CHECK(shares == Approx(3)); // of each level
+    REQUIRE(place.hemilux("solve room.obj -q --steps 1 --method stratified --report b.html").code ==
+            0);
+    CHECK(element_of(place.read("b.html"), "counts").empty());
+}
+
 TEST_CASE("no name of a file breaks a report") {
     const Workplace place;
     const std::string name = "</script><script>alert(1)</script>\"'&lt;<!--<script>";

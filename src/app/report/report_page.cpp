@@ -3,8 +3,11 @@
 #include "app/report/assets.h"
 #include "app/report/mesh_arrays.h"
 #include "app/report/page_file.h"
+#include "radiosity/hemisphere/density.h"
 #include "radiosity/scene/mesh.h"
 
+#include <algorithm>
+#include <numbers>
 #include <vector>
 
 namespace hemilux {
@@ -25,6 +28,30 @@ void write_light(PageFile& page, const ReportContent& content, const CornerClass
         write("hits", [&](std::size_t i) { return static_cast<double>(solution.hits[i]); });
 }
 
+void write_densities(PageFile& page, const ReportDensities& densities, std::size_t patches) {
+    const auto& [hemisphere, map, threshold] = densities;
+    const std::vector<Vec3>& vertices = hemisphere.vertices();
+    const std::vector<Hemisphere::Cell>& cells = hemisphere.cells();
+    write_numbers(page, "vertices", vertices.size(), [&](std::size_t v) { return vertices[v]; });
+    page.array("cells", cells.size(), [&](std::size_t c, std::string& bytes) {
+        for (const std::uint16_t vertex : cells[c].vertex)
+            append(bytes, std::uint32_t{vertex});
+        append(bytes, std::uint32_t{cells[c].first_child});
+    });
+    write_numbers(page, "shares", cells.size(),
+                  [&](std::size_t c) { return cells[c].projected_solid_angle / std::numbers::pi; });
+    std::vector<DensityCount> counts;
+    page.array("counts", patches, [&](std::size_t i, std::string& bytes) {
+        constexpr char not_counted = '\xff';
+        const std::size_t first = bytes.size();
+        bytes.resize(first + vertices.size(), not_counted);
+        counts.clear();
+        map.counts(static_cast<std::uint32_t>(i), counts);
+        for (const auto& [vertex, surfaces] : counts)
+            bytes[first + vertex] = static_cast<char>(std::min<int>(surfaces, 254));
+    });
+}
+
 } // namespace
 
 void write_report_page(const std::string& path, const ReportContent& content) {
@@ -33,6 +60,8 @@ void write_report_page(const std::string& path, const ReportContent& content) {
     page.json("run", run_json(content));
     write_mesh_arrays(page, content.mesh, classes);
     write_light(page, content, classes);
+    if (content.densities)
+        write_densities(page, *content.densities, content.mesh.patches().size());
     page.finish(assets::solve_script);
 }
 

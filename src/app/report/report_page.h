@@ -14,9 +14,15 @@
 //   error        float32 x 3  standard error of the radiosity; absent where it is zero, may be NaN
 //   face, material, group  uint32; material and group count in the JSON's lists
 //   hits         float32      rays that hit the patch; absent where they are not counted
+//   vertices     float32 x 3  of the hemisphere that patches share, z away from the patch
+//   cells        uint32  x 4  its triangles: three vertices, and the first of four children or 0
+//   shares       float32      of each triangle: its part of a diffuse patch's power
+//   counts       uint8        of each patch at each vertex: surfaces, 254 or more; 255: not counted
+//                             (these four where the method is guided by densities)
 //   reflectance, emission  float32 x 3, where there are textures: means over each patch
 //
-// That is 60 bytes a patch, 84 with textures, and 24 a vertex; base64 makes 4 of 3.
+// That is 60 bytes a patch, 84 with textures, 41 more with densities of depth 2, and 24 a vertex;
+// base64 makes 4 of 3.
 
 #include "app/report/run_data.h"
 

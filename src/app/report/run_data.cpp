@@ -92,6 +92,8 @@ std::string run_json(const ReportContent& content) {
     Json run = common_json(content);
     run["statistics"] = Json::parse(to_json(content.statistics));
     run["steps"] = steps_json(content.steps);
+    if (content.densities)
+        run["threshold"] = content.densities->threshold;
     return text_of(run);
 }
 

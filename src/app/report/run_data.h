@@ -14,6 +14,15 @@
 namespace hemilux {
 
 class Mesh;
+class DensityMap;
+class Hemisphere;
+
+/// The counts by which a method divided the hemispheres of all patches.
+struct ReportDensities {
+    const Hemisphere& hemisphere;
+    const DensityMap& map;
+    double threshold; ///< is_divided()
+};
 
 /// What a report is made of; refers to what lives in the caller.
 struct ReportContent {
@@ -22,14 +31,15 @@ struct ReportContent {
     const Statistics& statistics;
     std::span<const StepRow> steps;
     std::span<const std::string> warnings;
-    std::string scene;              ///< its path
-    std::string command;            ///< the command line
-    Camera camera;                  ///< the first view
-    std::optional<double> exposure; ///< empty: the page chooses one
+    std::string scene;                          ///< its path
+    std::string command;                        ///< the command line
+    Camera camera;                              ///< the first view
+    std::optional<double> exposure;             ///< empty: the page chooses one
+    const ReportDensities* densities = nullptr; ///< of methods that have them
 };
 
 /// The keys are scene, command, version, machine, centre, materials, groups, camera, exposure,
-/// warnings, statistics (as of to_json) and steps.
+/// warnings, statistics (as of to_json), steps and, where there are densities, threshold.
 [[nodiscard]] std::string run_json(const ReportContent& content);
 
 /// The light that a method had found after some step.

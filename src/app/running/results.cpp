@@ -19,6 +19,7 @@
 #include "io/pictures/exr.h"
 #include "io/pictures/image.h"
 #include "io/results/smooth.h"
+#include "radiosity/hemisphere/density.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/workers.h"
 
@@ -180,10 +181,26 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
 void write_report(const SolveSettings& settings, const Results& results) {
     const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
         results;
-    write_report_page(settings.report, {mesh, solution, statistics, steps, warnings,
-                                        settings.scene.path, settings.from.command,
-                                        camera_of(settings.view, mesh, tracer, solution.radiosity),
-                                        settings.view.exposure});
+    ReportContent content{mesh,
+                          solution,
+                          statistics,
+                          steps,
+                          warnings,
+                          settings.scene.path,
+                          settings.from.command,
+                          camera_of(settings.view, mesh, tracer, solution.radiosity),
+                          settings.view.exposure};
+    const bool by_densities = settings.method == &method_of(Role::paper) &&
+                              settings.options.guide == Guide::density && !settings.plain;
+    if (!by_densities)
+        return write_report_page(settings.report, content);
+    Monitor monitor; // counted anew, as the method does not keep all
+    const Hemisphere hemisphere(settings.options.depth);
+    const double threshold = settings.options.threshold;
+    const DensityMap map(mesh, tracer, hemisphere, threshold, Workers(statistics.threads), monitor);
+    const ReportDensities densities{hemisphere, map, threshold};
+    content.densities = &densities;
+    write_report_page(settings.report, content);
 }
 
 /// The files of --lightmap.

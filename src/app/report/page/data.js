@@ -38,7 +38,16 @@ function readRun() {
     run[name] = readArray(name, Float32Array);
   for (const name of ["corners", "face", "material", "group"]) run[name] = readArray(name, Uint32Array);
   run.patches = run.area.length;
+  readDensities(run);
   return run;
+}
+
+/** The hemisphere of patches and what was counted, where there are densities. */
+function readDensities(run) {
+  const counts = readBytes("counts");
+  run.counts = counts && new Uint8Array(counts.buffer);
+  for (const name of ["vertices", "shares"]) run[name] = readArray(name, Float32Array);
+  run.cells = readArray("cells", Uint32Array);
 }
 
 /** Three numbers of a patch from an array with three a patch. */

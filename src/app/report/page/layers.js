@@ -63,6 +63,8 @@ function layersOf(run, view) {
       (i) => 100 * relativeError(run, i)));
   if (run.hits)
     layers.push(scalarLayer("Rays that hit", "energy rays per m²", run, (i) => run.hits[i] / run.area[i]));
+  if (run.counts)
+    layers.push(scalarLayer("Density", "surfaces met by a density ray, mean", run, (i) => meanDensity(run, i)));
   layers.push(tintLayer("Patches", run, view, (i) => i + 1));
   layers.push(tintLayer("Materials", run, view, (i) => run.material[i] + 1));
   layers.push(tintLayer("Groups", run, view, (i) => run.group[i] + 1));

@@ -56,7 +56,7 @@ function describePatch(run, i) {
     ["Emission [W/m²]", channels(emissionOf(run, i))],
   ];
   if (run.hits) rows.push(["Rays that hit", grouped(run.hits[i])]);
-  at("patch").replaceChildren(fillTable(element("table"), null, rows));
+  at("patch").replaceChildren(fillTable(element("table"), null, rows), ...(run.counts ? [hemisphereDrawing(run, i, 240)] : []));
 }
 
 function showFigures({ statistics }) {
