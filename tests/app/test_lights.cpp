@@ -37,6 +37,24 @@ TEST_CASE("A sky lights open ground by its own radiosity") {
     CHECK(ground_light(place, "--sky 3 --method matrix") == Approx(1.5).epsilon(.01));
 }
 
+TEST_CASE("What suns and skies emit is said apart, with what the scene reflects") {
+    const Workplace place;
+    write_ground(place);
+    CHECK(ground_light(place, "--sky 3") == Approx(1.5).epsilon(.01));
+    const std::string statistics = place.read("s.json");
+    CHECK(test::statistic(statistics, "reflected") == Approx(4 * 3 * 1.5).epsilon(.01));
+    CHECK(test::statistic(statistics, "emitted_far") > 100);
+    CHECK_THAT(
+        place.hemilux("solve ground.obj -o a.csv --sky 3").err,
+        Contains("W of suns and skies, most of which passes the scene by; its surfaces reflect"));
+    CHECK_THAT(
+        place
+            .hemilux("solve ground.obj -o a.csv --light 'disc at 0,2,0 towards 0,-1,0 radius "
+                     ".2 watts 6'")
+            .err,
+        Contains("energy: 6 W emitted, "));
+}
+
 TEST_CASE("A sun brings its irradiance times the cosine") {
     const Workplace place;
     write_ground(place);

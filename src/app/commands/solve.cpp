@@ -83,6 +83,14 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
         statistics.estimated_error_of = ErrorOf::target;
     statistics.estimated_error_elsewhere = estimated_error_elsewhere(mesh, solution);
     statistics.energy = solution.energy;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        const double area = mesh.frame().area_to_world(mesh.patches()[i].area);
+        const Material& material = mesh.material(i);
+        const Vec3 power = area * (material.is_far ? material.emission
+                                                   : solution.radiosity[i] - material.emission);
+        (material.is_far ? statistics.emitted_far : statistics.reflected) +=
+            power.r + power.g + power.b;
+    }
 }
 
 std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverInput& input,

@@ -10,13 +10,24 @@ namespace {
 
 double sum(const Vec3& v) { return v.r + v.g + v.b; }
 
-std::string energy_text(const EnergyBalance& energy) {
+/// Percentages of what is emitted say little where nearly all of it meets nothing of the scene.
+std::string far_text(const Statistics& s) {
+    return s.emitted_far > 0
+               ? formatted(" (%g W of suns and skies, most of which passes the scene by; ",
+                           s.emitted_far) +
+                     formatted("its surfaces reflect %g W)", s.reflected)
+               : "";
+}
+
+std::string energy_text(const Statistics& s) {
+    const EnergyBalance& energy = s.energy;
     const double emitted = sum(energy.emitted);
     const double absorbed = sum(energy.absorbed) / emitted;
     const double escaped = sum(energy.escaped) / emitted;
     const double unshot = sum(energy.unshot) / emitted;
-    return formatted("energy: %g W emitted, ", emitted) + percent(absorbed) + " absorbed, " +
-           percent(escaped) + " escaped, " + formatted("%.3f %% unshot", 100 * unshot) +
+    return formatted("energy: %g W emitted", emitted) + far_text(s) + ", " + percent(absorbed) +
+           " absorbed, " + percent(escaped) + " escaped, " +
+           formatted("%.3f %% unshot", 100 * unshot) +
            formatted("; balance closed to %.0e", energy.imbalance());
 }
 
@@ -88,7 +99,7 @@ std::string run_text(const Statistics& s) {
     text += " in " + duration(s.seconds_density + s.seconds_solve) + " (" +
             short_count(s.rays_per_second) + " rays/s)";
     if (s.steps > 0)
-        text += "\n" + errors_text(s) + "\n" + energy_text(s.energy);
+        text += "\n" + errors_text(s) + "\n" + energy_text(s);
     return text;
 }
 

@@ -92,6 +92,10 @@ Json to_object(const Statistics& s) {
         object["for"] = s.target;
         object["estimated_error_elsewhere"] = s.estimated_error_elsewhere;
     }
+    if (s.emitted_far > 0) {
+        object["emitted_far"] = s.emitted_far;
+        object["reflected"] = s.reflected;
+    }
     object["program"] = s.program;
     object["settings"] = settings(s.settings);
     return object;

@@ -63,6 +63,9 @@ struct Statistics {
     /// (division_error.h).
     double error_division = unknown, error_division_uncertainty = unknown;
     EnergyBalance energy;
+    /// Of the emitted power that of suns and skies, whose light mostly passes the scene by, and what
+    /// all other surfaces reflect [W]. In the JSON where there are suns or skies.
+    double emitted_far = 0, reflected = 0;
     std::vector<LeftOut> left_out;
     std::string program; ///< with its version, whose defaults hold for options that are not given
     std::vector<GivenOption> settings;

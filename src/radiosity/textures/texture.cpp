@@ -102,6 +102,8 @@ Vec3 Texture::row_integral(double x, std::int64_t column, std::size_t row, Wrap 
     if (wrap == Wrap::clamp && column >= n)
         return sum_before(width_, row) + (x - double(n)) * here;
     const Vec3 within = (x - double(column)) * here;
+    if (column >= 0 && column < n)
+        return within + sum_before(stands, row);
     const Vec3 all = sum_before(width_, row);
     const std::int64_t turns = (column - modulo(column, n)) / n;
     const bool reversed = wrap == Wrap::mirror && modulo(turns, 2) == 1;
