@@ -71,7 +71,8 @@ class Watching final : public Strategy {
 /// All bounces of the light that `result` has as radiosity; false when interrupted.
 [[nodiscard]] bool shoot(const SolverInput& input, const StepTask& task, const Watching& watching,
                          StepResult& result) {
-    const ShootingTools tools{input, Hemisphere(0), CellDirections(tools.hemisphere, false),
+    const ShootingTools tools{input, ShootingRules{}, Hemisphere(0),
+                              CellDirections(tools.hemisphere, tools.rules.area),
                               std::make_unique<Watching>(watching)};
     return Bounces(tools).shoot(task, result);
 }

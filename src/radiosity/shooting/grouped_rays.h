@@ -3,6 +3,7 @@
 
 #include "bvh/tracer.h"
 #include "radiosity/rays/patch_start.h"
+#include "radiosity/shooting/shooting_rules.h"
 #include "radiosity/shooting/strategy.h"
 
 #include <cstdint>
@@ -30,7 +31,7 @@ struct RaySource {
     const Mesh& mesh;
     const CellDirections& directions;
     const Strategy& strategy;
-    bool literal;
+    RayOrigins origins;
 };
 
 /// The rays of a list of groups in their order, some at a time. A ray depends on the stream, its

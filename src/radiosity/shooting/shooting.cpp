@@ -8,11 +8,11 @@
 
 namespace hemilux {
 
-ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strategy)
-    : StepwiseSolver(input, !input.options.literal), tools_{input, Hemisphere(input.options.depth),
-                                                            CellDirections(tools_.hemisphere,
-                                                                           input.options.literal),
-                                                            nullptr} {
+ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strategy,
+                               const ShootingRules& rules)
+    : StepwiseSolver(input, rules.rays == RaysPerPatch::by_power),
+      tools_{input, rules, Hemisphere(input.options.depth),
+             CellDirections(tools_.hemisphere, rules.area), nullptr} {
     const auto start = std::chrono::steady_clock::now();
     input_.monitor.phase = "density";
     tools_.strategy = make_strategy(input_, tools_.hemisphere, Workers(input.options.threads));

@@ -355,7 +355,6 @@ extern const Method hierarchical_method;
 const Method hierarchical_method{
     .name = "hierarchical",
     .summary = "links between large and small parts of surfaces (Hanrahan et al. 1991)",
-    .has_literal = false,
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .05},
     .make = make_hierarchical,

@@ -270,7 +270,6 @@ extern const Method matrix_method;
 const Method matrix_method{
     .name = "matrix",
     .summary = "all form factors and a linear solver (Goral et al. 1984); the reference",
-    .has_literal = false,
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .002},
     .make = make_matrix,

@@ -245,7 +245,6 @@ extern const Method monte_carlo_method;
 const Method monte_carlo_method{
     .name = "monte-carlo",
     .summary = "the brightest patch shoots all it holds by random rays (Shirley 1991; paper 3.2)",
-    .has_literal = false,
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = make_monte_carlo,

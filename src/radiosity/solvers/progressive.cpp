@@ -204,7 +204,6 @@ extern const Method progressive_method;
 const Method progressive_method{
     .name = "progressive",
     .summary = "the brightest patch shoots by explicit form factors (Cohen et al. 1988; paper 3.1)",
-    .has_literal = false,
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
     .make = make_progressive,

@@ -333,7 +333,6 @@ extern const Method stored_transport_method;
 const Method stored_transport_method{
     .name = "stored-transport",
     .summary = "rays are kept and all bounces solved on them; lamps by shadow rays",
-    .has_literal = false,
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
     .make = make_stored_transport,
