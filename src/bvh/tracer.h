@@ -37,7 +37,7 @@ struct Hit {
     /// triangle being corners (0,1,2), or (0,2,3) in the second half of a quad.
     double u, v;
     bool second_half;
-    bool front; ///< the counter-clockwise side was struck
+    bool front; ///< the counter-clockwise side was hit
 };
 
 /// The nearest facet, and whether its counter-clockwise side was hit: as much of a hit as most

@@ -29,7 +29,7 @@ class ProjectedPolygon {
 
   private:
     Frame frame_;
-    ClippedPolygon seen_;
+    ClippedPolygon above_;
     /// Projected solid angle of the first k + 1 triangles of the fan about vertex 0 [sr].
     std::array<double, 3> area_up_to_{};
     double factor_ = 0;

@@ -1,6 +1,6 @@
 #pragma once
 // The form factor between two patches by shadow rays (Wallace, Elmquist and Haines 1989), as
-// exactly as the light between them is worth.
+// exactly as the light between them is important.
 //
 // Points of the receiver are independent scrambled Sobol sets, whose spread tells the error; they
 // grow until it is small enough.

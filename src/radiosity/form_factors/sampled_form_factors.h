@@ -4,9 +4,9 @@
 //
 // From every patch N rays follow the cosine law, origin and direction together a scrambled Sobol
 // point. By reciprocity, A_i F_ij = A_j F_ji, the rays from i to j and from j to i estimate the
-// same number; weighted by what each is worth, F_ij = A_j (c_ij + c_ji) / (N (A_i + A_j)), c being
-// the counts. Few rays find a small lamp: the columns of emitters come from the closed form of
-// point and polygon (Lambert) times the visibility along a ray drawn inside it. Rows are then
+// same number; weighted by the inverse of its variance, F_ij = A_j (c_ij + c_ji) / (N (A_i + A_j)),
+// c being the counts. Few rays find a small lamp: the columns of emitters come from the closed form
+// of point and polygon (Lambert) times the visibility along a ray drawn inside it. Rows are then
 // closed: they sum to 1 minus the share of the row's own rays that met no patch.
 
 #include "bvh/tracer.h"

@@ -29,7 +29,7 @@ void ShootingSolver::make_places(unsigned count) {
         bounces_.emplace_back(tools_);
 }
 
-/// Where steps are alike the strategy is not told of them.
+/// Where steps are alike the strategy is not called for each.
 bool ShootingSolver::solve_once(const StepTask& task, StepResult& result) {
     Bounces& bounces = bounces_[task.place];
     Strategy& strategy = *tools_.strategy;

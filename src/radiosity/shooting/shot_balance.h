@@ -2,10 +2,10 @@
 // Where the light of a shot of progressive radiosity goes.
 //
 // Two things tell what share of it arrives at patches: the sum of the form factors, and rays from
-// the shooter, some of which are lost. Neither is exact. Both are joined by what each is worth, the
-// factors are scaled to that, and the rest is lost: so no energy is made between patches, which in
-// bright rooms would be made again in each bounce. Where much hangs on
-// pairs that are looked at by chance, factors are left as they are, right on average.
+// the shooter, some of which are lost. Neither is exact. Both are weighted by the inverse of their
+// variances, the factors are scaled to that, and the rest is lost: so no energy is made between
+// patches, which in bright rooms would be made again in each bounce. Where much hangs on pairs that
+// are looked at by chance, factors are left as they are, right on average.
 
 #include "radiosity/form_factors/sampled_form_factors.h"
 
@@ -45,11 +45,11 @@ class ShotBalance {
   public:
     /// `closed`: no light can be lost, as the geometry proves.
     explicit ShotBalance(bool closed) : closed_(closed) {}
-    ShotShares settle(const FactorSum& factors, const ShotRays& rays);
+    ShotShares balance(const FactorSum& factors, const ShotRays& rays);
 
   private:
     [[nodiscard]] double variance_of_loss(double count) const;
-    [[nodiscard]] double usual_variance(const FactorSum& factors) const;
+    [[nodiscard]] double prior_variance(const FactorSum& factors) const;
 
     bool closed_;
     ShotRays all_; ///< of all shots: where hardly any is lost, a few rays do not tell

@@ -77,13 +77,13 @@ class TargetBalls {
                                            std::uint64_t key) const;
 
     /// What some rays from each patch have found, by patch and ball.
-    struct Sights {
+    struct Visibility {
         std::vector<double> root_of_value; ///< sqrt(E[W^2 v])
         std::vector<double> power;         ///< E[W]
         std::uint64_t rays = 0;
     };
-    [[nodiscard]] Sights look(const SolverInput& input, std::span<const double> value,
-                              const Workers& workers) const;
+    [[nodiscard]] Visibility look(const SolverInput& input, std::span<const double> value,
+                                  const Workers& workers) const;
 
   private:
     std::vector<TargetBall> balls_;

@@ -168,7 +168,7 @@ class ProgressiveSolver final : public Solver {
         }
         const double variance = std::accumulate(of_patch.begin(), of_patch.end(), 0.0);
         solution_.variance = variance;
-        solution_.unseen = missing;
+        solution_.missed = missing;
         solution_.effective_freedom.reset();
         if (variance > 0)
             solution_.effective_freedom = effective_freedom_of(of_patch, estimate.shared);

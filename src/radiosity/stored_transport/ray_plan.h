@@ -39,7 +39,7 @@ struct ErrorSoFar {
 
 class RayPlan {
   public:
-    /// The first step's means, of one batch; no `to_emitters`: there are no lamps to be reached.
+    /// The first step's means, of one batch; no `to_emitters`: there are no emitters to be reached.
     /// The mesh outlives this.
     RayPlan(const Mesh& mesh, const Needs& needs, double random, double to_emitters,
             const RayGoal& goal);
@@ -76,8 +76,8 @@ class RayPlan {
     /// rays that found light, which are soon a small part of all.
     void weigh(std::span<const Vec3> variance, const std::vector<bool>& lit);
 
-    /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`:
-    /// of each patch, times its area, in any unit; negative: it takes none.
+    /// From now on more shadow rays from patches whose light from emitters is uncertain.
+    /// `variance`: of each patch, times its area, in any unit; negative: it takes none.
     void weigh_emitters(std::span<const double> variance, const std::vector<bool>& lit);
 
     void save(StateWriter& state) const;
@@ -93,7 +93,7 @@ class RayPlan {
     [[nodiscard]] double of_neighbours(std::uint32_t patch, std::span<const double> known) const;
     void learn(std::span<const Vec3> variance);
     [[nodiscard]] bool has_target() const { return !aim_.empty(); }
-    [[nodiscard]] std::vector<double> usual_rays(std::span<const double> weights) const;
+    [[nodiscard]] std::vector<double> expected_rays(std::span<const double> weights) const;
     [[nodiscard]] double first_mean(double mean) const;
     [[nodiscard]] std::vector<std::uint32_t> allocate(std::span<const double> weights, double mean,
                                                       std::span<const std::uint32_t> already) const;

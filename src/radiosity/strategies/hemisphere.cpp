@@ -150,8 +150,8 @@ class HemisphereStrategy final : public Strategy {
 std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisphere& hemisphere,
                                           const Workers& workers) {
     const Guide guide = input.options.literal ? Guide::density : input.options.guide;
-    const bool by_sight = guide == Guide::visible || guide == Guide::learned;
-    if (by_sight && input.needs.densities)
+    const bool by_visibility = guide == Guide::visible || guide == Guide::learned;
+    if (by_visibility && input.needs.densities)
         return make_visibility_guide(input, hemisphere, workers, guide == Guide::learned);
     return std::make_unique<HemisphereStrategy>(input, hemisphere, workers);
 }
