@@ -15,7 +15,8 @@ namespace hemilux {
 /// Marks "no facet".
 inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// origin + t direction, for t in (t_min, t_max]. The direction need not be of unit length.
+/// origin + t direction, for t in (t_min, t_max], in lengths of the direction, which need not be of
+/// unit length.
 struct Ray {
     Vec3 origin;
     Vec3 direction;

@@ -1,6 +1,6 @@
 #pragma once
 // A polygon seen from a point of a surface: how large its form factor is, and directions towards it
-// that follow Lambert's law. It is what a shadow ray to a lamp needs.
+// that follow Lambert's law. It is what a shadow ray to an emitter needs.
 //
 // Only geometry: a polygon counts from either side, and nothing stands in between. A caller whose
 // emitters shine to the front only tests dot(polygon.normal(), point - corner) > 0 first, and

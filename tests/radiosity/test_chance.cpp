@@ -143,13 +143,13 @@ TEST_CASE("Pairs are looked at as often as they are due, and count as much more"
         seldom.look(lamp, Vec3(1.0), .02, static_cast<std::uint64_t>(k));
         double before = 0, variance_before = 0;
         for (std::uint32_t i = 0; i < patches; ++i) {
-            const Sight& sight = seldom.sights()[i];
+            const ReceiverFactor& sight = seldom.by_receiver()[i];
             factor[i].add(sight.factor);
             if (!(sight.at_risk > 0)) {
                 variance_before = 0;
                 continue;
             }
-            // Of Sight: at_risk = rough / S, left_to_chance = (1 - p) / p rough^2 / S.
+            // Of ReceiverFactor: at_risk = rough / S, left_to_chance = (1 - p) / p rough^2 / S.
             const double rough =
                 std::min(rough_factor(model.mesh.patches()[i], model.mesh.patches()[lamp]),
                          model.mesh.patches()[lamp].area / model.mesh.patches()[i].area);

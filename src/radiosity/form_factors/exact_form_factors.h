@@ -25,7 +25,7 @@ class ExactFormFactors {
     /// must have been made without emitters.
     [[nodiscard]] SparseMatrix matrix(const SampledFormFactors& sampled) const;
 
-    /// F_ij where it is known without sampling; 0 where the two do not face each other.
+    /// F_ij [-] where it is known without sampling; 0 where the two do not face each other.
     [[nodiscard]] std::optional<double> factor(std::uint32_t i, std::uint32_t j) const;
     /// Pairs that face each other.
     [[nodiscard]] std::uint64_t exact_pairs() const;
@@ -34,7 +34,7 @@ class ExactFormFactors {
   private:
     struct Entry {
         std::uint32_t patch;
-        double factor; ///< < 0: to be sampled
+        double factor; ///< F [-]; < 0: to be sampled
     };
     /// Pairs with patches of higher index.
     void find_row(std::uint32_t patch, std::span<const Box> facet_boxes);

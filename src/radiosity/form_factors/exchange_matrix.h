@@ -31,7 +31,7 @@ class ExchangeMatrix {
     /// rays.
     ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers);
 
-    /// y_i = sum_j F_ij x_j
+    /// y_i = sum_j F_ij x_j, by patch; y has the unit of x.
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
 
     /// The same in parts: the element j of a vector as rows take it,
@@ -52,14 +52,14 @@ class ExchangeMatrix {
     [[nodiscard]] double self_factor(std::size_t i) const {
         return per_area_[i] * self_[i] * scale_[i];
     }
-    /// Calls body(begin, end) for chunks of the rows, by as many threads as that is worth.
+    /// Calls body(begin, end) for chunks of the rows, by as many threads as pay.
     template <class Body>
     void for_rows(const Workers& workers, const Body& body) const {
         readers(workers).for_chunks(area_.size(), rows_per_chunk, body);
     }
     static constexpr std::size_t rows_per_chunk = SparseRows::rows_per_chunk;
 
-    /// What patch i exchanges with others; a value is S before it is scaled.
+    /// What patch i exchanges with others; a value is S before it is scaled [local area].
     [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const { return rows_.row(i); }
     /// Has an entry for each patch.
     [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }

@@ -69,7 +69,7 @@ class HemisphereImportance {
 /// Rays of unequal power do not carry exactly the power to be shot. What is too much or too little
 /// goes on over all bounces and spreads over all patches, so every ray has an importance besides
 /// what it hits: about 2 (rho M)^2 / N relative to the mean of N patches, M being all power shot
-/// over that emitted. In usual rooms it is next to nothing; at reflectance .99 it is above all
+/// over that emitted. In most rooms it is next to nothing; at reflectance .99 it is above all
 /// else, and all rays are to be nearly equal.
 [[nodiscard]] double importance_of_energy(const Mesh& mesh, std::span<const Vec3> radiosity);
 

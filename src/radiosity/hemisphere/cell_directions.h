@@ -22,7 +22,8 @@ enum class CellArea {
     solid_angle            ///< as printed; biased (docs/decisions.md, D1)
 };
 
-/// A_tr / A_hemi of the paper: the share of a diffuse patch's power that a cell of the table gets.
+/// A_tr / A_hemi of the paper [-]: the share of a diffuse patch's power that a cell of the table
+/// gets.
 [[nodiscard]] inline double power_share(const Hemisphere& hemisphere, std::uint16_t cell,
                                         CellArea area) {
     if (cell == whole_hemisphere)

@@ -27,7 +27,8 @@ struct MeshOptions {
     std::size_t max_patches = 50'000'000;
 };
 
-/// A piece of a facet with constant radiosity, in the local frame.
+/// A piece of a facet with constant radiosity, in the local frame: lengths and areas are in local
+/// units.
 struct Patch {
     Polygon shape; ///< counter-clockwise from the side that this patch is
     Vec3 centre;   ///< centre of mass
@@ -45,10 +46,11 @@ struct Patch {
 /// The frame of computation: world = centre + local / scale. The scale is a power of two, so that
 /// nothing is lost by it, and the scene lies within [-1,1]^3.
 struct LocalFrame {
-    Vec3 centre{0.0};
-    double scale = 1.0;
+    Vec3 centre{0.0};   ///< [m]
+    double scale = 1.0; ///< [1/m]
     [[nodiscard]] Vec3 to_local(const Vec3& world) const { return (world - centre) * scale; }
     [[nodiscard]] Vec3 to_world(const Vec3& local) const { return centre + local / scale; }
+    /// [m2] of an area in local units.
     [[nodiscard]] double area_to_world(double area) const { return area / (scale * scale); }
 
     /// The frame around the vertices that the scene's facets use.

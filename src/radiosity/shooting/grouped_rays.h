@@ -22,7 +22,7 @@ struct RayGroup {
     std::uint32_t cell_first; ///< the number of the cell's first ray among all those of the patch
     std::uint32_t first;      ///< that of the group's
     std::uint32_t rays;
-    /// Phi_ray / Phi_patch; until the rays are drawn Phi_ray / Phi_tr.
+    /// Phi_ray / Phi_patch [-]; until the rays are drawn Phi_ray / Phi_tr.
     double ray_power;
 };
 

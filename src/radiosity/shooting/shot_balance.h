@@ -13,7 +13,7 @@
 
 namespace hemilux {
 
-/// Rays from the shooter, and how many of them met no patch that was looked from.
+/// Numbers of rays from the shooter, and of those that met no patch that was looked from.
 struct ShotRays {
     double count = 0, escaped = 0, absorbed = 0;
 };
@@ -32,7 +32,7 @@ struct FactorSum {
     double points = 0;  ///< of receivers, that were looked from
 };
 
-/// Where the power of a shot goes, as shares of it.
+/// Where the power of a shot goes, as shares of it [-].
 struct ShotShares {
     double scale = 1;     ///< of all factors
     EscapeFraction lost;  ///< what falls elsewhere

@@ -48,7 +48,8 @@ class Targets {
 [[nodiscard]] std::vector<std::uint32_t> shares_of(const std::vector<double>& weights,
                                                    std::uint32_t count);
 
-/// The light that arrives on the front and on the back of a facet, as the scene has them, in rays.
+/// The light that arrives on the front and on the back of a facet, as the scene has them, in rays
+/// of equal power.
 using SideLight = std::array<double, 2>;
 
 /// The light on each facet if all facets reflected half of it on both sides: an estimate that does

@@ -52,7 +52,7 @@ class DirectLight {
     }
     /// Mean over all.
     [[nodiscard]] Vec3 irradiance(std::uint32_t patch) const;
-    /// Counts those of this patch in each estimate; 0 also where rays at random are worth more
+    /// Counts those of this patch in each estimate; 0 also where rays at random find more
     /// (EmitterChoice::Cut::pays).
     [[nodiscard]] std::uint32_t samples(std::uint32_t patch) const { return samples_[patch]; }
     /// Samples of this patch that brought light.

@@ -27,9 +27,9 @@ struct RowSpread;
 
 struct TransportErrors {
     std::vector<Vec3> standard_error; ///< of the radiosity by patch [W/m2]
-    double variance = 0;  ///< by the batches: sum over patches of weight, area and variance
+    double variance = 0;  ///< by the batches: sum over patches of weight, local area and variance
     double of_losses = 0; ///< the part of it that comes from how many rays were lost, by counting
-    /// The same, of what random rays and what shadow rays have not seen.
+    /// The same, of light that no random ray and that no shadow ray may have found.
     double missed = 0, missed_by_shadow_rays = 0;
     std::vector<std::uint32_t> part; ///< of each patch, see linked_parts.h
     std::vector<bool> lit; ///< by patch: whether light reaches it on any stored path, or it emits

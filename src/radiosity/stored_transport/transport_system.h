@@ -26,7 +26,7 @@ class TransportSystem {
     /// outlives this.
     TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> emitters, bool closed);
 
-    /// Has an entry for each patch.
+    /// By patch: areas in local units, reflectances [-], emissions [W/m2].
     [[nodiscard]] std::span<const double> area() const { return area_; }
     [[nodiscard]] std::span<const Vec3> reflectance() const { return reflectance_; }
     [[nodiscard]] std::span<const Vec3> emission() const { return emission_; }
@@ -40,9 +40,9 @@ class TransportSystem {
         std::span<const RayCounts> counts;
         const DirectLight& direct;
     };
-    /// `light`, of each batch and at last of all: from what it holds, on to what the rays tell, as
-    /// exactly as that is worth. Returns the factors of all. `error`: the relative one of what is
-    /// known so far; nan: unknown. Where it is interrupted nothing is changed.
+    /// `light`, of each batch and at last of all: from what it holds, on to the solution of these
+    /// rays, as exactly as their noise allows. Returns the factors of all. `error`: the relative
+    /// one of what is known so far; nan: unknown. Where it is interrupted nothing is changed.
     ExchangeMatrix solve(const Rays& rays, double error, std::vector<BatchLight::Light>& light,
                          const Workers& workers, const StopFlag& interrupted) const;
 
