@@ -18,7 +18,7 @@ inline constexpr std::size_t most_patches_for_exact_factors = 2000;
 class ExactFormFactors {
   public:
     /// All pairs of patches that see each other fully. Work grows as patches^2 facets: for a few
-    /// thousand patches. Void if the monitor was interrupted.
+    /// thousand patches. Void if the monitor was interrupted. The mesh outlives this.
     ExactFormFactors(const Mesh& mesh, const Workers& workers, const Monitor& monitor);
 
     /// With the sampled factors for the other pairs, these scaled so that rows are closed. They

@@ -21,6 +21,7 @@ class StateWriter;
 
 class HemisphereImportance {
   public:
+    /// The hemisphere outlives this.
     HemisphereImportance(const Hemisphere& hemisphere, std::size_t patches);
 
     /// Adds to what is known of a leaf, the `leaf`-th triangle of the last level: the sum over hits

@@ -63,7 +63,7 @@ class DensityMap final : public LeafDensities {
   public:
     /// Shoots the density rays from every patch centre; a triangle whose mean exceeds the threshold
     /// is divided, down to the hemisphere's depth. Counts saturate at 255. Patches that never hold
-    /// power have no hemisphere: they must not be asked for.
+    /// power have no hemisphere: they must not be asked for. Hemisphere and needs outlive this.
     DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere& hemisphere,
                double threshold, const Workers& workers, Monitor& monitor,
                const Needs& needs = everything_needed,

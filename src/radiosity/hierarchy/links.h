@@ -54,7 +54,7 @@ class LinkFactors {
   public:
     /// F_to,from [-] by `points[l]` random pairs of a point of the one and a patch of the other:
     /// the closed form of point and polygon times the visibility along a ray. Unbiased for the mean
-    /// over the node. Void if the monitor was interrupted.
+    /// over the node. Void if the monitor was interrupted. Tree and links outlive this.
     LinkFactors(const Mesh& mesh, const Tracer& tracer, const PatchTree& tree, const Links& links,
                 std::span<const std::uint32_t> points, std::uint64_t seed, const Workers& workers,
                 Monitor& monitor);

@@ -25,6 +25,7 @@ struct FacetSide {
 /// ground below a sun, which hardly any ray by the cosine law does.
 class Targets {
   public:
+    /// The mesh outlives this.
     explicit Targets(const Mesh& mesh);
     /// A ray from a random point of a side to a random target; empty where the target is behind the
     /// side.

@@ -27,7 +27,7 @@ struct Patch;
 
 class EmitterChoice {
   public:
-    /// `emitters`: what emits; they outlive this.
+    /// `emitters`: what emits; they and the mesh outlive this.
     EmitterChoice(const Mesh& mesh, std::span<const Patch> emitters);
 
     /// What a patch weighs: emitters or clusters, and running sums of their weights.
