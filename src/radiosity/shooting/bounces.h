@@ -91,8 +91,8 @@ class Bounces {
     void divide_work(double rays);
     void shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result);
     void shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const;
-    // The same to the balls of a target.
-    void shoot_to_balls(const Workers& workers, std::uint64_t stream, StepResult& result);
+    // The same to the balls of a target (bounces_to_balls.cpp).
+    void shoot_to_balls(const Workers& workers, std::uint64_t of_bounce, StepResult& result);
     void shoot_to_balls(std::span<const double> rays_before, double from, double to,
                         std::uint64_t stream, BallShots& shots) const;
     void collect(const BallShots& shots, StepResult& result);
