@@ -208,7 +208,7 @@ TEST_CASE("Patches may get more and weaker rays without a bias") {
     SolveOptions options;
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor};
-    ShootingSolver solver(input, make_uneven);
+    ShootingSolver solver(input, make_uneven, {});
     run(solver, input, test::steps(64));
     const ZScores z =
         z_scores(model.mesh, solver.solution(), exact.radiosity, exact.standard_error);
