@@ -9,7 +9,7 @@
 
 #include "bvh/tracer.h"
 #include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/scene/edge_division.h"
+#include "radiosity/hemisphere/edge_division.h"
 #include "radiosity/scene/needs.h"
 #include "radiosity/solving/solver.h"
 

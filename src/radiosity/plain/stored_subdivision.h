@@ -7,7 +7,7 @@
 
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/scene/edge_division.h"
+#include "radiosity/hemisphere/edge_division.h"
 
 #include <array>
 #include <cstdint>
