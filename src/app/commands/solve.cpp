@@ -2,11 +2,11 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/solve_end.h"
+#include "app/division/auto_division.h"
+#include "app/division/whole_error.h"
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
 #include "app/running/checkpointing.h"
-#include "app/division/auto_division.h"
-#include "app/division/whole_error.h"
 #include "app/running/point_table.h"
 #include "app/running/results.h"
 #include "app/running/run_notes.h"

@@ -1,7 +1,7 @@
 #include "app/commands/solve_end.h"
 
+#include "app/division/whole_error.h"
 #include "app/loading/sides.h"
-#include "app/running/division.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/summary.h"
