@@ -218,6 +218,11 @@ void add_view_options(Command command, ViewSettings& view) {
                "its hue; srgb: cut at 1 in each channel [neutral]");
 }
 
+void add_report_option(Command command, std::string& report, const char* contents) {
+    add_path(command, "--report", "FILE.html", contents, ".html",
+             [&report](const std::string& path) { report = path; });
+}
+
 void add_verbosity_options(Command command, Verbosity& verbosity) {
     command = command.under("Verbosity");
     const auto set = [&verbosity](Verbosity value) {

@@ -36,6 +36,8 @@ void add_random_options(Command command, SolveOptions& options);
 void add_camera_options(Command command, ViewSettings& view);
 /// Adds the same and --exposure.
 void add_view_options(Command command, ViewSettings& view);
+/// Adds --report, a page with these contents.
+void add_report_option(Command command, std::string& report, const char* contents);
 /// Adds -q, -v, --version and --help under a heading of their own.
 void add_verbosity_options(Command command, Verbosity& verbosity);
 

@@ -127,7 +127,7 @@ Checkpointer::Checkpointer(const SolveSettings& settings, const Mesh& mesh, cons
 
 void Checkpointer::step_done(const std::vector<StepRow>& rows, double seconds) {
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_;
-    if (since.count() >= settings_.checkpoint.every.value_or(CheckpointSettings::usually_every))
+    if (since.count() >= settings_.checkpoint.every.value_or(CheckpointSettings::default_every))
         write(rows, seconds);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which patches the cosine-distributed rays of each patch struck, and how often: what stored
+// Which patches the cosine-distributed rays of each patch hit, and how often: what stored
 // transport keeps of them. One sequence of well-distributed points per patch (sobol.h), which can
 // be prolonged.
 
@@ -19,7 +19,7 @@ struct Monitor;
 
 class RayCounts {
   public:
-    /// A patch that was struck, and how often.
+    /// A patch that was hit, and how often.
     struct Count {
         std::uint32_t patch, hits;
     };
@@ -42,7 +42,7 @@ class RayCounts {
     [[nodiscard]] std::uint32_t patches() const { return static_cast<std::uint32_t>(rows_.size()); }
     /// Counts the rays of this patch.
     [[nodiscard]] std::uint32_t rays(std::uint32_t patch) const { return rows_[patch].rays; }
-    /// Each patch once, in the order in which they were first struck.
+    /// Each patch once, in the order in which they were first hit.
     [[nodiscard]] std::span<const Count> row(std::uint32_t patch) const {
         const std::uint32_t begin = patch % rows_per_block > 0 ? rows_[patch - 1].end : 0;
         return std::span(blocks_[patch / rows_per_block]).subspan(begin, rows_[patch].end - begin);
