@@ -29,9 +29,8 @@ void write_light(PageFile& page, const ReportContent& content, const CornerClass
 }
 
 void write_densities(PageFile& page, const ReportDensities& densities, std::size_t patches) {
-    const auto& [hemisphere, map, threshold] = densities;
-    const std::vector<Vec3>& vertices = hemisphere.vertices();
-    const std::vector<Hemisphere::Cell>& cells = hemisphere.cells();
+    const std::vector<Vec3>& vertices = densities.hemisphere.vertices();
+    const std::vector<Hemisphere::Cell>& cells = densities.hemisphere.cells();
     write_numbers(page, "vertices", vertices.size(), [&](std::size_t v) { return vertices[v]; });
     page.array("cells", cells.size(), [&](std::size_t c, std::string& bytes) {
         for (const std::uint16_t vertex : cells[c].vertex)
@@ -46,7 +45,7 @@ void write_densities(PageFile& page, const ReportDensities& densities, std::size
         const std::size_t first = bytes.size();
         bytes.resize(first + vertices.size(), not_counted);
         counts.clear();
-        map.counts(static_cast<std::uint32_t>(i), counts);
+        densities.map.counts(static_cast<std::uint32_t>(i), counts);
         for (const auto& [vertex, surfaces] : counts)
             bytes[first + vertex] = static_cast<char>(std::min<int>(surfaces, 254));
     });

@@ -39,8 +39,8 @@ Nearest nearest_on(const std::array<Corner, 3>& triangle, const Vec2& at) {
     const double v = cross(b.place - a.place, at - a.place) / area;
     if (u >= 0 && v >= 0 && u + v <= 1) // false where the triangle has no area
         return {0, a.light + u * (b.light - a.light) + v * (c.light - a.light)};
-    return std::ranges::min({nearest_on(a, b, at), nearest_on(b, c, at), nearest_on(c, a, at)}, {},
-                            &Nearest::distance);
+    const auto nearer = [](const Nearest& x, const Nearest& y) { return x.distance < y.distance; };
+    return std::min({nearest_on(a, b, at), nearest_on(b, c, at), nearest_on(c, a, at)}, nearer);
 }
 
 /// The picture under way, and how far each texel is from what it shows.
