@@ -52,7 +52,7 @@ TEST_CASE("What suns and skies emit is said apart, with what the scene reflects"
             .hemilux("solve ground.obj -o a.csv --light 'disc at 0,2,0 towards 0,-1,0 radius "
                      ".2 watts 6'")
             .err,
-        Contains("energy: 6 W emitted, "));
+        Contains("energy: 18 W emitted, "));
 }
 
 TEST_CASE("A sun brings its irradiance times the cosine") {

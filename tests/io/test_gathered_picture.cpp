@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 using namespace hemilux;
 using test::Model;
@@ -86,6 +87,45 @@ TEST_CASE("gathered light below a lamp is Lambert's, on a ground of one patch") 
             size += std::pow(.5 * light, 2);
         }
     CHECK(std::sqrt(square / size) < .03);
+}
+
+TEST_CASE("light that few rays find, as that of a sky through a hole, gets more of them") {
+    // Below a black lid at a height of 1 m with a hole of 0.5 x 0.5 m, above which all is bright.
+    Scene scene;
+    scene.materials = {{"ground", Vec3(.5), Vec3(0)},
+                       {"sky", Vec3(0), Vec3(lamp_emission), true},
+                       {"black", Vec3(0), Vec3(0)}};
+    scene.groups = {"default"};
+    test::add_quad(scene, {-2, 0, -1}, {-2, 0, 1}, {2, 0, 1}, {2, 0, -1}, 1, 1, 0);
+    test::add_quad(scene, {-900, 9, -900}, {900, 9, -900}, {900, 9, 900}, {-900, 9, 900}, 1, 1, 1);
+    constexpr double wide = 40, hole = .25;
+    for (const auto& [low, high] : {std::pair(Vec2(-wide), Vec2(wide, -hole)),
+                                    {Vec2(-wide, hole), Vec2(wide)},
+                                    {Vec2(-wide, -hole), Vec2(-hole, hole)},
+                                    {Vec2(hole, -hole), Vec2(wide, hole)}})
+        test::add_quad(scene, {low.x, 1, low.y}, {high.x, 1, low.y}, {high.x, 1, high.y},
+                       {low.x, 1, high.y}, 1, 1, 2);
+    scene.faces = 6;
+    const Model model(std::move(scene));
+    Camera below_lid = from_above;
+    below_lid.eye.y = .98;
+    below_lid.vertical_fov_degrees = 2 * std::atan(1 / .98) * 180 / std::numbers::pi;
+    const Image image = picture_of(model, below_lid);
+    const LocalFrame& frame = model.mesh.frame();
+    Polygon opening;
+    opening.corner = {Vec3(-hole, 1, -hole), {hole, 1, -hole}, {hole, 1, hole}, {-hole, 1, hole}};
+    for (Vec3& corner : opening.corner)
+        corner = frame.to_local(corner);
+    double square = 0, size = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double light =
+                .5 * lamp_emission *
+                point_to_polygon(frame.to_local(ground_at(x, y)), {0, 1, 0}, opening);
+            square += std::pow(image.at(x, y).x - light, 2);
+            size += std::pow(light, 2);
+        }
+    CHECK(std::sqrt(square / size) < .12);
 }
 
 TEST_CASE("no light leaks below a wall, however thin") {

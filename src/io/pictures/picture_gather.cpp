@@ -41,6 +41,9 @@ constexpr double flatness = .2;
 /// Points that average over fewer steps than these get more rays, or many.
 constexpr double steps_for_more = 7, steps_for_many = 3.5;
 
+/// Relative errors of means from which on points get more rays, or many.
+constexpr double noise_for_more = .05, noise_for_many = .1;
+
 /// Of sums of the same light in another order.
 constexpr double rounding = 1e-9;
 
@@ -68,6 +71,7 @@ PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight 
     find_points(mesh, camera, workers);
     gather([&](int, int) { return std::max(1u, options_.rays / 4); }, Shadows::traced, workers);
     ask_neighbours(workers);
+    find_noise(workers);
     gather([&](int x, int y) { return more_rays(x, y); }, Shadows::left_out, workers);
     fit_light(1, workers);
     fit_light(reach_points, workers);
@@ -179,12 +183,38 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
         });
 }
 
-/// Where few points are near enough to average over.
+/// Where few points are near enough to average over, or where few rays find most of the light, as
+/// that of a sky through a window.
 unsigned PictureGather::more_rays(int x, int y) const {
-    const double width = spacing(x, y), reach = reach_share / record(x, y)->nearness;
-    if (!(reach < steps_for_more * width) && width > 0)
-        return 0;
-    return reach < steps_for_many * width || width == 0 ? 4 * options_.rays : options_.rays;
+    const Record& here = *record(x, y);
+    const double width = spacing(x, y), reach = reach_share / here.nearness;
+    if (reach < steps_for_many * width || width == 0 || here.noise > noise_for_many)
+        return 4 * options_.rays;
+    return reach < steps_for_more * width || here.noise > noise_for_more ? options_.rays : 0;
+}
+
+/// Of the mean around each point, by the spread of the points around as if they were independent.
+void PictureGather::find_noise(const Workers& workers) {
+    workers.for_chunks(static_cast<std::size_t>(rows_), 8, [&](std::size_t begin, std::size_t end) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+            for (int x = 0; x < columns_; ++x)
+                if (const Record* const here = record(x, y))
+                    records_[place_of(*here)].noise = noise_around(*here, x, y);
+    });
+}
+
+double PictureGather::noise_around(const Record& here, int x, int y) const {
+    double n = 0, sum = 0, squares = 0;
+    for (int dy = -reach_points; dy <= reach_points; ++dy)
+        for (int dx = -reach_points; dx <= reach_points; ++dx)
+            if (const Record* const there = record(x + dx, y + dy);
+                there && here.is_of_surface(there->at)) {
+                const double light = mean_of_channels(light_[place_of(*there)].indirect);
+                ++n;
+                sum += light;
+                squares += light * light;
+            }
+    return sum > 0 ? std::sqrt(std::max(n * squares - sum * sum, 0.0) / n) / sum : 0;
 }
 
 /// A few rays estimate nearness badly, and may miss a shadow.

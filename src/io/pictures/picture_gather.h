@@ -8,8 +8,8 @@
 // gathered at every second pixel of every second row. Each of these points takes other rays of one
 // well distributed sequence. A linear function is fitted to its neighbours within a share of the
 // harmonic mean distance of what its rays met (interleaved sampling: Keller and Heidrich 2001; the
-// filter: Wald et al. 2002). The fewer neighbours are so near, the more rays a point takes. Pixels
-// read the functions around them that lie on the same surface.
+// filter: Wald et al. 2002). The fewer neighbours are so near, and the more they differ, the more
+// rays a point takes. Pixels read the functions around them that lie on the same surface.
 
 #include "geometry/vector.h"
 #include "io/pictures/visible_facets.h"
@@ -76,6 +76,7 @@ class PictureGather {
     struct Record {
         SurfacePoint at;
         double nearness = 0;     ///< mean inverse distance of what the rays met, or of lamps
+        double noise = 0;        ///< relative error of the mean of the points around
         unsigned rays = 0;       ///< gathered by so many
         std::uint8_t shadow = 0; ///< Shadow, of rays from here and from the points beside it
 
@@ -92,6 +93,8 @@ class PictureGather {
     template <class Rays>
     void gather(const Rays& rays_at, Shadows shadows, const Workers& workers);
     [[nodiscard]] unsigned more_rays(int x, int y) const;
+    void find_noise(const Workers& workers);
+    [[nodiscard]] double noise_around(const Record& here, int x, int y) const;
     [[nodiscard]] static double weight_of(const Record& here, const Record* there, double most);
     static void add(SlowLight& sum, const SlowLight& light, double weight);
     [[nodiscard]] double spacing(int x, int y) const;
