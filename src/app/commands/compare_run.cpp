@@ -45,7 +45,7 @@ class Runner {
         const Stopwatch stepping;
         const TimeLimit limit(comparison_.monitor.interrupted, seconds_left());
         if (!solver_->step()) {
-            cut_short_ = !comparison_.monitor.interrupted.load();
+            cut_short_ = !comparison_.monitor.interrupted.wished();
             return false;
         }
         seconds_ += stepping.seconds();
