@@ -52,8 +52,9 @@ class Ranks {
     [[nodiscard]] std::vector<T> of_each(const T& value) const;
     /// The value of the first rank: what depends on a clock is decided there.
     template <class T>
-    [[nodiscard]] T of_first(const T& value) const {
-        return of_each(value).front();
+    [[nodiscard]] T of_first(T value) const {
+        give_to_all(0, std::span(&value, 1));
+        return value;
     }
     /// Whether it holds on some rank.
     [[nodiscard]] bool any(bool value) const;
