@@ -221,8 +221,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     Needs needs = find_needs(mesh);
     const SolverInput input{mesh, *made.tracer, options, monitor, needs};
     const auto begin = [&] { return solve.method->make(input); };
-    Divided divided = divide_as_asked(solve, mesh, input, begin, statistics);
-    needs = find_needs(mesh);
+    Divided divided = divide_as_asked(solve, mesh, needs, input, begin, statistics);
     const auto solver = divided.begun ? std::move(divided.begun) : begin();
     run(*solver, input,
         {.steps = {},

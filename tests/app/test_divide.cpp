@@ -48,6 +48,28 @@ TEST_CASE(
     CHECK(statistic(json, "rays_divide") > 0);
 }
 
+TEST_CASE("patches get their rays as they are divided, where some faces need none") {
+    const Workplace place;
+    place.write_room();
+    // A bright block whose lower side lies on the floor: no light reaches that.
+    place.write("block.mtl", "newmtl bright\nKd .9 .9 .9\n");
+    std::string text = place.read("room.obj") + "mtllib block.mtl\nusemtl bright\n";
+    const auto side = [&](const std::string& corners) { text += corners + "f -4 -3 -2 -1\n"; };
+    side("v .3 .3 0\nv .3 .9 0\nv .9 .9 0\nv .9 .3 0\n");
+    side("v .3 .3 .8\nv .9 .3 .8\nv .9 .9 .8\nv .3 .9 .8\n");
+    side("v .3 .3 0\nv .9 .3 0\nv .9 .3 .8\nv .3 .3 .8\n");
+    side("v .9 .3 0\nv .9 .9 0\nv .9 .9 .8\nv .9 .3 .8\n");
+    side("v .9 .9 0\nv .3 .9 0\nv .3 .9 .8\nv .9 .9 .8\n");
+    side("v .3 .9 0\nv .3 .3 0\nv .3 .3 .8\nv .3 .9 .8\n");
+    place.write("block.obj", text);
+    REQUIRE(place.hemilux("solve block.obj --divide auto --error .05 -q -o a.csv --stats s.json")
+                .code == 0);
+    const std::string json = place.read("s.json");
+    CHECK(statistic(json, "patches") > 100);
+    CHECK(statistic(json, "estimated_error") <= .05);
+    CHECK(statistic(json, "rays_energy") < 3000 * statistic(json, "patches"));
+}
+
 TEST_CASE("--divide auto gives out linear functions, with their gradients in the table") {
     const Workplace place;
     place.write_room();

@@ -274,12 +274,11 @@ std::unique_ptr<Solver> SolveRun::begin() {
 void SolveRun::divide() {
     try {
         divided_ = divide_as_asked(
-            settings_, loaded_->mesh, *input_, [&] { return begin(); }, statistics_);
+            settings_, loaded_->mesh, prepared_->needs, *input_, [&] { return begin(); },
+            statistics_);
     } catch (const SolveError& error) {
         throw as_input_error(error);
     }
-    if (divided_.patches && !settings_.options.keep_all)
-        prepared_->needs = find_needs(mesh());
 }
 
 /// Of the patches as they are divided. A signal ends the program while the file is read.

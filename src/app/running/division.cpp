@@ -65,11 +65,11 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
 /// Divides the mesh for a run to come.
 class AutoDivision {
   public:
-    AutoDivision(const SolveSettings& settings, Mesh& mesh, const SolverInput& input,
+    AutoDivision(const SolveSettings& settings, Mesh& mesh, Needs& needs, const SolverInput& input,
                  const BeginSolver& begin, Statistics& statistics)
-        : settings_(settings), mesh_(mesh), input_(input), begin_(begin), statistics_(statistics),
-          options_(division_of(settings, mesh.patches().size())), whole_(whole_error(settings)),
-          is_gathered_(gives_gathered_light(settings)),
+        : settings_(settings), mesh_(mesh), needs_(needs), input_(input), begin_(begin),
+          statistics_(statistics), options_(division_of(settings, mesh.patches().size())),
+          whole_(whole_error(settings)), is_gathered_(gives_gathered_light(settings)),
           is_own_(settings.method == &method_of(Role::standard) && !settings.plain) {}
 
     [[nodiscard]] Divided divide();
@@ -93,6 +93,7 @@ class AutoDivision {
 
     const SolveSettings& settings_;
     Mesh& mesh_;
+    Needs& needs_; ///< of its patches as they are
     const SolverInput& input_;
     const BeginSolver& begin_;
     Statistics& statistics_;
@@ -196,6 +197,8 @@ void AutoDivision::divide_once(Division& division) {
         }))
         return;
     divided_.patches = true;
+    if (!settings_.options.keep_all)
+        needs_ = find_needs(mesh_);
     forget_run();
 }
 
@@ -296,15 +299,16 @@ std::uint64_t default_max_rays(std::size_t patches) {
     return least + each * patches;
 }
 
-Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, const SolverInput& input,
-                        const BeginSolver& begin, Statistics& statistics) {
+Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, Needs& needs,
+                        const SolverInput& input, const BeginSolver& begin,
+                        Statistics& statistics) {
     if (!settings.divide_auto)
         return {};
     std::optional<double> seconds;
     if (settings.stop.seconds)
         seconds = share_of_time * *settings.stop.seconds;
     const TimeLimit limit(input.monitor.interrupted, seconds);
-    return AutoDivision(settings, mesh, input, begin, statistics).divide();
+    return AutoDivision(settings, mesh, needs, input, begin, statistics).divide();
 }
 
 Solution with_slopes(Solution solution, const Divided& divided) {

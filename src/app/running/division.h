@@ -57,9 +57,10 @@ struct Divided {
 using BeginSolver = std::function<std::unique_ptr<Solver>()>;
 
 /// Divides the mesh until the whole error is as asked for, as estimated from a run to a share of
-/// it. Nothing where it is not asked for. `input`: of the run to come, whose solver `begin` makes.
-/// A signal ends it, and where there is a time limit half of the time.
-[[nodiscard]] Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh,
+/// it. Nothing where it is not asked for. `input`: of the run to come, whose solver `begin` makes;
+/// it refers to `mesh` and `needs`, which are divided and found anew together. A signal ends it,
+/// and where there is a time limit half of the time.
+[[nodiscard]] Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, Needs& needs,
                                       const SolverInput& input, const BeginSolver& begin,
                                       Statistics& statistics);
 

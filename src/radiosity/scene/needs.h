@@ -4,6 +4,7 @@
 // A small analysis of the mesh, made once. Methods and tracers ask it before they do their work;
 // docs/decisions.md tells which omission keeps every byte and which the result within its error.
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,7 +25,10 @@ struct Needs {
     bool closed = false;
 
     /// Whether a patch may ever hold power to be shot. If not it needs no rays and no hemisphere.
-    [[nodiscard]] bool power(std::uint32_t patch) const { return idle.empty() || !idle[patch]; }
+    [[nodiscard]] bool power(std::uint32_t patch) const {
+        assert(idle.empty() || patch < idle.size()); // found for other patches
+        return idle.empty() || !idle[patch];
+    }
 
     std::vector<bool> idle;           ///< by patch; empty where none is
     std::size_t black = 0, unlit = 0; ///< idle because it reflects nothing; because no light comes
