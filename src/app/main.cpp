@@ -7,7 +7,7 @@
 #include "app/commands/density.h"
 #include "app/commands/formfactors.h"
 #include "app/running/signals.h"
-#include "app/running/started_ranks.h"
+#include "app/ranks/started_ranks.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
 #include "io/files/error.h"

@@ -47,6 +47,7 @@ const std::vector<std::string> rooms{
     "io/meshes",
     "io/drawings",
     "app/settings",
+    "app/ranks",
     "app/terminal",
     "app/loading",
     "app/report",

@@ -1,4 +1,4 @@
-#include "app/running/started_ranks.h"
+#include "app/ranks/started_ranks.h"
 
 #include "app/settings/exit_code.h"
 #include "io/files/atomic_file.h"
