@@ -5,9 +5,10 @@
 //     hemilux_division_truth --scene examples/scenes/room_1002.obj --error 0.1,0.05,0.02 --seeds 10
 
 #include "app/command_line/option_kinds.h"
+#include "app/division/auto_division.h"
+#include "app/division/whole_error.h"
 #include "app/loading/load.h"
 #include "app/loading/sides.h"
-#include "app/running/division.h"
 #include "division_families.h"
 #include "path_reference.h"
 #include "radiosity/division/adaptive_division.h"

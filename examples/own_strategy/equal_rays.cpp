@@ -41,7 +41,6 @@ extern const Method equal_rays_method;
 const Method equal_rays_method{
     .name = "equal-rays",
     .summary = "the same number of rays for every triangle (an example)",
-    .has_literal = false,
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_equal_rays>,

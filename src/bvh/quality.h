@@ -1,5 +1,5 @@
 #pragma once
-// Figures that judge a tree.
+// Figures of merit of a tree.
 
 #include <cstddef>
 

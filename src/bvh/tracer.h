@@ -15,7 +15,8 @@ namespace hemilux {
 /// Marks "no facet".
 inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// origin + t direction, for t in (t_min, t_max]. The direction need not be of unit length.
+/// origin + t direction, for t in (t_min, t_max], in lengths of the direction, which need not be of
+/// unit length.
 struct Ray {
     Vec3 origin;
     Vec3 direction;
@@ -37,7 +38,7 @@ struct Hit {
     /// triangle being corners (0,1,2), or (0,2,3) in the second half of a quad.
     double u, v;
     bool second_half;
-    bool front; ///< the counter-clockwise side was struck
+    bool front; ///< the counter-clockwise side was hit
 };
 
 /// The nearest facet, and whether its counter-clockwise side was hit: as much of a hit as most

@@ -1,5 +1,6 @@
 #pragma once
-// An axis-aligned bounding box, which is empty until something is included.
+// An axis-aligned bounding box, in the unit of its points, which is empty until something is
+// included.
 
 #include "geometry/vector.h"
 

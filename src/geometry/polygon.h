@@ -11,7 +11,7 @@
 namespace hemilux {
 
 /// Corners of a triangle (corner[3] == corner[2]) or of a planar convex quad, counter-clockwise
-/// seen from the front.
+/// seen from the front. Areas are in the square of their unit.
 struct Polygon {
     std::array<Vec3, 4> corner{};
 

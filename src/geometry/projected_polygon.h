@@ -1,6 +1,6 @@
 #pragma once
 // A polygon seen from a point of a surface: how large its form factor is, and directions towards it
-// that follow Lambert's law. It is what a shadow ray to a lamp needs.
+// that follow Lambert's law. It is what a shadow ray to an emitter needs.
 //
 // Only geometry: a polygon counts from either side, and nothing stands in between. A caller whose
 // emitters shine to the front only tests dot(polygon.normal(), point - corner) > 0 first, and
@@ -29,7 +29,7 @@ class ProjectedPolygon {
 
   private:
     Frame frame_;
-    ClippedPolygon seen_;
+    ClippedPolygon above_;
     /// Projected solid angle of the first k + 1 triangles of the fan about vertex 0 [sr].
     std::array<double, 3> area_up_to_{};
     double factor_ = 0;

@@ -51,6 +51,7 @@ const std::vector<std::string> rooms{
     "app/terminal",
     "app/loading",
     "app/report",
+    "app/division",
     "app/running",
     "app/commands",
     "app/command_line",

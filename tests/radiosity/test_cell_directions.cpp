@@ -56,7 +56,7 @@ std::size_t part_of(double u, double v) {
 
 TEST_CASE("directions into each cell follow the cosine, and starts are uniform") {
     const Hemisphere hemisphere(2);
-    const CellDirections directions(hemisphere, false);
+    const CellDirections directions(hemisphere, CellArea::projected_solid_angle);
     const double alpha = sidak(significance, 2 * hemisphere.cells().size());
     for (std::uint16_t c = 0; c < hemisphere.cells().size(); ++c) {
         const SphericalTriangle& shape = hemisphere.cells()[c].shape;
@@ -75,7 +75,7 @@ TEST_CASE("directions into each cell follow the cosine, and starts are uniform")
 
 TEST_CASE("directions into small cells follow the cosine too, depths 3 to 5") {
     const Hemisphere hemisphere(5);
-    const CellDirections directions(hemisphere, false);
+    const CellDirections directions(hemisphere, CellArea::projected_solid_angle);
     // All of level 3, and as many of levels 4 and 5, from the pole to the horizon.
     std::vector<std::uint16_t> cells;
     for (const int level : {3, 4, 5}) {
@@ -101,7 +101,7 @@ TEST_CASE("directions into small cells follow the cosine too, depths 3 to 5") {
 
 TEST_CASE("where a sample starts tells nothing of where it goes") {
     const Hemisphere hemisphere(1);
-    const CellDirections directions(hemisphere, false);
+    const CellDirections directions(hemisphere, CellArea::projected_solid_angle);
     for (const std::uint16_t cell : {std::uint16_t{0}, std::uint16_t{7}, whole_hemisphere}) {
         Stream stream(directions, cell, 99);
         for (const bool first : {true, false}) {
@@ -122,7 +122,7 @@ TEST_CASE("where a sample starts tells nothing of where it goes") {
 
 TEST_CASE("directions into the whole hemisphere follow the cosine") {
     const Hemisphere hemisphere(0);
-    const CellDirections directions(hemisphere, false);
+    const CellDirections directions(hemisphere, CellArea::projected_solid_angle);
     Stream stream(directions, whole_hemisphere, 5);
     CHECK(chi_square(50'000, even, [&] {
               const Vec3 d = stream.direction(stream.next());
@@ -134,7 +134,7 @@ TEST_CASE("directions into the whole hemisphere follow the cosine") {
 
 TEST_CASE("a sample does not depend on which others are drawn with it") {
     const Hemisphere hemisphere(2);
-    const CellDirections directions(hemisphere, false);
+    const CellDirections directions(hemisphere, CellArea::projected_solid_angle);
     auto all = std::make_unique<DirectionBatch>(), alone = std::make_unique<DirectionBatch>();
     for (std::uint32_t k = 0; !all->full(); ++k)
         all->add(k / 7, k, k % 5 == 0 ? whole_hemisphere : static_cast<std::uint16_t>(k % 84));

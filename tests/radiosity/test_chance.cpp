@@ -48,7 +48,7 @@ Place along(std::size_t word, std::uint64_t number) {
 /// The first `count` coordinates of where the rays of a stream start.
 std::vector<double> starts(std::uint64_t key, std::size_t count) {
     static const Hemisphere hemisphere(0);
-    static const CellDirections directions(hemisphere, false);
+    static const CellDirections directions(hemisphere, CellArea::projected_solid_angle);
     const auto batch = std::make_unique<DirectionBatch>();
     for (std::uint32_t k = 0; k < count; ++k)
         batch->add(key, k, whole_hemisphere);
@@ -143,13 +143,13 @@ TEST_CASE("Pairs are looked at as often as they are due, and count as much more"
         seldom.look(lamp, Vec3(1.0), .02, static_cast<std::uint64_t>(k));
         double before = 0, variance_before = 0;
         for (std::uint32_t i = 0; i < patches; ++i) {
-            const Sight& sight = seldom.sights()[i];
+            const ReceiverFactor& sight = seldom.by_receiver()[i];
             factor[i].add(sight.factor);
             if (!(sight.at_risk > 0)) {
                 variance_before = 0;
                 continue;
             }
-            // Of Sight: at_risk = rough / S, left_to_chance = (1 - p) / p rough^2 / S.
+            // Of ReceiverFactor: at_risk = rough / S, left_to_chance = (1 - p) / p rough^2 / S.
             const double rough =
                 std::min(rough_factor(model.mesh.patches()[i], model.mesh.patches()[lamp]),
                          model.mesh.patches()[lamp].area / model.mesh.patches()[i].area);
@@ -173,7 +173,7 @@ TEST_CASE("Pairs are looked at as often as they are due, and count as much more"
     for (std::uint64_t k = 0; k < 16; ++k) {
         all.look(lamp, Vec3(1.0), 1e4, 1'000'000 + k);
         for (std::uint32_t i = 0; i < patches; ++i)
-            exact[i].add(all.sights()[i].factor);
+            exact[i].add(all.by_receiver()[i].factor);
     }
 
     std::size_t by_chance = 0;

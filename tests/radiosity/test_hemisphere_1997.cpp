@@ -2,10 +2,10 @@
 // lie.
 #include "geometry/spherical_triangle.h"
 #include "radiosity/hemisphere/density.h"
+#include "radiosity/hemisphere/edge_division.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/hemisphere/subdivision_1997.h"
 #include "radiosity/sampling/workers.h"
-#include "radiosity/scene/edge_division.h"
 #include "radiosity/shooting/strategy.h"
 #include "support/catch.h"
 #include "support/directions.h"

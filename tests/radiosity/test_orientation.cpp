@@ -240,7 +240,7 @@ TEST_CASE("A lamp shines to the side where there is something to light") {
         Scene scene = room({0, 0, 0}, {4, 3, 4});
         add_lamp(scene, 2, height, 2, half, up);
         const Orientation found = find_orientation(scene);
-        CHECK(found.lamps == found.faces);
+        CHECK(found.emitters == found.faces);
         return found.faces == 1;
     };
     CHECK(lamp_is_turned(2.98, 0.4, true));

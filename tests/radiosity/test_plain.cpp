@@ -40,7 +40,7 @@ void check_same(const Model& model, const Method& method, const SolveOptions& op
         CHECK(test::same_bits(plain.standard_error, engine.standard_error));
     CHECK(plain.hits == engine.hits);
     CHECK(plain.variance == engine.variance);
-    CHECK(plain.unseen == engine.unseen);
+    CHECK(plain.missed == engine.missed);
     CHECK(plain.effective_freedom == engine.effective_freedom);
     CHECK(plain.steps == engine.steps);
     CHECK(plain.rays_energy == engine.rays_energy);

@@ -212,7 +212,8 @@ TEST_CASE("By pyramids, shares sum to 1 and threads change nothing") {
             const Allocation allocation = strategy->allocate(i, memory);
             double power = 0, rays = 0;
             for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
-                const double share = power_share(hemisphere, allocation.cells[k], false);
+                const double share =
+                    power_share(hemisphere, allocation.cells[k], CellArea::projected_solid_angle);
                 power += share;
                 rays += allocation.rays(k);
                 CHECK(allocation.rays(k) > .1 * share);

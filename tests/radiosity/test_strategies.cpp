@@ -48,7 +48,9 @@ std::vector<Allocated> allocate(const Model& model, const Allocator& allocator,
             result.push_back({1, allocation.rays(k), 1});
         else
             result.push_back(
-                {power_share(allocator.hemisphere, cell, allocator.options.literal),
+                {power_share(allocator.hemisphere, cell,
+                             allocator.options.literal ? CellArea::solid_angle
+                                                       : CellArea::projected_solid_angle),
                  allocation.rays(k),
                  allocator.hemisphere.cells()[cell].projected_solid_angle / std::numbers::pi});
     }

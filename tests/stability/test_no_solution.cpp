@@ -145,11 +145,11 @@ TEST_CASE("A closed room of reflectance 1 has no solution: it is named") {
     for (const Scene& scene : {test::furnace_l_shape(1), test::sphere(1, 3, 1, 1)}) {
         const Model model(scene);
         Monitor monitor;
-        const auto trapped =
+        const auto component =
             find_lossless_component(model.mesh, model.bvh, 1, 3e5, Workers(2), monitor);
-        REQUIRE(trapped);
-        CHECK(trapped->patches.size() == scene.facets.size());
-        CHECK(trapped->channel == 0);
+        REQUIRE(component);
+        CHECK(component->patches.size() == scene.facets.size());
+        CHECK(component->channel == 0);
     }
 }
 
@@ -229,11 +229,11 @@ TEST_CASE("A lamp that few rays would find is a way out") {
     CHECK_FALSE(find_lossless_component(lit.mesh, lit.bvh, 1, 3e5, Workers(2), monitor));
     scene.materials[1].reflectance = Vec3(1.0);
     const Model closed(scene);
-    const auto trapped =
+    const auto component =
         find_lossless_component(closed.mesh, closed.bvh, 1, 3e5, Workers(2), monitor);
-    REQUIRE(trapped);
-    CHECK(trapped->patches.size() == 24 + 1);
-    CHECK(trapped->rays >= 300'000);
+    REQUIRE(component);
+    CHECK(component->patches.size() == 24 + 1);
+    CHECK(component->rays >= 300'000);
 }
 
 TEST_CASE("A series of bounces that seems not to end is ended", "[slow]") {

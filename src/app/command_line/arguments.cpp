@@ -104,16 +104,16 @@ CommandText described(const CLI::App& command) {
 /// Breaks the descriptions of options and methods, which stand in a column of their own, before
 /// column 80. All other lines stay, as commands are copied from them.
 std::string wrapped(const std::string& help) {
-    constexpr std::size_t width = 80, least_column = 20, usual_column = 30;
+    constexpr std::size_t width = 80, least_column = 20, default_column = 30;
     std::istringstream lines(help);
     std::string text;
     for (std::string line; std::getline(lines, line);) {
-        std::size_t column = usual_column;
+        std::size_t column = default_column;
         if (!line.starts_with("  -") || line.size() < column || line[column - 1] != ' ') {
             const std::size_t gap = line.substr(0, column).rfind("  ");
             column = gap == std::string::npos ? 0 : line.find_first_not_of(' ', gap);
         }
-        while (line.size() > width && column >= least_column && column <= usual_column) {
+        while (line.size() > width && column >= least_column && column <= default_column) {
             std::size_t end = line.rfind(' ', width);
             if (end <= column)
                 end = line.find(' ', width);

@@ -12,7 +12,7 @@ namespace hemilux {
 
 namespace {
 
-/// The budget as given, or the usual number of rays.
+/// The budget as given, or the default number of rays.
 Budget budget_of(const Comparison& comparison) {
     Budget budget = comparison.settings.budget;
     if (!budget.rays && !budget.seconds)

@@ -38,7 +38,7 @@ struct Comparison {
     const Needs& needs;
 };
 
-/// `after_step` is told the share of all runs that is done, 0 to 1.
+/// `after_step` gets the share of all runs that is done, 0 to 1.
 /// `fault`: what kept a step from being done; the results are then those of the steps before.
 [[nodiscard]] std::vector<MethodRuns>
 run_methods(const Comparison& comparison, std::optional<SolveError>& fault,

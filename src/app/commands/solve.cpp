@@ -1,11 +1,12 @@
 // hemilux solve: read, divide, build, run, write.
 
 #include "app/commands/commands.h"
+#include "app/commands/solve_end.h"
+#include "app/division/auto_division.h"
+#include "app/division/whole_error.h"
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
-#include "app/loading/sides.h"
 #include "app/running/checkpointing.h"
-#include "app/running/division.h"
 #include "app/running/point_table.h"
 #include "app/running/results.h"
 #include "app/running/run_notes.h"
@@ -22,13 +23,10 @@
 #include "app/terminal/progress.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
-#include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/sampling/workers.h"
-#include "radiosity/solving/error_spread.h"
 #include "radiosity/solving/left_out.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 namespace hemilux {
@@ -54,37 +52,6 @@ StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
     return stop;
 }
 
-void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
-          const Solution& solution, double seconds_solver) {
-    statistics.patches = mesh.patches().size();
-    statistics.faces = mesh.scene().faces;
-    statistics.materials = mesh.scene().materials.size();
-    statistics.method = settings.method->name;
-    statistics.seed = settings.options.seed;
-    statistics.threads = Workers(settings.options.threads).threads();
-    statistics.steps = solution.steps;
-    statistics.rays_energy = solution.rays_energy;
-    statistics.rays_density = solution.rays_density;
-    statistics.seconds_density = solution.seconds_density;
-    statistics.seconds_solve = std::max(0.0, seconds_solver - solution.seconds_density);
-    statistics.rays_per_second =
-        static_cast<double>(solution.rays_energy + solution.rays_density) / seconds_solver;
-    statistics.bytes_density = solution.bytes_density;
-    statistics.bytes_transport = solution.bytes_transport;
-    statistics.links = solution.links;
-    if (solution.bytes_density > 0)
-        statistics.bytes_density_paper =
-            statistics.patches * Hemisphere::cells_up_to(settings.options.depth);
-    statistics.estimated_error = estimated_error(mesh, solution);
-    statistics.estimated_error_uncertainty =
-        statistics.estimated_error * error_spread(mesh, solution).uncertainty();
-    statistics.target = settings.target.names();
-    if (!statistics.target.empty())
-        statistics.estimated_error_of = ErrorOf::target;
-    statistics.estimated_error_elsewhere = estimated_error_elsewhere(mesh, solution);
-    statistics.energy = solution.energy;
-}
-
 std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverInput& input,
                                     std::span<const std::uint32_t> face_lines) {
     try {
@@ -92,78 +59,6 @@ std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverI
     } catch (const SolveError& error) {
         throw as_input_error(error, settings.scene.path, face_lines);
     }
-}
-
-std::string lost_light_of(const SolveSettings& settings, const Results& results) {
-    if (results.solution.steps == 0)
-        return "";
-    const LightShares light = find_light_shares(results.mesh, results.tracer);
-    return lost_light_text(results.mesh, results.solution.radiosity, light, settings.scene.sides);
-}
-
-/// Those of the stages that have a name, before anything is written.
-double seconds_of_stages(const Statistics& s) {
-    const auto known = [](double seconds) { return std::isfinite(seconds) ? seconds : 0; };
-    return known(s.seconds_read) + known(s.seconds_bvh) + s.seconds_divide +
-           known(s.seconds_density) + known(s.seconds_solve) + known(s.seconds_division_error);
-}
-
-/// What a user must know of a run that has ended.
-std::vector<std::string> warnings_of(const SolveSettings& settings, const Results& results,
-                                     const RunNotes& notes, bool interrupted) {
-    std::vector<std::string> warnings = notes.texts(results.statistics.error_sampling, interrupted);
-    if (!interrupted)
-        warnings.push_back(whole_error_note(settings, results.statistics));
-    warnings.push_back(lost_light_of(settings, results));
-    std::erase(warnings, std::string());
-    return warnings;
-}
-
-constexpr const char* no_step_warning =
-    "the time ended before the first step was done; the outputs hold emission alone; a longer "
-    "--time or fewer --rays give a solution";
-
-/// The last words; returns the exit code. `seconds_before`: of the run that this one goes on with.
-int finish(const SolveSettings& settings, Results results, const WriteReport& of_steps,
-           const std::optional<Reference>& reference, const RunNotes& notes, bool interrupted,
-           const Stopwatch& started, double seconds_before) {
-    const std::vector<std::string> warnings = warnings_of(settings, results, notes, interrupted);
-    const bool no_step = results.solution.steps == 0 && !interrupted;
-    std::vector<std::string> all(results.warnings.begin(), results.warnings.end());
-    all.insert(all.end(), warnings.begin(), warnings.end());
-    if (no_step)
-        all.emplace_back(no_step_warning);
-    if (interrupted)
-        all.push_back("the run was interrupted after " +
-                      counted(results.solution.steps, "step", "steps"));
-    results.warnings = all;
-    results.statistics.seconds_analysis =
-        std::max(0.0, started.seconds() + seconds_before - seconds_of_stages(results.statistics));
-    WriteReport report = write_results(settings, results, started);
-    report.add(of_steps);
-    log_line(settings.verbosity, Verbosity::normal, run_text(results.statistics));
-    for (const std::string& warning : warnings)
-        log_line(settings.verbosity, Verbosity::normal, "warning: " + warning);
-    if (no_step)
-        log_line(settings.verbosity, Verbosity::quiet, std::string("warning: ") + no_step_warning);
-    log_line(settings.verbosity, Verbosity::verbose, memory_text(results.statistics));
-    if (reference) {
-        const Solution& solution = results.solution;
-        log_line(settings.verbosity, Verbosity::normal,
-                 error_text(reference->error(results.mesh, solution.radiosity)));
-        log_line(settings.verbosity, Verbosity::normal,
-                 z_scores_text(z_scores(results.mesh, solution, reference->radiosity,
-                                        reference->standard_error)));
-    }
-    report.log(settings.verbosity);
-    if (interrupted)
-        log_line(
-            settings.verbosity, Verbosity::quiet,
-            results.solution.steps > 0
-                ? "interrupted; the outputs hold " +
-                      counted(results.solution.steps, "step", "steps")
-                : "interrupted before the first step was done; the outputs hold emission alone");
-    return report.exit_code(results.interrupted);
 }
 
 /// A run of the program from its options to its last words, step by step.

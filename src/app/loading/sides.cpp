@@ -29,7 +29,7 @@ std::string kinds_text(const Orientation& found) {
     };
     add(found.inside_out, "closed surface inside out", "closed surfaces inside out");
     add(found.from_behind, "open surface lit from behind", "open surfaces lit from behind");
-    add(found.lamps, "lamp facing a wall at once or nothing",
+    add(found.emitters, "lamp facing a wall at once or nothing",
         "lamps facing a wall at once or nothing");
     add(found.mixed, "surface whose faces disagree", "surfaces whose faces disagree");
     if (found.mixed > 0)
@@ -151,7 +151,7 @@ std::string describe(const Orientation& found, const Scene& scene, Sides sides) 
                                      "; much light falls on their backs, maybe on purpose");
     add("inside out", found.inside_out, "closed surfaces whose backs are lit");
     add("lit from behind", found.from_behind, "open surfaces whose backs are lit");
-    add("lamps turned away", found.lamps, "they face a wall at once, or nothing");
+    add("lamps turned away", found.emitters, "they face a wall at once, or nothing");
     add("faces disagree", found.mixed, "surfaces some of whose faces look away");
     add("clashing edges", found.clashing_edges,
         "edges that two faces run along in the same direction, so one of them looks away");

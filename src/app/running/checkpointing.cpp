@@ -128,7 +128,7 @@ Checkpointer::Checkpointer(const SolveSettings& settings, const Mesh& mesh, cons
 void Checkpointer::step_done(const std::vector<StepRow>& rows, double seconds) {
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_;
     if (settings_.ranks->any(since.count() >= settings_.checkpoint.every.value_or(
-                                                  CheckpointSettings::usually_every)))
+                                                  CheckpointSettings::default_every)))
         write(rows, seconds);
 }
 

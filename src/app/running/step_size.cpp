@@ -11,7 +11,7 @@ double rays_of_step(double rays, std::optional<double> seconds, const Method& me
                     std::size_t patches) {
     /// A slow thread traces as many. What is usual is made less only where several fast threads
     /// would hardly end a step.
-    constexpr double rays_per_second = 250e3, usual = 64, many_per_second = 2e6, least = 1;
+    constexpr double rays_per_second = 250e3, default_rays = 64, many_per_second = 2e6, least = 1;
     if (!seconds)
         return rays;
     /// `matrix` takes --rays for each of its matrices, and then solves them.
@@ -19,7 +19,7 @@ double rays_of_step(double rays, std::optional<double> seconds, const Method& me
     const double each = method.work.pairs && method.work.linear_systems ? matrices : 1;
     const double per_patch = *seconds / each / static_cast<double>(patches);
     const double most = std::max(
-        {rays_per_second * per_patch, std::min(usual, many_per_second * per_patch), least});
+        {rays_per_second * per_patch, std::min(default_rays, many_per_second * per_patch), least});
     return std::min(rays, most);
 }
 

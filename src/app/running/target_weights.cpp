@@ -25,11 +25,11 @@ std::vector<double> weights_of_camera(const SolveSettings& settings, const Mesh&
     const auto columns = static_cast<int>(std::ceil(share * width));
     const auto rows = static_cast<int>(std::ceil(share * height));
     const CameraRays camera(*settings.view.camera, mesh, static_cast<double>(width) / height);
-    std::vector<SeenPoint> seen;
+    std::vector<VisiblePoint> seen;
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x) {
             const Ray ray = camera.ray((x + .5) / columns, (y + .5) / rows);
-            if (const std::optional<Seen> at = look(mesh, tracer, ray))
+            if (const std::optional<Visible> at = look(mesh, tracer, ray))
                 seen.push_back({ray.origin + at->hit.t * ray.direction,
                                 mesh.patches()[at->patch].normal, at->hit.facet, at->patch});
         }

@@ -23,7 +23,8 @@ constexpr double bytes_of_program = 12e6;
 constexpr double growth = 2;
 /// Per triangle: boxes while the tree is built, and a leaf's share.
 constexpr double bytes_per_triangle = 150;
-/// Of a guide by what is seen: its byte, and the worth and number of the hits that it learns from.
+/// Of a guide by what is seen: its byte, and the importance and number of the hits that it learns
+/// from.
 constexpr double bytes_per_leaf = 18;
 /// Of a stepwise method: solution, spread, one step.
 constexpr double bytes_per_solution = 225;
@@ -36,7 +37,7 @@ constexpr double bytes_per_link = 100, links_per_patch = 150;
 constexpr double batches = 8;
 /// What `stored-transport` may use for its rays where --memory says nothing: a scene of a million
 /// patches then stays within 4 GiB.
-constexpr std::uint64_t usual_transport = std::uint64_t{5} << 29;
+constexpr std::uint64_t default_transport = std::uint64_t{5} << 29;
 /// Corners, planes and boxes of both sides of a facet, and its edges.
 constexpr double bytes_of_analysis = 350;
 /// Per pixel: the picture, its bytes, the rows that are compressed, and the file. For `compare`
@@ -175,7 +176,7 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
 }
 
 SolveOptions with_memory(SolveOptions options, const SceneSettings& scene) {
-    options.memory = scene.memory ? *scene.memory / 2 : usual_transport;
+    options.memory = scene.memory ? *scene.memory / 2 : default_transport;
     return options;
 }
 

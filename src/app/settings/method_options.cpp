@@ -47,7 +47,7 @@ void check_factors(FactorKind kind, std::span<const Method* const> chosen) {
 /// Flags or numbers that were given are taken by a method that was chosen.
 template <auto own>
 void check_taken(SolveOptions options, std::span<const Method* const> chosen) {
-    SolveOptions usual;
+    SolveOptions defaults;
     for (const Method* const method : methods())
         for (const auto& option : method->*own) {
             const auto takes = [&option](const Method& other) {
@@ -55,7 +55,7 @@ void check_taken(SolveOptions options, std::span<const Method* const> chosen) {
                            return its.name;
                        }) != (other.*own).end();
             };
-            if (option.value(options) != option.value(usual) &&
+            if (option.value(options) != option.value(defaults) &&
                 std::ranges::none_of(chosen, [&](const Method* one) { return takes(*one); }))
                 throw UsageError(std::string(option.name) + " is for --method " +
                                  names_of_methods(takes, " or "));

@@ -87,7 +87,7 @@ struct TargetSettings {
 struct CheckpointSettings {
     std::string path, resumed;   ///< empty: none
     std::optional<double> every; ///< seconds between two
-    static constexpr double usually_every = 60;
+    static constexpr double default_every = 60;
 };
 
 /// --divide: by default patches are divided where a plain solve gains by it.

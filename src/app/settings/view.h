@@ -23,7 +23,7 @@ void check_camera(const ViewSettings& view, const Mesh& mesh);
                                std::span<const Vec3> radiosity);
 
 /// How long pictures may still take once the user asked the program to end: until two seconds
-/// after this was made, so that small ones are there.
+/// after this was made, so that small ones are there. Refers to the argument.
 class PictureTime {
   public:
     explicit PictureTime(const std::atomic<bool>& interrupted) : interrupted_(interrupted) {}

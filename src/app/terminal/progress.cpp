@@ -19,12 +19,12 @@ namespace {
 
 constexpr auto redraw_interval = std::chrono::milliseconds(150);
 constexpr std::size_t bar_cells = 24;
-constexpr std::size_t usual_width = 80;
+constexpr std::size_t default_width = 80;
 
 std::size_t terminal_width() {
     winsize size{};
     const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    return known ? size.ws_col : usual_width;
+    return known ? size.ws_col : default_width;
 }
 
 } // namespace

@@ -43,7 +43,7 @@ using ShareDone = std::function<double(const ProgressState&)>;
 
 class Progress {
   public:
-    /// Without a bar it only passes on what is said.
+    /// Without a bar it only passes on what is logged. The monitor outlives this.
     Progress(const Monitor& monitor, ShareDone share, bool bar);
     ~Progress();
     Progress(const Progress&) = delete;

@@ -32,7 +32,7 @@ bool enter_box(const Ray& ray, const Space& space, double& enter) {
 }
 
 /// What nearly all rays are: of unit length, from within the scene; nothing infinite, no NaN.
-bool is_usual(const Ray& ray, const Space& space) {
+bool is_unit_and_near(const Ray& ray, const Space& space) {
     const Vec3 &o = ray.origin, &d = ray.direction;
     const double square = glm::dot(d, d) + 0 * (o.x + o.y + o.z);
     const double distance = std::max(std::max(std::abs(o.x), std::abs(o.y)), std::abs(o.z));
@@ -51,7 +51,7 @@ void set_component(FloatRay& ray, int i, double start, double direction) {
 
 Fit scale_ray(const Ray& given, const Space& space, FloatRay& ray) {
     const double shrink = 1 / space.size; // a power of two
-    if (is_usual(given, space)) {
+    if (is_unit_and_near(given, space)) {
         ray.skipped = 0;
         ray.per_unit = shrink;
         ray.from = given.from;

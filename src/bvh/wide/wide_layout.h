@@ -70,9 +70,9 @@ struct Nearest {
 /// Decides in doubles what the kernels are uncertain of. `ray` counts within the query.
 struct ExactTest {
     void* query;
-    /// A slot that may be struck: updates `nearest`.
+    /// A slot that may be hit: updates `nearest`.
     void (*closer)(void* query, unsigned ray, std::uint32_t slot, Nearest& nearest);
-    /// Whether a slot is struck (inclusive edges), and counts (half-open edges).
+    /// Whether a slot is hit (inclusive edges), and counts (half-open edges).
     bool (*hits)(void* query, unsigned ray, std::uint32_t slot);
     bool (*counts)(void* query, unsigned ray, std::uint32_t slot);
 };

@@ -7,7 +7,7 @@
 #include "geometry/polygon.h"
 #include "geometry/spherical_triangle.h"
 #include "io/drawings/canvas.h"
-#include "radiosity/scene/edge_division.h"
+#include "radiosity/hemisphere/edge_division.h"
 
 #include <span>
 #include <string>

@@ -3,7 +3,7 @@
 // circle over it with rays at the directions of the subdivision, and what of the scene the plane
 // cuts.
 
-#include "radiosity/scene/edge_division.h"
+#include "radiosity/hemisphere/edge_division.h"
 
 #include <array>
 #include <string>

@@ -43,7 +43,8 @@ class Buffers {
 /// The elements of an accessor, normalized where it says so.
 class Elements {
   public:
-    /// Throws InputError, also where the indices of sparse elements do not ascend.
+    /// Throws InputError, also where the indices of sparse elements do not ascend. The buffers
+    /// outlive this.
     Elements(Buffers& buffers, std::size_t accessor);
 
     [[nodiscard]] std::size_t size() const { return accessor_.count; }

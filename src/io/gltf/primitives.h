@@ -25,6 +25,7 @@ struct Triangles {
 
 class TriangleReader {
   public:
+    /// The buffers outlive this.
     explicit TriangleReader(Buffers& buffers) : buffers_(buffers) {}
 
     /// The triangles, with coordinates of the sets from 0 to those before `texcoord_sets`. Throws

@@ -82,7 +82,7 @@ Ray CameraRays::ray(double x, double y) const {
     return {.origin = eye_, .direction = glm::normalize(direction(x, y))};
 }
 
-std::optional<Seen> look(const Mesh& mesh, const Tracer& tracer, Ray ray) {
+std::optional<Visible> look(const Mesh& mesh, const Tracer& tracer, Ray ray) {
     constexpr double same_place = 1e-12; // sheets modelled back to back
     constexpr std::uint32_t most_backs = 10'000;
     double last = -std::numeric_limits<double>::infinity();
@@ -91,7 +91,7 @@ std::optional<Seen> look(const Mesh& mesh, const Tracer& tracer, Ray ray) {
         if (!hit)
             return std::nullopt;
         if (const std::uint32_t patch = mesh.patch_at(*hit); patch != none)
-            return Seen{*hit, patch, backs};
+            return Visible{*hit, patch, backs};
         // A front that coincides with this back is still to be seen; but go on from a second back.
         ray.t_min = hit->t > last + same_place ? hit->t - same_place : hit->t + same_place;
         ray.from = hit->facet;

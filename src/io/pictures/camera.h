@@ -37,11 +37,11 @@ class CameraRays {
 
 /// The first surface that a picture shows. The backs of one-sided facets are looked through: so an
 /// interior can be seen from outside.
-struct Seen {
+struct Visible {
     Hit hit; ///< with t along the ray
     std::uint32_t patch;
     std::uint32_t backs; ///< facets looked through
 };
-[[nodiscard]] std::optional<Seen> look(const Mesh& mesh, const Tracer& tracer, Ray ray);
+[[nodiscard]] std::optional<Visible> look(const Mesh& mesh, const Tracer& tracer, Ray ray);
 
 } // namespace hemilux

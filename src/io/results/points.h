@@ -13,7 +13,7 @@ namespace hemilux {
 
 class Mesh;
 
-/// A row of a file of points, in world units.
+/// A row of a file of points, in world units [m].
 struct NamedPoint {
     Vec3 position;
     Vec3 given_normal; ///< as in the file

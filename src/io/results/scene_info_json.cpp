@@ -12,7 +12,7 @@ Json vector(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 Json to_object(const Orientation& sides) {
     return {{"faces_looking_away", sides.faces},      {"faces_in_doubt", sides.in_doubt},
             {"closed_inside_out", sides.inside_out},  {"open_lit_from_behind", sides.from_behind},
-            {"lamps_turned_away", sides.lamps},       {"surfaces_that_disagree", sides.mixed},
+            {"lamps_turned_away", sides.emitters},    {"surfaces_that_disagree", sides.mixed},
             {"clashing_edges", sides.clashing_edges}, {"surfaces_without_sides", sides.one_sided},
             {"light_on_backs", sides.light.backs},    {"light_that_leaves", sides.light.escaped}};
 }

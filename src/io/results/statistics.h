@@ -65,7 +65,7 @@ struct Statistics {
     /// it.
     std::vector<std::string> target = {};
     double estimated_error_elsewhere = unknown;
-    double error_sampling = unknown; ///< of the patches' means
+    double error_sampling = unknown; ///< relative, of the patches' means
     /// The relative error of the light on the surfaces because it changes within patches
     /// (division_error.h).
     double error_division = unknown, error_division_uncertainty = unknown;

@@ -28,10 +28,10 @@ void write_patch_table(const std::string& path, const Mesh& mesh, std::span<cons
 
 /// What `solve --reference` needs of a patch table; one entry per patch, world units.
 struct PatchTable {
-    std::vector<Vec3> centre;
-    std::vector<double> area;
-    std::vector<Vec3> radiosity;
-    std::vector<Vec3> standard_error; ///< may be NaN
+    std::vector<Vec3> centre;         ///< [m]
+    std::vector<double> area;         ///< [m2]
+    std::vector<Vec3> radiosity;      ///< [W/m2]
+    std::vector<Vec3> standard_error; ///< [W/m2]; may be NaN
 };
 
 /// Columns are found by their names, in any order; others are skipped. Throws InputError with file

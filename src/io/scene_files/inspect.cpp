@@ -87,10 +87,10 @@ SceneInfo inspect(const ReadResult& read) {
     const EdgeCounts edges = count_edges(scene);
     info.open_edges = edges.open;
     info.nonmanifold_edges = edges.nonmanifold;
-    const CoplanarLayers stacks =
+    const CoplanarLayers layers =
         find_coplanar_layers(scene, LocalFrame::of(scene).to_local(scene.vertices));
-    info.covered_facets = stacks.covered;
-    info.all_compared = stacks.complete;
+    info.covered_facets = layers.covered;
+    info.all_compared = layers.complete;
     info.degenerate_faces = read.degenerate_faces;
     info.nonplanar_faces = read.nonplanar_faces;
     info.concave_faces = read.concave_faces;

@@ -23,23 +23,18 @@ namespace {
 /// Rounds of points: many, since the spread of a few would end them when it happens to be small.
 constexpr std::size_t least_rounds = 16;
 
-/// What depends on how the error varies over the surfaces: of patches few hold most of it, that of
-/// gathered light is much the same everywhere.
-struct Manner {
-    std::size_t points_per_round;
-    /// Noise of a gather beside the error that it is to find, both squared.
-    double noise_beside_error;
-    /// Whether a few points say how long gathers are to be. Where their noise hides the error, what
-    /// is negligible says it.
-    bool by_first_points;
-};
-constexpr Manner of_patches{64, 4, true}, of_gathered{16, 16, false};
+/// In each: of patches few hold most of the error, that of gathered light is much the same
+/// everywhere.
+constexpr std::size_t points_of_patches = 64, points_of_gathered = 16;
 
-/// By which the length of gathers is chosen.
-constexpr std::size_t first_rounds = 4;
+/// So many points times the length of gathers at the most, in a round.
+constexpr std::size_t longest_round = 4096;
 
 /// Relative uncertainty of the squared error at which it is known well enough.
 constexpr double well_known = .25;
+
+/// Of the error within patches, as what has spread to others is found out.
+constexpr double share_of_spread = 1. / 3;
 
 /// Sums over independent rounds of points.
 struct Rounds {
@@ -98,15 +93,6 @@ std::vector<double> density_of_points(const Mesh& mesh, std::span<const double> 
     return density;
 }
 
-/// How long gathers are to be, in units of the shortest. The variance of a product is about
-/// (error^2 + noise^2 / length)^2, so that long ones know a small error sooner than many short
-/// ones; more points are needed anyway, as the error is not the same everywhere.
-unsigned length_of_gathers(double error_square, double noise_square, const Manner& manner) {
-    const double longest = 4096.0 / double(manner.points_per_round);
-    const double length = noise_square / (manner.noise_beside_error * error_square);
-    return static_cast<unsigned>(std::clamp(std::round(length), 1.0, longest));
-}
-
 /// The variance of the patches' values, relative to their square, in its two parts.
 struct KnownVariance {
     double own = 0;     ///< of what patches err each for itself
@@ -144,42 +130,81 @@ void set_error(DivisionError& result, const Rounds& rounds, const OtherError& ot
 /// What the gather misses is off.
 Vec3 missing_at(const PatchPoint&, const Vec3& missing) { return missing; }
 
+/// What the noise of gathers alone leaves of uncertainty, about.
+double uncertainty_by_noise(double noise_square, std::size_t points) {
+    return 2 * noise_square / std::sqrt(double(points));
+}
+
+/// Gathers are short at first. The variance of a product is about (error^2 + noise^2)^2, so where
+/// noise leaves too much uncertainty longer gathers know the error sooner than more points would.
+/// They begin anew, as a sum that ends by its own spread is biased.
 DivisionError error_at_points(const Mesh& mesh, double size, const OffAt& off_at,
-                              FinalGather& gather, const OtherError& other, const Manner& manner,
-                              const DivisionErrorOptions& options, const Workers& workers,
-                              const StopFlag& interrupted) {
+                              FinalGather& gather, const OtherError& other,
+                              std::size_t points_per_round, const DivisionErrorOptions& options,
+                              const Workers& workers, const StopFlag& interrupted) {
+    constexpr double least_growth = 2, most_growth = 4;
     DivisionError result;
     const double negligible = options.negligible * options.negligible;
     const PointsOverSurface surface(mesh, density_of_points(mesh, options.square));
-    const auto products = [&](std::uint64_t number) {
+    const auto longest = double(longest_round / points_per_round);
+    double length = 1;
+    Rounds rounds, noise;
+    for (std::uint64_t number = 0;; ++number) {
         const Products sums =
-            products_over_surface(mesh, off_at, gather, surface, manner.points_per_round,
+            products_over_surface(mesh, off_at, gather, surface, points_per_round,
                                   hash_words({options.seed, number}), workers, interrupted);
-        return Products{sums.error / size, sums.noise / size};
-    };
-    Rounds first, noise;
-    for (std::size_t k = 0; k < first_rounds && !interrupted; ++k) {
-        const Products found = products(k);
-        first.add(found.error);
-        noise.add(found.noise);
-    }
-    const double expected =
-        std::max({manner.by_first_points ? first.mean() : 0, other.square, negligible});
-    gather.set_rounds(length_of_gathers(expected, noise.mean(), manner));
-    Rounds rounds;
-    while (rounds.count < least_rounds || gather.rays() < options.most_rays) {
-        const double product = products(first_rounds + rounds.count).error;
         if (interrupted)
             return result;
-        rounds.add(product);
+        rounds.add(sums.error / size);
+        noise.add(sums.noise / size);
+        if (rounds.count < least_rounds)
+            continue;
         const double enough = std::max(well_known * (rounds.mean() - other.square), negligible);
-        if (rounds.count >= least_rounds && rounds.uncertainty() <= enough)
+        if (rounds.uncertainty() <= enough)
             break;
+        const double by_noise = uncertainty_by_noise(noise.mean(), rounds.count * points_per_round);
+        if (by_noise > enough && length < longest) {
+            const double growth = std::clamp(by_noise / enough, least_growth, most_growth);
+            length = std::min(std::round(growth * length), longest);
+            gather.set_rounds(static_cast<unsigned>(length));
+            rounds = noise = {};
+        } else if (gather.rays() >= options.most_rays) {
+            break;
+        }
     }
     set_error(result, rounds, other);
-    result.points = rounds.count * manner.points_per_round;
+    result.points = rounds.count * points_per_round;
     result.rays = gather.rays();
     return result;
+}
+
+/// Of light that is gathered from the solution, but for `other`.
+DivisionError missing_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                            bool reads_near, const OtherError& other, DivisionErrorOptions options,
+                            const Workers& workers, const StopFlag& interrupted) {
+    const double size = reflected_square(mesh, solution);
+    if (!(size > 0))
+        return {};
+    FinalGather gather(mesh, tracer, solution);
+    gather.find_missing(reads_near);
+    options.square = {};
+    return error_at_points(mesh, size, missing_at, gather, other, points_of_gathered, options,
+                           workers, interrupted);
+}
+
+DivisionError without(const DivisionError& all, const OtherError& other) {
+    const double square = std::max(all.error * all.error - other.square, 0.0);
+    return {std::sqrt(square), all.uncertainty, 0, 0};
+}
+
+/// Errors that do not depend on each other.
+void add(DivisionError& sum, const DivisionError& error) {
+    const double both = std::hypot(sum.error, error.error);
+    if (both > 0)
+        sum.uncertainty =
+            std::hypot(sum.error * sum.uncertainty, error.error * error.uncertainty) / both;
+    sum.error = both;
+    sum.rays += error.rays;
 }
 
 } // namespace
@@ -193,9 +218,18 @@ double reflected_square(const Mesh& mesh, const Solution& solution) {
     return sum;
 }
 
+DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                             bool reads_near, const DivisionErrorOptions& options,
+                             const Workers& workers, const StopFlag& interrupted) {
+    DivisionError found =
+        missing_error(mesh, tracer, solution, reads_near, {}, options, workers, interrupted);
+    found.error = std::max(found.error, found.uncertainty); // which it may be
+    return found;
+}
+
 DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
                              const DivisionErrorOptions& options, const Workers& workers,
-                             const StopFlag& interrupted) {
+                             const StopFlag& interrupted, const DivisionError* gathered) {
     const double size = reflected_square(mesh, solution);
     if (!(size > 0))
         return {};
@@ -204,44 +238,24 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
     // Of what patches err together a gather errs with them, but for what a reflection takes away.
     const double seen = known.own + known.common * (1 - rho) * (1 - rho);
     FinalGather gather(mesh, tracer, solution);
-    const OffAt off_at = [&](const PatchPoint& point, const Vec3& gathered) {
-        return gathered - (radiosity_at(mesh, solution, point.patch, point.at.position) -
-                           mesh.material(point.patch).emission);
+    const OffAt off_at = [&](const PatchPoint& point, const Vec3& light) {
+        return light - (radiosity_at(mesh, solution, point.patch, point.at.position) -
+                        mesh.material(point.patch).emission);
     };
     DivisionError found = error_at_points(mesh, size, off_at, gather, {seen, seen * scatter},
-                                          of_patches, options, workers, interrupted);
-    DivisionErrorOptions of_spread = options;
-    of_spread.seed = hash_words({options.seed, 1});
-    of_spread.negligible = std::max(found.error, std::sqrt(known.own + known.common)) / 3;
-    of_spread.square = {};
-    if (!(of_spread.negligible > 0))
-        return found;
-    FinalGather missing(mesh, tracer, solution);
-    missing.find_missing(false);
-    const double spread_by_sampling = known.common * rho * rho;
-    const DivisionError spread = error_at_points(mesh, size, missing_at, missing,
-                                                 {spread_by_sampling, spread_by_sampling * scatter},
-                                                 of_gathered, of_spread, workers, interrupted);
-    const double both = std::hypot(found.error, spread.error);
-    if (both > 0)
-        found.uncertainty =
-            std::hypot(found.error * found.uncertainty, spread.error * spread.uncertainty) / both;
-    found.error = both;
-    found.rays += spread.rays;
-    return found;
-}
-
-DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                             bool reads_near, const DivisionErrorOptions& options,
-                             const Workers& workers, const StopFlag& interrupted) {
-    const double size = reflected_square(mesh, solution);
-    if (!(size > 0))
-        return {};
-    FinalGather gather(mesh, tracer, solution);
-    gather.find_missing(reads_near);
-    DivisionError found = error_at_points(mesh, size, missing_at, gather, {}, of_gathered, options,
-                                          workers, interrupted);
-    found.error = std::max(found.error, found.uncertainty); // which it may be
+                                          points_of_patches, options, workers, interrupted);
+    const double reflected = known.common * rho * rho;
+    const OtherError of_sampling{reflected, reflected * scatter};
+    const double least = std::max(found.error, std::sqrt(known.own + known.common));
+    if (gathered) {
+        add(found, without(*gathered, of_sampling));
+    } else if (least > 0) {
+        DivisionErrorOptions of_spread = options;
+        of_spread.seed = hash_words({options.seed, 1});
+        of_spread.negligible = std::max(share_of_spread * least, options.negligible);
+        add(found, missing_error(mesh, tracer, solution, false, of_sampling, of_spread, workers,
+                                 interrupted));
+    }
     return found;
 }
 

@@ -59,11 +59,13 @@ struct DivisionErrorOptions {
 [[nodiscard]] double reflected_square(const Mesh& mesh, const Solution& solution);
 
 /// Estimates the error of a solution with a step at least. Where it was interrupted the error is
-/// not known.
+/// not known. `gathered`: the error of light gathered from this solution, where it is known; it
+/// holds what has spread, which is measured otherwise.
 [[nodiscard]] DivisionError division_error(const Mesh& mesh, const Tracer& tracer,
                                            const Solution& solution,
                                            const DivisionErrorOptions& options,
-                                           const Workers& workers, const StopFlag& interrupted);
+                                           const Workers& workers, const StopFlag& interrupted,
+                                           const DivisionError* gathered = nullptr);
 
 /// Of each patch the root mean square of what its light is off: within the patch, as far as
 /// light_within_patches() finds it, and by its standard error. Relative to that of the reflected

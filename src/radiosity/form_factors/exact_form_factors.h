@@ -18,14 +18,14 @@ inline constexpr std::size_t most_patches_for_exact_factors = 2000;
 class ExactFormFactors {
   public:
     /// All pairs of patches that see each other fully. Work grows as patches^2 facets: for a few
-    /// thousand patches. Void if the monitor was interrupted.
+    /// thousand patches. Void if the monitor was interrupted. The mesh outlives this.
     ExactFormFactors(const Mesh& mesh, const Workers& workers, const Monitor& monitor);
 
     /// With the sampled factors for the other pairs, these scaled so that rows are closed. They
     /// must have been made without emitters.
     [[nodiscard]] SparseMatrix matrix(const SampledFormFactors& sampled) const;
 
-    /// F_ij where it is known without sampling; 0 where the two do not face each other.
+    /// F_ij [-] where it is known without sampling; 0 where the two do not face each other.
     [[nodiscard]] std::optional<double> factor(std::uint32_t i, std::uint32_t j) const;
     /// Pairs that face each other.
     [[nodiscard]] std::uint64_t exact_pairs() const;
@@ -34,7 +34,7 @@ class ExactFormFactors {
   private:
     struct Entry {
         std::uint32_t patch;
-        double factor; ///< < 0: to be sampled
+        double factor; ///< F [-]; < 0: to be sampled
     };
     /// Pairs with patches of higher index.
     void find_row(std::uint32_t patch, std::span<const Box> facet_boxes);

@@ -22,7 +22,8 @@ struct Plane {
 /// Corners of a convex polygon.
 using Outline = std::vector<Vec3>;
 [[nodiscard]] Outline outline_of(const Polygon& polygon);
-/// The part in front of a plane; empty where nothing rises above it by more than `rounding`.
+/// The part in front of a plane; empty where nothing rises above it by more than `rounding`
+/// [length].
 [[nodiscard]] Outline in_front(const Outline& outline, const Plane& plane, double rounding);
 
 /// The parts of two polygons that are in front of each other; both empty where there are none.
@@ -31,8 +32,8 @@ struct FacingPair {
 };
 [[nodiscard]] FacingPair facing_parts(const Polygon& from, const Polygon& to, double rounding);
 
-/// A F from the front of one polygon to the front of the other. The error is below 1e-10 of the
-/// smaller area.
+/// A F [the unit of the polygons' areas] from the front of one to the front of the other. The error
+/// is below 1e-10 of the smaller area.
 [[nodiscard]] double exchange_area(const Polygon& from, const Polygon& to);
 /// Computes the same for parts that face each other.
 [[nodiscard]] double exchange_area(const Outline& from, const Outline& to, double smaller_area);

@@ -2,12 +2,12 @@
 // What all patches exchange with each other, from the rays of all.
 //
 // S_ij = A_i F_ij is symmetric, so rays from i to j and from j to i tell the same number; weighted
-// by what each is worth, S_ij = (c_ij + c_ji) / (N_i / A_i + N_j / A_j), c being counts and N the
-// rays of a patch. Rows must sum to A_i less what the patch's own rays lost. Scaling S_ij by g_i
-// g_j makes them so and leaves S symmetric (Sinkhorn and Knopp 1967). The little that is still
-// missing after some scalings, or too much, is what a patch exchanges with itself: so rows are
-// closed and S is symmetric to the last bits, no energy is made or lost between patches, however
-// reflective, and furnaces are exact.
+// by the inverse of its variance, S_ij = (c_ij + c_ji) / (N_i / A_i + N_j / A_j), c being counts
+// and N the rays of a patch. Rows must sum to A_i less what the patch's own rays lost. Scaling S_ij
+// by g_i g_j makes them so and leaves S symmetric (Sinkhorn and Knopp 1967). The little that is
+// still missing after some scalings, or too much, is what a patch exchanges with itself: so rows
+// are closed and S is symmetric to the last bits, no energy is made or lost between patches,
+// however reflective, and furnaces are exact.
 //
 // Stored is S before it is scaled, so that the S of several batches is their mean.
 
@@ -33,7 +33,7 @@ class ExchangeMatrix {
     /// rays.
     ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers);
 
-    /// y_i = sum_j F_ij x_j
+    /// y_i = sum_j F_ij x_j, by patch; y has the unit of x.
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
 
     /// The same in parts: the element j of a vector as rows take it,
@@ -54,7 +54,7 @@ class ExchangeMatrix {
     [[nodiscard]] double self_factor(std::size_t i) const {
         return per_area_[i] * self_[i] * scale_[i];
     }
-    /// Calls body(begin, end) for chunks of this rank's rows, by as many threads as that is worth,
+    /// Calls body(begin, end) for chunks of this rank's rows, by as many threads as pay,
     template <class Body>
     void for_rows(const Workers& workers, const Body& body) const {
         readers(workers).for_chunks(own_.count(), rows_per_chunk,
@@ -76,8 +76,8 @@ class ExchangeMatrix {
     /// Those that this rank has; of one rank alone all.
     [[nodiscard]] const OwnBlocks& own_rows() const { return own_; }
 
-    /// What patch i exchanges with others; a value is S before it is scaled. Empty where the row is
-    /// another rank's.
+    /// What patch i exchanges with others; a value is S before it is scaled [local area]. Empty
+    /// where the row is another rank's.
     [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const { return rows_.row(i); }
     /// Has an entry for each patch.
     [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }

@@ -8,6 +8,7 @@
 
 namespace hemilux {
 
+/// Factors and what follows from them have no unit [-].
 struct MatrixQuality {
     std::uint64_t entries = 0;  ///< above 0
     double least = 0, most = 0; ///< of these

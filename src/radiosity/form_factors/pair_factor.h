@@ -1,8 +1,8 @@
 #pragma once
 // The form factor between two patches by shadow rays (Wallace, Elmquist and Haines 1989), as
-// exactly as the light between them is worth.
+// exactly as the light between them is important.
 //
-// Points of the receiver are independent scrambled Sobol sets, whose spread tells the error; they
+// Points of the receiver are independent scrambled Sobol batches, whose spread is the error; they
 // grow until it is small enough.
 
 #include "bvh/tracer.h"
@@ -20,14 +20,14 @@ struct PairFactor {
     double variance = 0;                          ///< of the factor
     std::uint64_t points = 0, rays = 0, hits = 0; ///< not each point needs a ray
 
-    /// Mean and spread of sets of so many points.
+    /// Mean and spread of independent batches of so many points each.
     void average(std::span<const double> sums, double points_each);
 };
 
 /// Whether each has a corner in front of the other.
 [[nodiscard]] bool may_see(const Patch& a, const Patch& b);
 
-/// About F_from,to without looking: the kernel between the centres, with cosines as they may be
+/// About F_from,to [-] without looking: the kernel between the centres, with cosines as they may be
 /// elsewhere on the patches. Rather too large than too small.
 [[nodiscard]] double rough_factor(const Patch& from, const Patch& to);
 

@@ -14,13 +14,12 @@ class Mesh;
 class PolygonSampler;
 struct Patch;
 
-/// The mean of the factors of all sights that nothing blocks, over u in [0,1)^4, is F_from,to. A
-/// factor of 0: the point does not face the patch. Near, the factor is that from a random point to
-/// the whole patch, so that only shadows make it noisy; from points further away from the target's
-/// centre than `near`, it is that to a random point of the patch, which is much sooner said and
-/// almost as good where the target looks small.
-/// Points come from samplers of both shapes. The ray ends short of the target; it is whole if the
-/// factor is not 0.
+/// Returns the factor [-] of a ray. The mean over u in [0,1)^4, of the rays that nothing blocks, is
+/// F_from,to. A factor of 0: the point does not face the patch. Near, the factor is that from a
+/// random point to the whole patch, so that only shadows make it noisy; from points further away
+/// from the target's centre than `near` [local units], it is that to a random point of the patch,
+/// which is computed much sooner and almost as good where the target looks small. Points come from
+/// samplers of both shapes. The ray ends short of the target; it is whole if the factor is not 0.
 [[nodiscard]] double look_at(const Patch& source, const PolygonSampler& origins,
                              const Patch& target, const PolygonSampler& targets,
                              const std::array<double, 4>& u, double near, Ray& ray);

@@ -41,7 +41,7 @@ RayCounts::RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed,
     : mesh_(mesh), tracer_(tracer), seed_(seed), own_(ranks, mesh.patches().size()),
       rows_(mesh.patches().size()), blocks_((rows_.size() + rows_per_block - 1) / rows_per_block) {}
 
-/// A block of rows, written anew with what was struck since.
+/// A block of rows, written anew with what was hit since.
 class RayCounts::Tally {
   public:
     explicit Tally(std::size_t patches) : place_(patches) {}
@@ -87,7 +87,7 @@ class RayCounts::Tally {
     std::vector<std::uint32_t> place_; ///< by patch, in the last row: one more than its index, or 0
 };
 
-/// Rays of some rows of a block that are not traced yet, and what those before have struck.
+/// Rays of some rows of a block that are not traced yet, and what those before have hit.
 struct RayCounts::RayBatch {
     explicit RayBatch(std::size_t patches) : tally(patches) {}
 
@@ -262,7 +262,7 @@ void RayCounts::load(StateReader& state) {
             if (own_.owns(i))
                 block.push_back(count);
         }
-        // Every ray was struck by something, once.
+        // Every ray has hit something, once.
         if (sum != rows_[i].rays)
             throw StateError("rays of a patch do not add up");
         rows_[i].end = static_cast<std::uint32_t>(block.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Which patches the cosine-distributed rays of each patch struck, and how often: what stored
+// Which patches the cosine-distributed rays of each patch hit, and how often: what stored
 // transport keeps of them. One sequence of well-distributed points per patch (sobol.h), which can
 // be prolonged.
 
@@ -20,7 +20,7 @@ struct Monitor;
 
 class RayCounts {
   public:
-    /// A patch that was struck, and how often.
+    /// A patch that was hit, and how often.
     struct Count {
         std::uint32_t patch, hits;
     };
@@ -47,7 +47,7 @@ class RayCounts {
     [[nodiscard]] std::uint32_t rays(std::uint32_t patch) const { return rows_[patch].rays; }
     /// Those whose row() this rank has.
     [[nodiscard]] const OwnBlocks& own_rows() const { return own_; }
-    /// Each patch once, in the order in which they were first struck. Empty where the row is
+    /// Each patch once, in the order in which they were first hit. Empty where the row is
     /// another rank's.
     [[nodiscard]] std::span<const Count> row(std::uint32_t patch) const {
         const std::uint32_t begin = patch % rows_per_block > 0 ? rows_[patch - 1].end : 0;

@@ -155,9 +155,9 @@ SparseMatrix SampledFormFactors::matrix() const {
                 f.value.push_back(factor_per_hit(i, c.patch) * c.hits);
                 sum += f.value.back();
             }
-        const double closing = !shoots ? 1 : sum > 0 ? std::max(rest, 0.0) / sum : 0;
+        const double normalisation = !shoots ? 1 : sum > 0 ? std::max(rest, 0.0) / sum : 0;
         for (std::size_t k = first; k < f.value.size(); ++k)
-            f.value[k] *= closing;
+            f.value[k] *= normalisation;
         f.row_begin.push_back(f.value.size());
     }
     return f;

@@ -4,10 +4,10 @@
 //
 // From every patch N rays follow the cosine law, origin and direction together a scrambled Sobol
 // point. By reciprocity, A_i F_ij = A_j F_ji, the rays from i to j and from j to i estimate the
-// same number; weighted by what each is worth, F_ij = A_j (c_ij + c_ji) / (N (A_i + A_j)), c being
-// the counts. Few rays find a small lamp: the columns of emitters come from the closed form of
-// point and polygon (Lambert) times the visibility along a ray drawn inside it. Rows are then
-// closed: they sum to 1 minus the share of the row's own rays that met no patch.
+// same number; weighted by the inverse of its variance, F_ij = A_j (c_ij + c_ji) / (N (A_i + A_j)),
+// c being the counts. Few rays find a small emitter: the columns of emitters come from the closed
+// form of point and polygon (Lambert) times the visibility along a ray drawn inside it. Rows are
+// then closed: they sum to 1 minus the share of the row's own rays that met no patch.
 
 #include "bvh/tracer.h"
 #include "radiosity/form_factors/ray_counts.h"
@@ -25,7 +25,7 @@ namespace hemilux {
 class Mesh;
 struct Monitor;
 
-/// Sparse matrix by rows.
+/// Sparse matrix by rows; the entries of a row are in any order [-].
 struct SparseMatrix {
     std::vector<std::size_t> row_begin; ///< one more than rows
     std::vector<std::uint32_t> column;
@@ -36,7 +36,7 @@ struct SparseMatrix {
     void multiply(std::span<const double> x, std::span<double> y, const Workers& workers) const;
 };
 
-/// Shares of a patch's rays that met no patch.
+/// Shares of a patch's rays [-] that met no patch.
 struct EscapeFraction {
     double escaped = 0;  ///< left the scene
     double absorbed = 0; ///< fell on the back of a one-sided face

@@ -21,6 +21,7 @@ class StateWriter;
 
 class HemisphereImportance {
   public:
+    /// The hemisphere outlives this.
     HemisphereImportance(const Hemisphere& hemisphere, std::size_t patches);
 
     /// Adds to what is known of a leaf, the `leaf`-th triangle of the last level: the sum over hits
@@ -69,7 +70,7 @@ class HemisphereImportance {
 /// Rays of unequal power do not carry exactly the power to be shot. What is too much or too little
 /// goes on over all bounces and spreads over all patches, so every ray has an importance besides
 /// what it hits: about 2 (rho M)^2 / N relative to the mean of N patches, M being all power shot
-/// over that emitted. In usual rooms it is next to nothing; at reflectance .99 it is above all
+/// over that emitted. In most rooms it is next to nothing; at reflectance .99 it is above all
 /// else, and all rays are to be nearly equal.
 [[nodiscard]] double importance_of_energy(const Mesh& mesh, std::span<const Vec3> radiosity);
 

@@ -142,7 +142,7 @@ class VisibilityGuide final : public Strategy {
         float rays_per_area; ///< sent in a step by a triangle of density 1, local units
     };
     /// The rays of one look from a patch, and what they hit.
-    struct Seen {
+    struct LookRays {
         std::vector<Ray> rays;
         std::vector<std::uint32_t> receivers;
         std::vector<std::uint16_t> cells, arrivals;
@@ -159,7 +159,7 @@ class VisibilityGuide final : public Strategy {
 
     void describe_sides();
     void look(const SolverInput& input);
-    void look_from(std::uint32_t patch, const SolverInput& input, Seen& seen) const;
+    void look_from(std::uint32_t patch, const SolverInput& input, LookRays& looks) const;
     void estimate_importance(std::span<const Vec3> radiosity);
     [[nodiscard]] double find_prior_mean() const;
     void find_density(double mean_root);
@@ -214,15 +214,15 @@ void VisibilityGuide::describe_sides() {
 /// All patches, in their order whatever thread looks.
 void VisibilityGuide::look(const SolverInput& input) {
     constexpr std::size_t at_once = 1024;
-    std::vector<Seen> seen(std::min(at_once, sides_.size()));
+    std::vector<LookRays> looks(std::min(at_once, sides_.size()));
     for (std::size_t begin = 0; begin < sides_.size(); begin += at_once)
         workers_.for_each_in_order(
             std::min(at_once, sides_.size() - begin),
             [&](std::size_t k) {
-                look_from(static_cast<std::uint32_t>(begin + k), input, seen[k]);
+                look_from(static_cast<std::uint32_t>(begin + k), input, looks[k]);
             },
             [&](std::size_t k) {
-                const Seen& s = seen[k];
+                const LookRays& s = looks[k];
                 for (std::size_t ray = 0; ray < s.rays.size(); ++ray)
                     learn(static_cast<std::uint32_t>(begin + k), s.cells[ray],
                           std::span(s.receivers).subspan(ray, 1),
@@ -235,8 +235,9 @@ void VisibilityGuide::look(const SolverInput& input) {
     known_.commit(training_steps_);
 }
 
-void VisibilityGuide::look_from(std::uint32_t patch, const SolverInput& input, Seen& seen) const {
-    seen = {};
+void VisibilityGuide::look_from(std::uint32_t patch, const SolverInput& input,
+                                LookRays& looks) const {
+    looks = {};
     const Patch& from = mesh_.patches()[patch];
     if (!needs_.power(patch) || !(from.area > 0) || input.monitor.interrupted)
         return;
@@ -246,12 +247,12 @@ void VisibilityGuide::look_from(std::uint32_t patch, const SolverInput& input, S
     for (std::uint32_t k = 0; k < rays_of_look(); ++k) {
         const auto u = points.at(k);
         const Vec3 direction = cosine_direction({u[2], u[3]});
-        seen.cells.push_back(hemisphere_.leaf_at(direction));
-        seen.rays.push_back({origins.sample({u[0], u[1]}), frames_[patch].to_world(direction)});
-        seen.rays.back().from = from.facet;
+        looks.cells.push_back(hemisphere_.leaf_at(direction));
+        looks.rays.push_back({origins.sample({u[0], u[1]}), frames_[patch].to_world(direction)});
+        looks.rays.back().from = from.facet;
     }
-    find_receivers(seen.rays, mesh_, input.tracer, seen.receivers);
-    find_arrivals(seen.rays, seen.receivers, seen.arrivals);
+    find_receivers(looks.rays, mesh_, input.tracer, looks.receivers);
+    find_arrivals(looks.rays, looks.receivers, looks.arrivals);
 }
 
 double VisibilityGuide::mean_radiosity(std::span<const Vec3> radiosity) const {

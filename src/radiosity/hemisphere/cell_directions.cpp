@@ -13,11 +13,11 @@ struct Attempt {
 
 } // namespace
 
-CellDirections::CellDirections(const Hemisphere& hemisphere, bool literal) {
+CellDirections::CellDirections(const Hemisphere& hemisphere, CellArea area) {
     const auto cells = static_cast<std::uint16_t>(hemisphere.cells().size());
     for (std::uint16_t cell = 0; cell < cells; ++cell) {
         add(hemisphere.cells()[cell].shape);
-        power_shares_.push_back(hemilux::power_share(hemisphere, cell, literal));
+        power_shares_.push_back(hemilux::power_share(hemisphere, cell, area));
     }
     for (std::size_t i = 0; i < parts_.size(); ++i)
         shapes_.part[i] = parts_[i].data();

@@ -16,15 +16,21 @@ namespace hemilux {
 
 inline constexpr std::uint16_t whole_hemisphere = 0xffff;
 
-/// A_tr / A_hemi of the paper: the share of a diffuse patch's power that a cell of the table gets,
-/// A being the projected solid angle; with the rules as printed the solid angle.
+/// What A is in A_tr / A_hemi of the paper.
+enum class CellArea {
+    projected_solid_angle, ///< so that Lambert's law holds
+    solid_angle            ///< as printed; biased (docs/decisions.md, D1)
+};
+
+/// A_tr / A_hemi of the paper [-]: the share of a diffuse patch's power that a cell of the table
+/// gets.
 [[nodiscard]] inline double power_share(const Hemisphere& hemisphere, std::uint16_t cell,
-                                        bool literal) {
+                                        CellArea area) {
     if (cell == whole_hemisphere)
         return 1;
     const Hemisphere::Cell& its = hemisphere.cells()[cell];
-    return literal ? its.solid_angle / (2 * std::numbers::pi)
-                   : its.projected_solid_angle / std::numbers::pi;
+    return area == CellArea::solid_angle ? its.solid_angle / (2 * std::numbers::pi)
+                                         : its.projected_solid_angle / std::numbers::pi;
 }
 
 /// Samples that are drawn together; each has one place in every array.
@@ -49,12 +55,12 @@ struct DirectionBatch {
 
 class CellDirections {
   public:
-    /// `literal`: shares of power as printed.
-    CellDirections(const Hemisphere& hemisphere, bool literal);
+    /// `area`: of the shares of power.
+    CellDirections(const Hemisphere& hemisphere, CellArea area);
     CellDirections(const CellDirections&) = delete;
     CellDirections& operator=(const CellDirections&) = delete;
 
-    /// The share of power of a cell of the constructor's hemisphere, by its rules.
+    /// The share of power of a cell of the constructor's hemisphere, by its area.
     [[nodiscard]] double power_share(std::uint16_t cell) const {
         return cell == whole_hemisphere ? 1 : power_shares_[cell];
     }

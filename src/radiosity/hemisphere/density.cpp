@@ -70,9 +70,10 @@ constexpr double divide_all = -1;
 } // namespace
 
 Vec3 density_direction(const Vec3& vertex) {
-    constexpr double lift = 0.01; // sine of the elevation
+    constexpr double least_sine = 0.01; // sine of the elevation
     const bool pole = vertex.x == 0 && vertex.y == 0;
-    return glm::normalize(Vec3(pole ? lift : vertex.x, vertex.y, std::max(vertex.z, lift)));
+    return glm::normalize(
+        Vec3(pole ? least_sine : vertex.x, vertex.y, std::max(vertex.z, least_sine)));
 }
 
 DensityMap::DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere& hemisphere,

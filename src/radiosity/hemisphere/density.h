@@ -29,8 +29,8 @@ struct DensityLeaf {
     float density;
 };
 
-/// Whether a triangle with this mean count is divided, above the last level: the rule of the
-/// paper's procedure Preprocessing.
+/// Whether a triangle with this mean count [surfaces per ray] is divided, above the last level: the
+/// rule of the paper's procedure Preprocessing.
 [[nodiscard]] constexpr bool is_divided(double mean, double threshold) { return mean > threshold; }
 
 /// The result of a density ray.
@@ -51,6 +51,7 @@ class LeafDensities {
     virtual ~LeafDensities() = default;
     /// The triangles of a patch that are not divided, in the table's depth-first order.
     virtual void leaves(std::uint32_t patch, std::vector<DensityLeaf>& result) const = 0;
+    /// The memory of what is kept.
     [[nodiscard]] virtual std::uint64_t bytes() const = 0;
     /// Traced to find them.
     [[nodiscard]] virtual std::uint64_t rays() const { return 0; }
@@ -62,7 +63,7 @@ class DensityMap final : public LeafDensities {
   public:
     /// Shoots the density rays from every patch centre; a triangle whose mean exceeds the threshold
     /// is divided, down to the hemisphere's depth. Counts saturate at 255. Patches that never hold
-    /// power have no hemisphere: they must not be asked for.
+    /// power have no hemisphere: they must not be asked for. Hemisphere and needs outlive this.
     DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere& hemisphere,
                double threshold, const Workers& workers, Monitor& monitor,
                const Needs& needs = everything_needed,

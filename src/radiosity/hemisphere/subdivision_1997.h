@@ -8,8 +8,8 @@
 // each.
 
 #include "bvh/tracer.h"
+#include "radiosity/hemisphere/edge_division.h"
 #include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/scene/edge_division.h"
 #include "radiosity/scene/needs.h"
 #include "radiosity/solving/solver.h"
 

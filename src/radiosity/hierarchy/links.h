@@ -20,7 +20,7 @@ struct Link {
     std::uint32_t to, from;
 };
 
-/// Estimates F_to,from if nothing stands between, rather too high than too low.
+/// Estimates F_to,from [-] if nothing stands between, rather too high than too low.
 [[nodiscard]] double rough_factor(const PatchTree::Node& to, const PatchTree::Node& from);
 
 enum class Refinement { not_needed, done, too_many_links };
@@ -31,8 +31,9 @@ class Links {
     Links(const Mesh& mesh, const PatchTree& tree);
 
     /// Divides the links by which more than `most_power` may be reflected, the larger node of each:
-    /// the oracle BF with areas. `light` and `reflectance` are by patch, means of channels; areas
-    /// are local. None is divided where there would be too many links.
+    /// the oracle BF with areas. `light` [W/m2 leaving] and `reflectance` [-] are by patch, means
+    /// of channels; `most_power` is in W/m2 times local area. None is divided where there would be
+    /// too many links.
     Refinement refine(std::span<const double> light, std::span<const double> reflectance,
                       double most_power);
 
@@ -51,16 +52,16 @@ class Links {
 /// The factors of all links in one batch.
 class LinkFactors {
   public:
-    /// F_to,from by `points[l]` random pairs of a point of the one and a patch of the other: the
-    /// closed form of point and polygon times the visibility along a ray. Unbiased for the mean
-    /// over the node. Void if the monitor was interrupted.
+    /// F_to,from [-] by `points[l]` random pairs of a point of the one and a patch of the other:
+    /// the closed form of point and polygon times the visibility along a ray. Unbiased for the mean
+    /// over the node. Void if the monitor was interrupted. Tree and links outlive this.
     LinkFactors(const Mesh& mesh, const Tracer& tracer, const PatchTree& tree, const Links& links,
                 std::span<const std::uint32_t> points, std::uint64_t seed, const Workers& workers,
                 Monitor& monitor);
 
     /// Has an entry for each link.
     [[nodiscard]] std::span<const double> factors() const { return factors_; }
-    /// y_i = sum_j F_ij x_j: pull, gather, push.
+    /// y_i = sum_j F_ij x_j, by patch: pull, gather, push.
     void multiply(std::span<const double> x, std::span<double> y) const;
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 

@@ -2,7 +2,7 @@
 
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/solving/unseen_sights.h"
+#include "radiosity/solving/missed_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ EscapeFraction LostRays::lost(std::size_t batch, std::size_t patch) const {
     return {batches_[batch].escaped(i) / rays_[i], batches_[batch].absorbed(i) / rays_[i]};
 }
 
-double LostRays::usual_escape() const {
+double LostRays::prior_escape() const {
     double leaving = 0, all = 0;
     for (const RayCounts& batch : batches_)
         for (std::uint32_t i = 0; i < patches(); ++i) {
@@ -76,13 +76,14 @@ double LostRays::uncertain_light(std::span<const double> area, std::span<const V
     return std::hypot(rule_of_three * leaving / all_rays, std::sqrt(variance)) / emitted;
 }
 
-RowClosing::RowClosing(const LostRays& lost, std::vector<std::vector<double>> sums, bool closed)
+RowNormalisation::RowNormalisation(const LostRays& lost, std::vector<std::vector<double>> sums,
+                                   bool closed)
     : lost_(lost), sums_(std::move(sums)), weight_(lost.patches()), closed_(closed) {
     if (!closed)
         find_weights();
 }
 
-double RowClosing::variance_of_sum(std::size_t patch) const {
+double RowNormalisation::variance_of_sum(std::size_t patch) const {
     const auto n = static_cast<double>(sums_.size());
     double mean = 0, squares = 0;
     for (const std::vector<double>& sum : sums_)
@@ -92,7 +93,7 @@ double RowClosing::variance_of_sum(std::size_t patch) const {
     return squares / (n - 1);
 }
 
-void RowClosing::find_weights() {
+void RowNormalisation::find_weights() {
     const std::size_t batches = lost_.batches();
     const std::span<const double> rays = lost_.rays_of_batch();
     std::vector<double> lost(weight_.size());
@@ -105,22 +106,22 @@ void RowClosing::find_weights() {
     }
     if (!(all_lost > 0))
         return;
-    const double usual = (all_lost + 1) / (all_rays + 2); // not all: a far lamp is met by none
+    const double prior = (all_lost + 1) / (all_rays + 2); // not all: a far lamp is met by none
     for (std::size_t i = 0; i < lost.size(); ++i) {
-        const double all = rays[i] * double(batches), share = (all * lost[i] + usual) / (all + 1);
+        const double all = rays[i] * double(batches), share = (all * lost[i] + prior) / (all + 1);
         const double of_loss = share * (1 - share) / rays[i], of_sum = variance_of_sum(i);
         weight_[i] = of_sum + of_loss > 0 ? of_loss / (of_sum + of_loss) : 0;
     }
 }
 
-ClosedRows RowClosing::rows(std::size_t batch) const {
-    const double usual = lost_.usual_escape();
-    ClosedRows rows;
+NormalisedRows RowNormalisation::rows(std::size_t batch) const {
+    const double prior = lost_.prior_escape();
+    NormalisedRows rows;
     for (std::size_t i = 0; i < weight_.size(); ++i) {
         const EscapeFraction by_rays = lost_.lost(batch, i);
         const double share = share_lost(by_rays), sum = sums_[batch][i];
         const double due = std::clamp(std::lerp(1 - share, sum, weight_[i]), 0.0, 1.0);
-        const double escaping = share > 0 ? by_rays.escaped / share : usual;
+        const double escaping = share > 0 ? by_rays.escaped / share : prior;
         rows.self.push_back(due - sum);
         rows.lost.push_back(closed_
                                 ? EscapeFraction{}

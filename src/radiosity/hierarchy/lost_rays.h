@@ -1,11 +1,11 @@
 #pragma once
-// The light that leaves the scene or falls on backs of faces, which links do not tell, and with it
-// how the rows of a system of links are closed.
+// The light that leaves the scene or falls on backs of faces, which links do not report, and with
+// it how the rows of a system of links are closed.
 //
 // A row of form factors sums to 1 less the share of the patch's light that is lost. That sum is
-// known twice, by the factors of the links and by rays that look where light goes; each is taken
-// for what it is worth. What the factors lack to the sum, or have too much, is what the patch
-// exchanges with itself.
+// known twice, by the factors of the links and by rays that look where light goes; each is weighted
+// by the inverse of its variance. What the factors lack to the sum, or have too much, is what the
+// patch exchanges with itself.
 
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/form_factors/sampled_form_factors.h"
@@ -35,7 +35,7 @@ class LostRays {
     /// Shares of a patch's rays; 0 where it has none.
     [[nodiscard]] EscapeFraction lost(std::size_t batch, std::size_t patch) const;
     /// Of all rays that were lost, the share that left the scene; 1 where none was lost.
-    [[nodiscard]] double usual_escape() const;
+    [[nodiscard]] double prior_escape() const;
 
     /// The share of all reflected light that is in doubt, as rays that were lost are counted: the
     /// standard deviation of their number, which is Poisson distributed where a patch loses few and
@@ -51,18 +51,18 @@ class LostRays {
 };
 
 /// How the rows of one batch end, by patch.
-struct ClosedRows {
+struct NormalisedRows {
     std::vector<double> self; ///< the factor of a patch to itself, of either sign
     std::vector<EscapeFraction> lost;
 };
 
-class RowClosing {
+class RowNormalisation {
   public:
     /// `sums`: of the rows of factors, by batch and patch. `closed`: no light is lost. The rays
     /// outlive this.
-    RowClosing(const LostRays& lost, std::vector<std::vector<double>> sums, bool closed);
+    RowNormalisation(const LostRays& lost, std::vector<std::vector<double>> sums, bool closed);
 
-    [[nodiscard]] ClosedRows rows(std::size_t batch) const;
+    [[nodiscard]] NormalisedRows rows(std::size_t batch) const;
 
   private:
     void find_weights();

@@ -20,6 +20,7 @@ class Mesh;
 
 class PatchTree {
   public:
+    /// Lengths and areas are in local units.
     struct Node {
         std::uint32_t begin, end;   ///< of its patches, in order()
         std::uint32_t child = none; ///< the first of two in a row; none where it is one patch

@@ -25,10 +25,11 @@ struct GradientOptions {
 /// h and how it was found.
 struct GradientResult {
     int iterations = 0;
-    double residual = 0; ///< the largest of the channels
+    double residual = 0; ///< relative [-], the largest of the channels
 };
 
-/// Solves h = d + F rho h from the guess in `h`; `weight` is A per patch.
+/// Solves h = d + F rho h, light that arrives [W/m2] by patch, from the guess in `h`; areas are
+/// local.
 GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> area,
                                   std::span<const Vec3> reflectance, std::span<const Vec3> d,
                                   std::vector<Vec3>& h, const Workers& workers,

@@ -25,8 +25,8 @@ struct TwoAccounts {
     /// Of a share by `rays` rays, as if all batches together had one more that was lost.
     [[nodiscard]] double variance_by_rays(double rays) const {
         const double all = rays * double(by_rays.size());
-        const double usual = (rays * sum_by_rays + 1) / (all + 2);
-        return usual * (1 - usual) / rays;
+        const double prior = (rays * sum_by_rays + 1) / (all + 2);
+        return prior * (1 - prior) / rays;
     }
     [[nodiscard]] double variance_by_factors() const {
         const double n = double(by_factors.size());

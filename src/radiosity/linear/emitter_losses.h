@@ -14,7 +14,7 @@ namespace hemilux {
 
 struct EmitterLoss {
     EscapeFraction lost;
-    double rays = 0; ///< as many would tell it as exactly
+    double rays = 0; ///< so many would estimate it as exactly
 };
 
 /// The losses, by batch, of the emitters whose factors are known in closed form, in the order of

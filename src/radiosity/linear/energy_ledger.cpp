@@ -38,7 +38,7 @@ double variance_of_share(double count, double rays) {
 }
 
 /// The share of all rays of patches that light leaves which are lost.
-double usual_loss(const Transport& t, std::span<const Vec3> incident) {
+double prior_loss(const Transport& t, std::span<const Vec3> incident) {
     double lost = 0, rays = 0;
     for (std::size_t i = 0; i < t.rays.size(); ++i) {
         if (t.emission[i] + t.reflectance[i] * incident[i] == Vec3(0.0))
@@ -50,11 +50,11 @@ double usual_loss(const Transport& t, std::span<const Vec3> incident) {
 }
 
 /// Sums over all patches.
-struct Flows {
+struct EnergySums {
     Ledger emitted, reflected;
     Sum absorbed;
 
-    Flows(const Transport& t, std::span<const Vec3> incident) {
+    EnergySums(const Transport& t, std::span<const Vec3> incident) {
         for (std::size_t i = 0; i < incident.size(); ++i) {
             const Vec3 emission = t.area[i] * t.emission[i], here = t.area[i] * incident[i];
             if (emission != Vec3(0.0))
@@ -68,27 +68,27 @@ struct Flows {
 /// Variance of the power that is lost, where each patch counted as if one ray more had met what
 /// rays meet on average.
 Vec3 variance_of_losses(const Transport& t, std::span<const Vec3> incident) {
-    const double usual = usual_loss(t, incident);
+    const double prior = prior_loss(t, incident);
     Vec3 variance(0.0);
     for (std::size_t i = 0; i < incident.size() && !t.closed; ++i) {
         if (!(t.rays[i] > 0))
             continue;
         const Vec3 leaving = t.area[i] * (t.emission[i] + t.reflectance[i] * incident[i]);
-        const double share = (t.rays[i] * lost_in_all(t.lost[i]) + usual) / (t.rays[i] + 1);
+        const double share = (t.rays[i] * lost_in_all(t.lost[i]) + prior) / (t.rays[i] + 1);
         variance += leaving * leaving * (share * (1 - share) / t.rays[i]);
     }
     return variance;
 }
 
 /// In one channel, that all which was emitted and not lost is absorbed, or reflected and lost.
-double scale_of(const Flows& flows, double variance, int c) {
-    const double absorbed = flows.absorbed.value()[c], emitted = flows.emitted.sent.value()[c];
-    const double used = absorbed + flows.reflected.lost(c);
+double scale_of(const EnergySums& sums, double variance, int c) {
+    const double absorbed = sums.absorbed.value()[c], emitted = sums.emitted.sent.value()[c];
+    const double used = absorbed + sums.reflected.lost(c);
     if (!(used > 0))
         return 1;
     // Nothing may arrive that was not sent.
     const bool sure = std::sqrt(variance) < surely_lost * std::min(emitted, used);
-    return sure || emitted < absorbed ? (emitted - flows.emitted.lost(c)) / used : 1;
+    return sure || emitted < absorbed ? (emitted - sums.emitted.lost(c)) / used : 1;
 }
 
 } // namespace
@@ -129,14 +129,13 @@ void scale_direct_light(const Transport& t, const Vec3& variance, std::span<Vec3
 }
 
 EnergyBalance balance_energy(const Transport& transport, std::span<const Vec3> incident) {
-    const Flows flows(transport, incident);
+    const EnergySums sums(transport, incident);
     EnergyBalance energy;
-    energy.emitted = flows.emitted.sent.value();
-    energy.absorbed = flows.absorbed.value();
+    energy.emitted = sums.emitted.sent.value();
+    energy.absorbed = sums.absorbed.value();
     for (int c = 0; c < 3; ++c) {
-        const double escaped =
-            flows.emitted.escaped.value()[c] + flows.reflected.escaped.value()[c];
-        const double by_rays = flows.emitted.lost(c) + flows.reflected.lost(c);
+        const double escaped = sums.emitted.escaped.value()[c] + sums.reflected.escaped.value()[c];
+        const double by_rays = sums.emitted.lost(c) + sums.reflected.lost(c);
         // Where light finds no end the balance stays open, see SearchForWayOut::is_drained.
         const bool ends = by_rays > 0 || energy.absorbed[c] > energy.emitted[c] / 2;
         const double lost = ends ? energy.emitted[c] - energy.absorbed[c] : 0;
@@ -147,11 +146,11 @@ EnergyBalance balance_energy(const Transport& transport, std::span<const Vec3> i
 }
 
 EnergyBalance close_energy(const Transport& transport, std::span<Vec3> incident) {
-    const Flows flows(transport, incident);
+    const EnergySums sums(transport, incident);
     const Vec3 variance = variance_of_losses(transport, incident);
     Vec3 scale;
     for (int c = 0; c < 3; ++c)
-        scale[c] = scale_of(flows, variance[c], c);
+        scale[c] = scale_of(sums, variance[c], c);
     for (Vec3& arriving : incident)
         arriving *= scale;
     return balance_energy(transport, incident);

@@ -19,8 +19,9 @@ struct SolverInput;
 
 /// What is known of the transport, all by patch.
 struct Transport {
-    std::span<const double> area;
-    std::span<const Vec3> emission, reflectance;
+    std::span<const double> area;   ///< local units
+    std::span<const Vec3> emission; ///< [W/m2 leaving]
+    std::span<const Vec3> reflectance;
     std::span<const EscapeFraction> lost;
     std::span<const double> rays; ///< that the lost share was found with; 0 where there were none
     bool closed = false;          ///< no ray can be lost, as the geometry proves

@@ -16,7 +16,7 @@ using FormFactorProduct = std::function<void(std::span<const double> x, std::spa
 
 /// What arrives at each patch, sum_j F_ij B_j [W/m2], where B = E + rho F B. It is found as
 /// B = E + R, R = rho F (E + R), channel by channel, by GMRES from `radiosity` on, to a residual
-/// relative to the reflected light R: beside a tiny lamp's emission all of it could be too small to
+/// relative to the reflected light R: beside a tiny emitter's light all of it could be too small to
 /// count. `colours`: false where all is grey, and one channel stands for three.
 [[nodiscard]] std::vector<Vec3> arriving_light(const FormFactorProduct& multiply, const Mesh& mesh,
                                                std::span<const Vec3> radiosity, bool colours);

@@ -6,8 +6,8 @@
 // in the order in which its triangles need them.
 
 #include "radiosity/hemisphere/density.h"
+#include "radiosity/hemisphere/edge_division.h"
 #include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/scene/edge_division.h"
 
 #include <array>
 #include <cstdint>

@@ -46,7 +46,7 @@ void save_solution(const Solution& solution, StateWriter& state) {
     state.add(solution.effective_freedom.value_or(0));
     state.add(solution.variance.value_or(-1));
     state.add(solution.variance_of_level);
-    state.add(solution.unseen);
+    state.add(solution.missed);
     state.add(std::uint64_t{solution.unlit});
     save_energy(solution.energy, state);
     state.add(std::span<const Vec3>(solution.radiosity));
@@ -64,7 +64,7 @@ void load_solution(Solution& solution, StateReader& state) {
     const double variance = state.number(known_or_not);
     solution.variance = variance >= 0 ? std::optional(variance) : std::nullopt;
     state.get(solution.variance_of_level, bounds::non_negative);
-    state.get(solution.unseen, bounds::non_negative);
+    state.get(solution.missed, bounds::non_negative);
     solution.unlit = state.whole_up_to(solution.radiosity.size());
     load_energy(solution.energy, state);
     load_light(solution.radiosity, 2 * largest_radiosity, state);

@@ -31,8 +31,9 @@ void for_alike_neighbours(const Mesh& mesh, std::uint32_t i, const Visit& visit)
     }
 }
 
-/// Variances by patch that are known badly from a few samples each: the mean over the patch and its
-/// neighbours, or the mean of that and the patch's own, whatever is more.
+/// Variances [any unit], by patch and channel, that are known badly from a few samples each: the
+/// mean over the patch and its neighbours, or the mean of that and the patch's own, whatever is
+/// more.
 [[nodiscard]] std::vector<Vec3> pooled_over_neighbours(const Mesh& mesh,
                                                        std::span<const Vec3> variance);
 

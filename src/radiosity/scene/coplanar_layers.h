@@ -15,7 +15,8 @@
 namespace hemilux {
 
 struct CoplanarLayers {
-    /// By facet: how many steps it is to be moved to its front. Empty if no facet is to be moved.
+    /// By facet: how many steps it is to be moved to its front (Mesh decides how long they are).
+    /// Empty if no facet is to be moved.
     std::vector<std::int32_t> offset;
     /// Facets that nothing can reach, as many others of their shape that face their way lie over
     /// them. They lie beside the lowest of these.

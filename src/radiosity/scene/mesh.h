@@ -9,6 +9,7 @@
 #include "geometry/box.h"
 #include "geometry/frame.h"
 #include "geometry/polygon.h"
+#include "radiosity/scene/facet_division.h"
 #include "radiosity/scene/patch_cells.h"
 #include "radiosity/scene/scene.h"
 
@@ -27,7 +28,8 @@ struct MeshOptions {
     std::size_t max_patches = 50'000'000;
 };
 
-/// A piece of a facet with constant radiosity, in the local frame.
+/// A piece of a facet with constant radiosity, in the local frame: lengths and areas are in local
+/// units.
 struct Patch {
     Polygon shape; ///< counter-clockwise from the side that this patch is
     Vec3 centre;   ///< centre of mass
@@ -45,10 +47,11 @@ struct Patch {
 /// The frame of computation: world = centre + local / scale. The scale is a power of two, so that
 /// nothing is lost by it, and the scene lies within [-1,1]^3.
 struct LocalFrame {
-    Vec3 centre{0.0};
-    double scale = 1.0;
+    Vec3 centre{0.0};   ///< [m]
+    double scale = 1.0; ///< [1/m]
     [[nodiscard]] Vec3 to_local(const Vec3& world) const { return (world - centre) * scale; }
     [[nodiscard]] Vec3 to_world(const Vec3& local) const { return centre + local / scale; }
+    /// [m2] of an area in local units.
     [[nodiscard]] double area_to_world(double area) const { return area / (scale * scale); }
 
     /// The frame around the vertices that the scene's facets use.
@@ -113,34 +116,16 @@ class Mesh {
     [[nodiscard]] std::uint32_t patch_at(const Hit& hit) const;
 
   private:
-    /// How a facet is divided. A quad: rows x columns by the bilinear map. A triangle that is about
-    /// as wide as long: rows^2 triangles of its own shape. A narrow one: rows strips parallel to
-    /// its shortest edge, cut into columns by lines through the opposite vertex, the apex.
     struct Division {
+        FacetDivision pieces;
         std::uint32_t first_patch;
-        std::uint32_t rows = 1, columns = 1;
-        bool similar = false;  ///< triangle: pieces of its own shape
-        std::uint8_t apex = 0; ///< triangle: which corner
-        /// Quad: corner0 - 1 + 2 - 3 in the basis of its edges at corner 0.
-        double g_x = 0, g_y = 0;
         std::uint32_t first_cell = none; ///< one for each piece; none where no piece is divided
-    };
-    /// A piece of a facet, and where a point lies in it (patch_cells.h).
-    struct Place {
-        std::uint32_t piece;
-        Vec2 inside;
     };
     struct Refinement;
 
     [[nodiscard]] Patch patch_from(const Polygon& shape, std::uint32_t facet, bool back) const;
     void lay_apart();
     void divide(std::uint32_t facet, const MeshOptions& options);
-    void divide_quad(Division& division, const Polygon& shape, double max_edge, std::size_t room,
-                     std::vector<Polygon>& made) const;
-    void divide_triangle(Division& division, const Polygon& shape, double max_edge,
-                         std::size_t room, std::vector<Polygon>& made) const;
-    static void check_room(double count, std::size_t room);
-    [[nodiscard]] std::uint32_t pieces_of(std::uint32_t facet) const;
     [[nodiscard]] CellShape cell_shape(std::uint32_t facet, const Polygon& piece) const;
     void refine_facet(std::uint32_t facet, Refinement& before);
     void refine_cell(std::uint32_t cell, std::uint32_t before_cell, std::uint32_t facet,
@@ -150,8 +135,6 @@ class Mesh {
                      std::uint32_t parent, Refinement& before);
     void add_patches(std::uint32_t facet, const Polygon& shape);
     void find_colours();
-    [[nodiscard]] Place place_in_quad(const Division& division, const Hit& hit) const;
-    [[nodiscard]] Place place_in_triangle(const Division& division, const Hit& hit) const;
 
     Scene scene_;
     LocalFrame frame_;

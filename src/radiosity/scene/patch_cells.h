@@ -14,10 +14,10 @@
 
 namespace hemilux {
 
-/// What is cut, in coordinates (x, y): a square with corners at (0,0), (1,0), (1,1), (0,1), or the
-/// triangle of those at (0,0), (1,0), (0,1), whose fourth corner repeats the third.
+/// What is cut, in coordinates (x, y) [-]: a square with corners at (0,0), (1,0), (1,1), (0,1), or
+/// the triangle of those at (0,0), (1,0), (0,1), whose fourth corner repeats the third.
 struct CellShape {
-    std::array<Vec3, 4> corner;
+    std::array<Vec3, 4> corner; ///< local units
     bool triangle;
 
     /// The shape as a polygon. Two corners of a square may lie at the same point.

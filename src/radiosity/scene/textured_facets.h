@@ -10,7 +10,8 @@
 namespace hemilux {
 
 struct Colours {
-    Vec3 reflectance, emission;
+    Vec3 reflectance; ///< [-]
+    Vec3 emission;    ///< [W/m2 leaving]
 };
 
 /// Over a polygon on one half of a facet (Hit): its places in coordinates u and v along the half's

@@ -71,7 +71,8 @@ class Watching final : public Strategy {
 /// All bounces of the light that `result` has as radiosity; false when interrupted.
 [[nodiscard]] bool shoot(const SolverInput& input, const StepTask& task, const Watching& watching,
                          StepResult& result) {
-    const ShootingTools tools{input, Hemisphere(0), CellDirections(tools.hemisphere, false),
+    const ShootingTools tools{input, ShootingRules{}, Hemisphere(0),
+                              CellDirections(tools.hemisphere, tools.rules.area),
                               std::make_unique<Watching>(watching)};
     return Bounces(tools).shoot(task, result);
 }
@@ -143,13 +144,13 @@ std::vector<Found> shoot_importance(const SolverInput& input, std::span<const do
 std::vector<double> times_of(const Mesh& mesh, std::span<const Found> found,
                              std::span<const Vec3> radiosity) {
     const auto mean = [&](const auto& value) { return mean_of_power(mesh, radiosity, value); };
-    const double usual = mean([&](std::uint32_t i) { return found[i].mean(); });
+    const double mean_importance = mean([&](std::uint32_t i) { return found[i].mean(); });
     std::vector<double> times(found.size(), 1);
-    if (!(usual > 0))
+    if (!(mean_importance > 0))
         return times;
     for (std::uint32_t i = 0; i < found.size(); ++i) {
         Found known = around(mesh, found, i);
-        known += {prior_importance, prior_importance / usual};
+        known += {prior_importance, prior_importance / mean_importance};
         times[i] = std::sqrt(known.mean());
     }
     const double mean_times = mean([&](std::uint32_t i) { return times[i]; });
@@ -166,20 +167,22 @@ void aim_at_balls(const SolverInput& input, const Workers& workers, std::span<co
     };
     const std::vector<double> value = values_of_arrival(input);
     TargetBalls balls(input.mesh, value);
-    const TargetBalls::Sights sights = balls.look(input, value, workers);
-    pilot.rays += sights.rays;
+    const TargetBalls::Visibility visibility = balls.look(input, value, workers);
+    pilot.rays += visibility.rays;
     const std::size_t count = balls.count();
     const double unaimed =
         root_of_unaimed * mean([&](std::uint32_t i) { return std::sqrt(found[i].mean()); });
     std::vector<double> due;
     for (std::size_t k = 0; k < count; ++k)
-        due.push_back(mean([&](std::uint32_t i) { return sights.root_of_value[i * count + k]; }));
+        due.push_back(
+            mean([&](std::uint32_t i) { return visibility.root_of_value[i * count + k]; }));
     double all = unaimed;
     for (const double each : due)
         all += each;
     double kept = unaimed;
     for (std::size_t k = 0; k < count; ++k) {
-        const double anyway = mean([&](std::uint32_t i) { return sights.power[i * count + k]; });
+        const double anyway =
+            mean([&](std::uint32_t i) { return visibility.power[i * count + k]; });
         if (!(due[k] > least_times_of_ball * anyway * all))
             due[k] = 0;
         kept += due[k];
@@ -189,7 +192,7 @@ void aim_at_balls(const SolverInput& input, const Workers& workers, std::span<co
     for (double& times : aim.times)
         times *= unaimed / kept;
     for (std::size_t at = 0; at < balls.times().size(); ++at)
-        balls.times()[at] = due[at % count] > 0 ? sights.root_of_value[at] / kept : 0;
+        balls.times()[at] = due[at % count] > 0 ? visibility.root_of_value[at] / kept : 0;
     aim.balls = std::move(balls);
 }
 

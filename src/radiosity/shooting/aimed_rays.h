@@ -15,7 +15,7 @@
 // A F being symmetric, A rho (u + J) is the power that patches with the emission rho u shoot. Its
 // rays are shot as those of light are. One that hits patch i brings to A_i J_i what the ray
 // carries, p; so hits count as of A_i / p rays from patch i that each find 1 or nothing. Rays of
-// light, which small lamps shoot too, find rho_j (u_j + J_j) where they arrive.
+// light, which small emitters shoot too, find rho_j (u_j + J_j) where they arrive.
 //
 // Where the target is small, rays that go straight to it are shot apart (target_balls.h).
 

@@ -28,18 +28,14 @@ constexpr double rays_at_least = 4096;
 /// Fewer rays than this are traced sooner than others would have come to help.
 constexpr double rays_for_one_thread = 500;
 
-/// Literal steps shoot as many rays for the last of the power as for the first; they end when this
-/// share of the emitted power is left.
-constexpr double literal_rest = 1e-4;
+/// Patches that shoot the same number of rays shoot as many for the last of the power as for the
+/// first; such a step ends when this share of the emitted power is left.
+constexpr double rest_of_same_number = 1e-4;
 
 constexpr std::size_t bits_of_word = 64;
 
 /// What stands for the receiver of a ray along which rays to a ball carry the power.
 constexpr std::uint32_t shot_apart = 0xfffffffd;
-
-/// Of the rays to balls.
-constexpr std::uint64_t stream_of_balls = 0xba11;
-constexpr double ball_rays_per_batch = 4096;
 
 /// Of a ray among those of its patch. After 2^32 rays of one patch they begin anew.
 std::uint32_t ray_number(double rays_before) {
@@ -51,7 +47,7 @@ std::uint32_t ray_number(double rays_before) {
 bool Bounces::shoot(const StepTask& task, StepResult& result) {
     task_ = &task;
     begin(result);
-    const double spent = input_.options.literal ? literal_rest * left_ : 0;
+    const double spent = rays_by_power() ? 0 : rest_of_same_number * left_;
     for (std::uint64_t bounces = 0;; ++bounces) {
         check_bounces(input_.mesh, bounces, task_->number);
         if (!(left_ > spent))
@@ -93,13 +89,13 @@ std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
     const std::uint64_t before = result.rays;
     const bool few = rays_before_.back() - rays_before_[0] < rays_for_one_thread;
     const Workers workers = few ? Workers(1) : task_->workers;
-    Place next{0, input_.options.literal ? 0 : whole_below(rays_before_[0])};
+    Place next{0, rays_by_power() ? whole_below(rays_before_[0]) : 0};
     while (cut(next) && !input_.monitor.interrupted) {
         divide_work(workers.threads() > 1 ? 0 : rays_at_least);
         shoot_ranges(workers, stream, result);
     }
     if (has_balls() && !input_.monitor.interrupted)
-        shoot_to_balls(workers, hash_words({stream, stream_of_balls}), result);
+        shoot_to_balls(workers, stream, result);
     return result.rays - before;
 }
 
@@ -153,9 +149,9 @@ void Bounces::schedule(const WorkItem& item, std::vector<RayGroup>& groups) cons
     const auto allocate = [&](std::size_t k) {
         return tools_.strategy->allocate(senders_[k], memory);
     };
-    if (input_.options.literal) {
+    if (!rays_by_power()) {
         for (std::size_t k = item.first; k < item.last; ++k)
-            schedule_as_printed(senders_[k], item, allocate(k), groups);
+            schedule_same_number(senders_[k], item, allocate(k), groups);
         return;
     }
     double last = whole_below(rays_before_[item.first]);
@@ -208,79 +204,6 @@ Bounces::Lost Bounces::receive(const Vec3& power, std::span<const std::uint32_t>
     return lost;
 }
 
-/// Their numbers are made whole on a line, as those of all rays are (plan()).
-void Bounces::shoot_to_balls(const Workers& workers, std::uint64_t stream, StepResult& result) {
-    const TargetBalls& balls = *task_->balls;
-    std::vector<double> before{Rng(stream).uniform()}; // by sender and ball
-    for (const std::uint32_t i : senders_)
-        for (std::size_t k = 0; k < balls.count(); ++k)
-            before.push_back(before.back() +
-                             mean_of_channels(unshot_[i]) / task_->ray_power * balls.times(i, k));
-    const double end = whole_below(before.back());
-    const auto count = static_cast<std::size_t>(std::ceil(end / ball_rays_per_batch));
-    std::vector<BallShots> batches(count);
-    workers.for_each_in_order(
-        count,
-        [&](std::size_t b) {
-            const double from = static_cast<double>(b) * ball_rays_per_batch;
-            shoot_to_balls(before, from, std::min(from + ball_rays_per_batch, end), stream,
-                           batches[b]);
-        },
-        [&](std::size_t b) {
-            collect(batches[b], result);
-            batches[b] = {};
-        });
-}
-
-/// The rays of the line in (from, to].
-void Bounces::shoot_to_balls(std::span<const double> rays_before, double from, double to,
-                             std::uint64_t stream, BallShots& shots) const {
-    const TargetBalls& balls = *task_->balls;
-    std::optional<PatchStart> start; // of the last ray
-    std::size_t end = 1;             // where the interval that holds the ray ends
-    if (!input_.monitor.interrupted)
-        end = static_cast<std::size_t>(std::ranges::lower_bound(rays_before, from + 1) -
-                                       rays_before.begin());
-    for (double ray = from + 1; ray <= to && !input_.monitor.interrupted; ++ray) {
-        while (rays_before[end] < ray)
-            ++end;
-        const std::uint32_t patch = senders_[(end - 1) / balls.count()];
-        const std::size_t ball = (end - 1) % balls.count();
-        const double before = whole_below(rays_before[end - 1]);
-        const double here = whole_below(rays_before[end]) - before;
-        const double expected = rays_before[end] - rays_before[end - 1];
-        if (!start || start->patch != patch)
-            start.emplace(input_.mesh, patch);
-        const auto shot =
-            balls.draw(*start, ball,
-                       hash_words({stream, patch, ball, static_cast<std::uint64_t>(ray - before)}));
-        if (!shot)
-            continue;
-        const unsigned takers = balls.takers(patch, shot->ray.origin, shot->ray.direction);
-        shots.rays.push_back(shot->ray);
-        shots.senders.push_back(patch);
-        shots.power.push_back(shot->power / std::max(takers, 1u) /
-                              (expected >= 1 ? here : expected));
-    }
-    find_receivers(shots.rays, input_.mesh, input_.tracer, shots.receivers);
-    input_.monitor.rays += shots.rays.size();
-}
-
-void Bounces::collect(const BallShots& shots, StepResult& result) {
-    if (input_.monitor.interrupted) // the batch may not be whole
-        return;
-    for (std::size_t k = 0; k < shots.rays.size(); ++k) {
-        const Vec3 power = shots.power[k] * unshot_[shots.senders[k]];
-        const Lost lost = receive(power, std::span(shots.receivers).subspan(k, 1));
-        result.sent += power;
-        if (lost.escaped > 0)
-            result.escaped += power;
-        if (lost.absorbed > 0)
-            result.absorbed += power;
-    }
-    result.rays += shots.rays.size();
-}
-
 void Bounces::teach(const RayBatch& batch) const {
     std::size_t ray = 0;
     for (const RayGroup& group : batch.groups) {
@@ -320,21 +243,21 @@ void Bounces::plan(std::uint64_t stream) {
     rays_before_[0] = Rng(stream).uniform();
     for (std::size_t k = 0; k < senders_.size(); ++k) {
         const std::uint32_t i = senders_[k];
-        const double rays = input_.options.literal
-                                ? input_.options.rays
-                                : task_->rays(i, unshot_[i]) * tools_.strategy->rays_for_power(i);
+        const double rays = rays_by_power()
+                                ? task_->rays(i, unshot_[i]) * tools_.strategy->rays_for_power(i)
+                                : input_.options.rays;
         rays_before_[k + 1] = rays_before_[k] + rays;
     }
 }
 
-/// By numbers of rays, as a lamp may shoot half of a bounce. Work items do not depend on the number
-/// of threads.
+/// By numbers of rays, as an emitter may shoot half of a bounce. Work items do not depend on the
+/// number of threads.
 bool Bounces::cut(Place& next) {
     items_.clear();
-    if (input_.options.literal)
-        cut_as_printed(next);
-    else
+    if (rays_by_power())
         cut_line(next);
+    else
+        cut_same_number(next);
     return !items_.empty();
 }
 
@@ -355,7 +278,7 @@ void Bounces::cut_line(Place& next) {
 
 /// Rays do not stand on the line: each sender has as many, which are counted from 0. Where these
 /// are many an item is a part of them.
-void Bounces::cut_as_printed(Place& next) {
+void Bounces::cut_same_number(Place& next) {
     const auto senders = static_cast<std::uint32_t>(senders_.size());
     const bool whole = input_.options.rays <= largest_item;
     while (next.sender < senders && items_.size() < most_items) {
@@ -382,9 +305,9 @@ void Bounces::schedule(std::size_t sender, const WorkItem& item, const Allocatio
     });
 }
 
-void Bounces::schedule_as_printed(std::uint32_t patch, const WorkItem& item,
-                                  const Allocation& allocation,
-                                  std::vector<RayGroup>& groups) const {
+void Bounces::schedule_same_number(std::uint32_t patch, const WorkItem& item,
+                                   const Allocation& allocation,
+                                   std::vector<RayGroup>& groups) const {
     double before = 0;
     for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
         const double rays = std::round(input_.options.rays * allocation.rays(k)); // N_tr
@@ -399,11 +322,10 @@ void Bounces::schedule_as_printed(std::uint32_t patch, const WorkItem& item,
 
 void Bounces::trace(std::uint64_t stream, RayBatch& batch) const {
     thread_local std::vector<Ray> memory;
-    const RaySource source{input_.mesh, tools_.directions, *tools_.strategy,
-                           input_.options.literal};
+    const RaySource source{input_.mesh, tools_.directions, *tools_.strategy, tools_.rules.origins};
     GroupedRays drawn(source, batch.groups, stream, memory);
     for (auto rays = drawn.next(); !rays.empty(); rays = drawn.next()) {
-        if (input_.monitor.interrupted) // one lamp may shoot many millions
+        if (input_.monitor.interrupted) // one emitter may shoot many millions
             return;
         find_receivers(rays, input_.mesh, input_.tracer, batch.receivers);
         const std::span<std::uint32_t> receivers = std::span(batch.receivers).last(rays.size());

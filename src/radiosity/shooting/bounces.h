@@ -9,6 +9,7 @@
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/shooting/grouped_rays.h"
+#include "radiosity/shooting/shooting_rules.h"
 #include "radiosity/shooting/stepwise.h"
 #include "radiosity/shooting/strategy.h"
 
@@ -20,9 +21,10 @@
 
 namespace hemilux {
 
-/// The tables and the strategy that all steps share.
+/// The rules, the tables and the strategy that all steps share.
 struct ShootingTools {
     SolverInput input;
+    ShootingRules rules;
     Hemisphere hemisphere;
     CellDirections directions;
     std::unique_ptr<Strategy> strategy;
@@ -44,8 +46,8 @@ class Bounces {
         std::uint32_t first, last;
         double from, to;
     };
-    /// Where the next item begins: behind so many rays of the line, or with the rules as printed
-    /// behind so many of the sender.
+    /// Where the next item begins: behind so many rays of the line, or of the sender where all have
+    /// the same number.
     struct Place {
         std::uint32_t sender;
         double ray;
@@ -75,6 +77,8 @@ class Bounces {
         std::uint32_t rays = 0;
     };
 
+    /// Else each patch shoots the same number.
+    [[nodiscard]] bool rays_by_power() const { return tools_.rules.rays == RaysPerPatch::by_power; }
     [[nodiscard]] bool has_balls() const { return task_->balls && task_->balls->count() > 0; }
     void begin(const StepResult& result);
     /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
@@ -83,12 +87,12 @@ class Bounces {
     /// Lists some work items from the place on, which is moved behind them; false if none are left.
     bool cut(Place& next);
     void cut_line(Place& next);
-    void cut_as_printed(Place& next);
+    void cut_same_number(Place& next);
     void divide_work(double rays);
     void shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result);
     void shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const;
-    // The same to the balls of a target.
-    void shoot_to_balls(const Workers& workers, std::uint64_t stream, StepResult& result);
+    // The same to the balls of a target (bounces_to_balls.cpp).
+    void shoot_to_balls(const Workers& workers, std::uint64_t of_bounce, StepResult& result);
     void shoot_to_balls(std::span<const double> rays_before, double from, double to,
                         std::uint64_t stream, BallShots& shots) const;
     void collect(const BallShots& shots, StepResult& result);
@@ -96,8 +100,8 @@ class Bounces {
     void schedule(const WorkItem& item, std::vector<RayGroup>& groups) const;
     void schedule(std::size_t sender, const WorkItem& item, const Allocation& allocation,
                   std::vector<RayGroup>& groups) const;
-    void schedule_as_printed(std::uint32_t patch, const WorkItem& item,
-                             const Allocation& allocation, std::vector<RayGroup>& groups) const;
+    void schedule_same_number(std::uint32_t patch, const WorkItem& item,
+                              const Allocation& allocation, std::vector<RayGroup>& groups) const;
     void trace(std::uint64_t stream, RayBatch& batch) const;
 
     void collect(const RayBatch& batch, StepResult& result);

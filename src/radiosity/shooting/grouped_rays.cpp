@@ -79,7 +79,6 @@ const PatchStart& GroupedRays::start_of(std::uint32_t patch) {
     return *start_;
 }
 
-/// As printed, rays into triangles leave from the centre; those of plain Monte Carlo do not.
 void GroupedRays::fill(const Run& run, std::size_t first) {
     const PatchStart& start = start_of(run.patch);
     const std::span<Ray> rays = std::span(rays_).subspan(first, run.rays);
@@ -93,7 +92,7 @@ void GroupedRays::fill(const Run& run, std::size_t first) {
         ray.direction = frame.to_world({batch_.x[k], batch_.y[k], batch_.z[k]});
         ++k;
     }
-    if (source_.literal)
+    if (source_.origins == RayOrigins::centre)
         for (std::size_t k = first; Ray & ray : rays)
             if (batch_.cell[k++] != whole_hemisphere)
                 ray.origin = source_.mesh.patches()[run.patch].centre;
@@ -106,8 +105,9 @@ void GroupedRays::fill_private(const OwnCell& own, const PatchStart& start, std:
     for (std::size_t k = first; Ray & ray : rays) {
         Rng rng(hash_words({batch_.key_low[k], batch_.key_high[k], batch_.number[k]}));
         ray.from = start.facet;
-        ray.origin =
-            source_.literal ? cell.origins.centre() : part.sample({batch_.u[k], batch_.v[k]});
+        ray.origin = source_.origins == RayOrigins::centre
+                         ? cell.origins.centre()
+                         : part.sample({batch_.u[k], batch_.v[k]});
         const std::uint32_t of_cell = batch_.number[k] - own.first;
         ray.direction = start.frame.to_world(
             of_cell < cell.given ? cell.direction[of_cell]

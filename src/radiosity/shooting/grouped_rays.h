@@ -3,6 +3,7 @@
 
 #include "bvh/tracer.h"
 #include "radiosity/rays/patch_start.h"
+#include "radiosity/shooting/shooting_rules.h"
 #include "radiosity/shooting/strategy.h"
 
 #include <cstdint>
@@ -21,7 +22,7 @@ struct RayGroup {
     std::uint32_t cell_first; ///< the number of the cell's first ray among all those of the patch
     std::uint32_t first;      ///< that of the group's
     std::uint32_t rays;
-    /// Phi_ray / Phi_patch; until the rays are drawn Phi_ray / Phi_tr.
+    /// Phi_ray / Phi_patch [-]; until the rays are drawn Phi_ray / Phi_tr.
     double ray_power;
 };
 
@@ -30,7 +31,7 @@ struct RaySource {
     const Mesh& mesh;
     const CellDirections& directions;
     const Strategy& strategy;
-    bool literal;
+    RayOrigins origins;
 };
 
 /// The rays of a list of groups in their order, some at a time. A ray depends on the stream, its

@@ -146,33 +146,33 @@ ShotShares ProgressivePass::look(std::uint32_t shooter, const Vec3& shot) {
                   hash_words({input_.options.seed, shots_, shooter}));
     if (input_.monitor.interrupted)
         return {};
-    return balance_.settle(factors_.sum(), look_for_losses(shooter, shot));
+    return balance_.balance(factors_.sum(), look_for_losses(shooter, shot));
 }
 
 /// In the order of the patches, whatever thread has looked.
 void ProgressivePass::receive(const Vec3& shot, const Vec3& shot_variance,
                               const ShotShares& shares) {
     for (std::uint32_t i = 0; i < hits_.size(); ++i) {
-        const Sight& seen = factors_.sights()[i];
+        const ReceiverFactor& from = factors_.by_receiver()[i];
         const Vec3& rho = input_.mesh.material(i).reflectance;
-        const Vec3 incident = shot * (shares.scale * seen.factor);
+        const Vec3 incident = shot * (shares.scale * from.factor);
         radiosity_[i] += rho * incident;
         unshot_[i] += rho * incident;
-        if (seen.factor > 0)
+        if (from.factor > 0)
             rank(i);
-        const double factor = shares.scale * seen.factor;
+        const double factor = shares.scale * from.factor;
         const Vec3 variance =
             rho * rho *
-            (shot * shot * (shares.scale * shares.scale * seen.variance) +
+            (shot * shot * (shares.scale * shares.scale * from.variance) +
              incident * incident * shares.variance + shot_variance * (factor * factor));
         variance_[i] += variance;
         unshot_variance_[i] += variance;
         left_to_chance_[i] +=
-            rho * shot * rho * shot * (shares.scale * shares.scale * seen.left_to_chance);
+            rho * shot * rho * shot * (shares.scale * shares.scale * from.left_to_chance);
         absorbed_ += (1.0 - rho) * incident * input_.mesh.patches()[i].area;
-        hits_[i] += seen.hits;
-        points_ += seen.points;
-        rays_ += seen.rays;
+        hits_[i] += from.hits;
+        points_ += from.points;
+        rays_ += from.rays;
     }
 }
 
@@ -181,20 +181,20 @@ void ProgressivePass::receive(const Vec3& shot, const Vec3& shot_variance,
 void ProgressivePass::note_power_variance(const Vec3& shot, const ShotShares& shares) {
     Vec3 arriving(0.0), reflected(0.0);
     for (std::uint32_t i = 0; i < hits_.size(); ++i) {
-        const Vec3 here =
-            shot * (shares.scale * factors_.sights()[i].factor * input_.mesh.patches()[i].area);
+        const Vec3 here = shot * (shares.scale * factors_.by_receiver()[i].factor *
+                                  input_.mesh.patches()[i].area);
         arriving += here;
         reflected += input_.mesh.material(i).reflectance * here;
     }
-    Vec3 usual(0.0);
+    Vec3 mean_reflectance(0.0);
     for (int c = 0; c < 3; ++c)
         if (shares.scaled && arriving[c] > 0)
-            usual[c] = reflected[c] / arriving[c];
+            mean_reflectance[c] = reflected[c] / arriving[c];
     power_variance_ += reflected * reflected * shares.variance;
     for (std::uint32_t i = 0; i < hits_.size(); ++i) {
-        const Vec3 more = (input_.mesh.material(i).reflectance - usual) * shot *
+        const Vec3 more = (input_.mesh.material(i).reflectance - mean_reflectance) * shot *
                           (shares.scale * input_.mesh.patches()[i].area);
-        power_variance_ += more * more * factors_.sights()[i].variance;
+        power_variance_ += more * more * factors_.by_receiver()[i].variance;
     }
 }
 
@@ -213,7 +213,7 @@ ShotRays ProgressivePass::look_for_losses(std::uint32_t shooter, const Vec3& sho
 
 ProgressivePass::Reflected ProgressivePass::reflected(double most) const {
     Reflected result;
-    Vec3 weighted(0.0), usual = glm::min(mean_reflectance_, Vec3(most));
+    Vec3 weighted(0.0), mean_reflectance = glm::min(mean_reflectance_, Vec3(most));
     for (std::uint32_t i = 0; i < radiosity_.size(); ++i) {
         const Material& material = input_.mesh.material(i);
         const Vec3 power = input_.mesh.patches()[i].area * (radiosity_[i] - material.emission);
@@ -222,8 +222,9 @@ ProgressivePass::Reflected ProgressivePass::reflected(double most) const {
     }
     for (int c = 0; c < 3; ++c)
         if (result.power[c] > 0)
-            usual[c] = std::clamp(weighted[c] / result.power[c], usual[c], most);
-    result.gain = usual / (1.0 - usual);
+            mean_reflectance[c] =
+                std::clamp(weighted[c] / result.power[c], mean_reflectance[c], most);
+    result.gain = mean_reflectance / (1.0 - mean_reflectance);
     return result;
 }
 

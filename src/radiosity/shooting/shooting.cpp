@@ -8,11 +8,11 @@
 
 namespace hemilux {
 
-ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strategy)
-    : StepwiseSolver(input, !input.options.literal), tools_{input, Hemisphere(input.options.depth),
-                                                            CellDirections(tools_.hemisphere,
-                                                                           input.options.literal),
-                                                            nullptr} {
+ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strategy,
+                               const ShootingRules& rules)
+    : StepwiseSolver(input, rules.rays == RaysPerPatch::by_power),
+      tools_{input, rules, Hemisphere(input.options.depth),
+             CellDirections(tools_.hemisphere, rules.area), nullptr} {
     const auto start = std::chrono::steady_clock::now();
     input_.monitor.phase = "density";
     tools_.strategy = make_strategy(input_, tools_.hemisphere, Workers(input.options.threads));
@@ -29,7 +29,7 @@ void ShootingSolver::make_places(unsigned count) {
         bounces_.emplace_back(tools_);
 }
 
-/// Where steps are alike the strategy is not told of them.
+/// Where steps are alike the strategy is not called for each.
 bool ShootingSolver::solve_once(const StepTask& task, StepResult& result) {
     Bounces& bounces = bounces_[task.place];
     Strategy& strategy = *tools_.strategy;

@@ -18,7 +18,8 @@ namespace hemilux {
 
 class ShootingSolver final : public StepwiseSolver {
   public:
-    ShootingSolver(const SolverInput& input, MakeStrategy make_strategy);
+    ShootingSolver(const SolverInput& input, MakeStrategy make_strategy,
+                   const ShootingRules& rules);
 
   private:
     bool solve_once(const StepTask& task, StepResult& result) override;
@@ -35,10 +36,14 @@ class ShootingSolver final : public StepwiseSolver {
     std::vector<Bounces> bounces_; ///< for each step that is worked out at the same time
 };
 
-/// Makes the solver of a strategy, for Method::make.
-template <MakeStrategy make_strategy>
+/// Makes the solver of a strategy, for Method::make. `rules` chooses them by the options; without
+/// it they are the unbiased ones.
+template <MakeStrategy make_strategy, ShootingRules (*rules)(const SolveOptions&) = nullptr>
 [[nodiscard]] std::unique_ptr<Solver> shoot_with(const SolverInput& input) {
-    return std::make_unique<ShootingSolver>(input, make_strategy);
+    ShootingRules chosen;
+    if constexpr (rules != nullptr)
+        chosen = rules(input.options);
+    return std::make_unique<ShootingSolver>(input, make_strategy, chosen);
 }
 
 } // namespace hemilux

@@ -44,19 +44,19 @@ ShotRays shoot_to_lose(const Mesh& mesh, const Tracer& tracer, const Needs& need
 /// As of rays of which as many are lost as of those of all shots, and one more: a variance by what
 /// the few rays of this shot have met would trust those most that happened to lose none.
 double ShotBalance::variance_of_loss(double count) const {
-    const double usual = (all_.escaped + all_.absorbed + 1) / (all_.count + 2);
-    return usual * (1 - usual) / count;
+    const double prior = (all_.escaped + all_.absorbed + 1) / (all_.count + 2);
+    return prior * (1 - prior) / count;
 }
 
 /// As of factors whose points scatter as those of all shots, for the same reason: where by chance
 /// little was seen, little was seen to scatter, and the sum of the factors would be trusted most
 /// when it is too small.
-double ShotBalance::usual_variance(const FactorSum& factors) const {
+double ShotBalance::prior_variance(const FactorSum& factors) const {
     const double spread = spread_of_point_ / shots_; // not its square: few shots would outweigh all
     return factors.points > 0 ? spread * spread / factors.points : factors.variance;
 }
 
-ShotShares ShotBalance::settle(const FactorSum& factors, const ShotRays& rays) {
+ShotShares ShotBalance::balance(const FactorSum& factors, const ShotRays& rays) {
     const double sum = factors.sum;
     ++shots_;
     spread_of_point_ += std::sqrt(factors.variance * factors.points);
@@ -71,7 +71,7 @@ ShotShares ShotBalance::settle(const FactorSum& factors, const ShotRays& rays) {
     if (closed_)
         return {1 / sum, {}, 0, true, 0};
     const double variance_of_rays = variance_of_loss(rays.count);
-    const double of_sum = usual_variance(factors), both = of_sum + variance_of_rays;
+    const double of_sum = prior_variance(factors), both = of_sum + variance_of_rays;
     const double trust = both > 0 ? of_sum / both : 1; // in the rays
     const double joined = trust * (1 - lost) + (1 - trust) * sum;
     const double of_joined =

@@ -2,10 +2,10 @@
 // Where the light of a shot of progressive radiosity goes.
 //
 // Two things tell what share of it arrives at patches: the sum of the form factors, and rays from
-// the shooter, some of which are lost. Neither is exact. Both are joined by what each is worth, the
-// factors are scaled to that, and the rest is lost: so no energy is made between patches, which in
-// bright rooms would be made again in each bounce. Where much hangs on
-// pairs that are looked at by chance, factors are left as they are, right on average.
+// the shooter, some of which are lost. Neither is exact. Both are weighted by the inverse of their
+// variances, the factors are scaled to that, and the rest is lost: so no energy is made between
+// patches, which in bright rooms would be made again in each bounce. Where much hangs on pairs that
+// are looked at by chance, factors are left as they are, right on average.
 
 #include "radiosity/form_factors/sampled_form_factors.h"
 
@@ -13,7 +13,7 @@
 
 namespace hemilux {
 
-/// Rays from the shooter, and how many of them met no patch that was looked from.
+/// Numbers of rays from the shooter, and of those that met no patch that was looked from.
 struct ShotRays {
     double count = 0, escaped = 0, absorbed = 0;
 };
@@ -32,7 +32,7 @@ struct FactorSum {
     double points = 0;  ///< of receivers, that were looked from
 };
 
-/// Where the power of a shot goes, as shares of it.
+/// Where the power of a shot goes, as shares of it [-].
 struct ShotShares {
     double scale = 1;     ///< of all factors
     EscapeFraction lost;  ///< what falls elsewhere
@@ -45,11 +45,11 @@ class ShotBalance {
   public:
     /// `closed`: no light can be lost, as the geometry proves.
     explicit ShotBalance(bool closed) : closed_(closed) {}
-    ShotShares settle(const FactorSum& factors, const ShotRays& rays);
+    ShotShares balance(const FactorSum& factors, const ShotRays& rays);
 
   private:
     [[nodiscard]] double variance_of_loss(double count) const;
-    [[nodiscard]] double usual_variance(const FactorSum& factors) const;
+    [[nodiscard]] double prior_variance(const FactorSum& factors) const;
 
     bool closed_;
     ShotRays all_; ///< of all shots: where hardly any is lost, a few rays do not tell

@@ -22,10 +22,10 @@ constexpr double least_worth = .05;
 
 ShotFactors::ShotFactors(const SolverInput& input, double mean_reflected)
     : input_(input), workers_(input.options.threads), mean_reflected_(mean_reflected),
-      rough_(input.mesh.patches().size()), sights_(input.mesh.patches().size()) {
+      rough_(input.mesh.patches().size()), by_receiver_(input.mesh.patches().size()) {
     for (const Patch& patch : input.mesh.patches())
         mean_area_ += patch.area;
-    mean_area_ /= static_cast<double>(sights_.size());
+    mean_area_ /= static_cast<double>(by_receiver_.size());
 }
 
 void ShotFactors::look(std::uint32_t shooter, const Vec3& shot, double rays_per_light,
@@ -33,11 +33,12 @@ void ShotFactors::look(std::uint32_t shooter, const Vec3& shot, double rays_per_
     shooter_ = shooter;
     guess();
     workers_.for_chunks(
-        sights_.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+        by_receiver_.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
             std::uint64_t rays = 0;
             for (std::size_t i = begin; i < end && !input_.monitor.interrupted; ++i) {
-                sights_[i] = look_from(static_cast<std::uint32_t>(i), shot, rays_per_light, seed);
-                rays += sights_[i].rays;
+                by_receiver_[i] =
+                    look_from(static_cast<std::uint32_t>(i), shot, rays_per_light, seed);
+                rays += by_receiver_[i].rays;
             }
             input_.monitor.rays += rays;
         });
@@ -49,11 +50,11 @@ EscapeFraction ShotFactors::look(const Hemicube& cube, std::uint32_t shooter) {
                                          input_.monitor.interrupted);
     input_.monitor.rays += cube.pixels();
     const auto patches = input_.mesh.patches();
-    std::ranges::fill(sights_, Sight{});
+    std::ranges::fill(by_receiver_, ReceiverFactor{});
     for (const HemicubeRow::Entry& entry : row.entries) {
-        Sight& sight = sights_[entry.patch];
-        sight.factor = entry.factor * patches[shooter].area / patches[entry.patch].area;
-        sight.hits = entry.pixels;
+        ReceiverFactor& factor_here = by_receiver_[entry.patch];
+        factor_here.factor = entry.factor * patches[shooter].area / patches[entry.patch].area;
+        factor_here.hits = entry.pixels;
     }
     return row.lost;
 }
@@ -66,7 +67,7 @@ EscapeFraction ShotFactors::look(const Hemicube& cube, std::uint32_t shooter) {
 void ShotFactors::guess() {
     const auto patches = input_.mesh.patches();
     workers_.for_chunks(
-        sights_.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
+        by_receiver_.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
                 rough_[i] = is_receiver(static_cast<std::uint32_t>(i))
                                 ? std::min(rough_factor(patches[i], patches[shooter_]),
@@ -86,8 +87,8 @@ bool ShotFactors::is_receiver(std::uint32_t patch) const {
            may_see(patches[patch], patches[shooter_]);
 }
 
-Sight ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot, double rays_per_light,
-                             std::uint64_t seed) const {
+ReceiverFactor ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot,
+                                      double rays_per_light, std::uint64_t seed) const {
     const double rough = rough_[receiver];
     if (!(rough > 0))
         return {};
@@ -101,9 +102,9 @@ Sight ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot, double ra
     const double left_to_chance = rays > 0 ? (1 - chance) / chance * rough * rough / crowding_ : 0;
     if (chance < 1 && !(Rng(hash_words({seed, receiver})).uniform() < chance))
         return {{}, at_risk, left_to_chance};
-    Sight f{pair_factor(input_.mesh, input_.tracer, receiver, shooter_, rays, seed,
-                        input_.needs.visibility),
-            at_risk, left_to_chance};
+    ReceiverFactor f{pair_factor(input_.mesh, input_.tracer, receiver, shooter_, rays, seed,
+                                 input_.needs.visibility),
+                     at_risk, left_to_chance};
     f.variance = f.variance / chance + (1 - chance) * (f.factor / chance) * (f.factor / chance);
     f.factor /= chance;
     return f;
@@ -119,12 +120,12 @@ FactorSum ShotFactors::sum() const {
     const double area = input_.mesh.patches()[shooter_].area;
     CompensatedSum<double> sum;
     FactorSum result;
-    for (std::uint32_t i = 0; i < sights_.size(); ++i) {
+    for (std::uint32_t i = 0; i < by_receiver_.size(); ++i) {
         const double ratio = input_.mesh.patches()[i].area / area;
-        sum += ratio * sights_[i].factor;
-        result.variance += ratio * ratio * sights_[i].variance;
-        result.at_risk += ratio * sights_[i].at_risk;
-        result.points += static_cast<double>(sights_[i].points);
+        sum += ratio * by_receiver_[i].factor;
+        result.variance += ratio * ratio * by_receiver_[i].variance;
+        result.at_risk += ratio * by_receiver_[i].at_risk;
+        result.points += static_cast<double>(by_receiver_[i].points);
     }
     result.sum = sum.value();
     return result;

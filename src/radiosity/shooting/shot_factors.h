@@ -16,7 +16,7 @@
 namespace hemilux {
 
 /// The form factor from a receiver to the shooter.
-struct Sight : PairFactor {
+struct ReceiverFactor : PairFactor {
     double at_risk = 0; ///< about the factor, if it was left to chance whether to look
     /// The variance that this chance adds, as guessed before any ray. `variance` has it as
     /// measured: right on average, but 0 where nothing was traced.
@@ -39,15 +39,15 @@ class ShotFactors {
     EscapeFraction look(const Hemicube& cube, std::uint32_t shooter);
 
     /// The factors of the last shot, by receiver.
-    [[nodiscard]] std::span<const Sight> sights() const { return sights_; }
+    [[nodiscard]] std::span<const ReceiverFactor> by_receiver() const { return by_receiver_; }
     /// The share of that shot that arrives.
     [[nodiscard]] FactorSum sum() const;
 
   private:
     void guess();
     [[nodiscard]] bool is_receiver(std::uint32_t patch) const;
-    [[nodiscard]] Sight look_from(std::uint32_t receiver, const Vec3& shot, double rays_per_light,
-                                  std::uint64_t seed) const;
+    [[nodiscard]] ReceiverFactor look_from(std::uint32_t receiver, const Vec3& shot,
+                                           double rays_per_light, std::uint64_t seed) const;
     [[nodiscard]] double importance(std::uint32_t receiver, double light) const;
 
     SolverInput input_;
@@ -56,7 +56,7 @@ class ShotFactors {
     std::uint32_t shooter_ = 0;
     std::vector<double> rough_; ///< F_receiver,shooter as guessed
     double crowding_ = 1;       ///< what the guesses for all receivers sum up to, at least 1
-    std::vector<Sight> sights_;
+    std::vector<ReceiverFactor> by_receiver_;
 };
 
 /// Black patches count as if they had this reflectance, since what they absorb is to be known too.

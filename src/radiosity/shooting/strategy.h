@@ -61,7 +61,7 @@ struct AllocatedCells {
 
 /// A cell that is not of the table which all patches share; made only when rays are shot into it.
 struct PrivateCell {
-    double power; ///< its share of the patch's
+    double power; ///< its share of the patch's [-]
     SphericalTriangle shape;
     Polygon origins; ///< the part of the patch where its rays start
     /// So many of its rays, the first ones, go in given directions and not by chance.
@@ -120,6 +120,7 @@ class Strategy {
     [[nodiscard]] virtual std::uint64_t density_rays() const { return 0; }
     /// How many more density rays there would be if all triangles were divided.
     [[nodiscard]] virtual std::uint64_t density_rays_spared() const { return 0; }
+    /// The memory of what it keeps of patches.
     [[nodiscard]] virtual std::uint64_t density_bytes() const { return 0; }
 };
 

@@ -88,7 +88,7 @@ class SystematicCells {
                    : after_;
     }
 
-    const Allocation& allocation_;
+    Allocation allocation_;
     double before_, after_;
     double rays_; ///< for one unit of the running sums
 };

@@ -188,13 +188,13 @@ std::optional<TargetBalls::Shot> TargetBalls::draw(const PatchStart& start, std:
 }
 
 /// What is seen besides: that one ray more has found what all rays find on average.
-TargetBalls::Sights TargetBalls::look(const SolverInput& input, std::span<const double> value,
-                                      const Workers& workers) const {
+TargetBalls::Visibility TargetBalls::look(const SolverInput& input, std::span<const double> value,
+                                          const Workers& workers) const {
     constexpr std::uint64_t stream = 0xba11; // of no step
     const Mesh& mesh = input.mesh;
     std::vector<double> squares(times_.size()), values(times_.size());
     std::vector<std::uint64_t> rays_from(mesh.patches().size());
-    Sights sights{values, values, 0};
+    Visibility visibility{values, values, 0};
     workers.for_chunks(mesh.patches().size(), 64, [&](std::size_t begin, std::size_t end) {
         std::vector<Ray> rays;
         std::vector<double> power;
@@ -217,7 +217,7 @@ TargetBalls::Sights TargetBalls::look(const SolverInput& input, std::span<const 
         find_receivers(rays, mesh, input.tracer, receivers);
         for (std::size_t r = 0; r < rays.size(); ++r) {
             const double square = power[r] * power[r] / double(looks);
-            sights.power[place[r]] += power[r] / double(looks);
+            visibility.power[place[r]] += power[r] / double(looks);
             squares[place[r]] += square;
             if (receivers[r] < value.size())
                 values[place[r]] += square * value[receivers[r]];
@@ -230,11 +230,11 @@ TargetBalls::Sights TargetBalls::look(const SolverInput& input, std::span<const 
     }
     const double mean = all_squares > 0 ? all_values / all_squares : 0;
     for (std::size_t k = 0; k < squares.size(); ++k)
-        sights.root_of_value[k] =
+        visibility.root_of_value[k] =
             std::sqrt((double(looks) * values[k] + mean * squares[k]) / double(looks + 1));
     for (const std::uint64_t rays : rays_from)
-        sights.rays += rays;
-    return sights;
+        visibility.rays += rays;
+    return visibility;
 }
 
 } // namespace hemilux

@@ -30,14 +30,14 @@ struct SolverInput;
 
 struct TargetBall {
     Vec3 centre;
-    double radius; ///< positive
+    double radius; ///< positive, local units
 
     /// Whether a ray from here passes through it, and not from near.
     [[nodiscard]] bool takes(const Vec3& origin, const Vec3& direction) const;
     /// A direction for u uniform in [0,1)^2, and W; nothing from near, or where W is 0.
     struct Aimed {
-        Vec3 direction;
-        double power;
+        Vec3 direction; ///< unit
+        double power;   ///< W [-]
     };
     [[nodiscard]] std::optional<Aimed> aim(const Vec3& origin, const Vec3& normal, Vec2 u) const;
 
@@ -77,13 +77,13 @@ class TargetBalls {
                                            std::uint64_t key) const;
 
     /// What some rays from each patch have found, by patch and ball.
-    struct Sights {
+    struct Visibility {
         std::vector<double> root_of_value; ///< sqrt(E[W^2 v])
         std::vector<double> power;         ///< E[W]
         std::uint64_t rays = 0;
     };
-    [[nodiscard]] Sights look(const SolverInput& input, std::span<const double> value,
-                              const Workers& workers) const;
+    [[nodiscard]] Visibility look(const SolverInput& input, std::span<const double> value,
+                                  const Workers& workers) const;
 
   private:
     std::vector<TargetBall> balls_;

@@ -30,10 +30,10 @@ struct View {
     }
 };
 
-class Lamp {
+class EmittingShell {
   public:
-    Lamp(const Mesh& mesh, const Tracer& tracer, const Targets& targets, const Shells& shells,
-         std::uint32_t shell)
+    EmittingShell(const Mesh& mesh, const Tracer& tracer, const Targets& targets,
+                  const Shells& shells, std::uint32_t shell)
         : mesh_(mesh), tracer_(tracer), targets_(targets), shells_(shells), shell_(shell) {
         for (const std::uint32_t f : shells.facets_of(shells.all[shell]))
             if (power_of(mesh, f) > 0) {
@@ -113,7 +113,7 @@ class Lamp {
 std::optional<EmitterSide> find_emitter_side(const Mesh& mesh, const Tracer& tracer,
                                              const Targets& targets, const Shells& shells,
                                              std::uint32_t shell) {
-    return Lamp(mesh, tracer, targets, shells, shell).side();
+    return EmittingShell(mesh, tracer, targets, shells, shell).side();
 }
 
 } // namespace hemilux

@@ -25,6 +25,7 @@ struct FacetSide {
 /// ground below a sun, which hardly any ray by the cosine law does.
 class Targets {
   public:
+    /// The mesh outlives this.
     explicit Targets(const Mesh& mesh);
     /// A ray from a random point of a side to a random target; empty where the target is behind the
     /// side.
@@ -48,7 +49,8 @@ class Targets {
 [[nodiscard]] std::vector<std::uint32_t> shares_of(const std::vector<double>& weights,
                                                    std::uint32_t count);
 
-/// The light that arrives on the front and on the back of a facet, as the scene has them, in rays.
+/// The light that arrives on the front and on the back of a facet, as the scene has them, in rays
+/// of equal power.
 using SideLight = std::array<double, 2>;
 
 /// The light on each facet if all facets reflected half of it on both sides: an estimate that does

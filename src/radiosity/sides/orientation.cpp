@@ -22,7 +22,7 @@ constexpr double few_rays = 4;
 constexpr double large_part = 1.0 / 20;
 /// Part of what is emitted: where fewer lamps face a wall, the others show that they may be meant
 /// to.
-constexpr double many_lamps = 0.25;
+constexpr double many_emitters = 0.25;
 /// Part of a shell's area: if more disagrees, it is not clear which faces of an open one are wrong.
 constexpr double many_faces = 0.1;
 
@@ -31,9 +31,9 @@ bool falls_on_backs(const SideLight& light, double share) {
     return sum_of(light) >= few_rays && light[1] > share * sum_of(light);
 }
 
-class Judge {
+class OrientationSearch {
   public:
-    Judge(const Mesh& mesh, const Tracer& tracer)
+    OrientationSearch(const Mesh& mesh, const Tracer& tracer)
         : scene_(mesh.scene()), mesh_(mesh), tracer_(tracer), shells_(find_shells(scene_)),
           targets_(mesh) {}
 
@@ -44,7 +44,7 @@ class Judge {
         looks_away_.assign(scene_.faces, false);
         in_doubt_ = stays_ = looks_away_;
         for (std::uint32_t s = 0; s < shells_.all.size(); ++s)
-            judge(s);
+            check(s);
         for (const Facet& facet : scene_.facets)
             if (facet.two_sided)
                 looks_away_[facet.face] = in_doubt_[facet.face] = false;
@@ -59,7 +59,7 @@ class Judge {
 
   private:
     void find_emitters() {
-        lamp_.resize(shells_.all.size());
+        emitter_side_.resize(shells_.all.size());
         std::vector<double> power(shells_.all.size(), 0.0);
         double all = 0;
         for (std::uint32_t f = 0; f < scene_.facets.size(); ++f) {
@@ -71,14 +71,14 @@ class Judge {
         for (std::uint32_t s = 0; s < shells_.all.size(); ++s) {
             emits_.push_back(power[s] > 0);
             if (shells_.all[s].orientable && emits_[s])
-                lamp_[s] = find_emitter_side(mesh_, tracer_, targets_, shells_, s);
-            if (lamp_[s] && lamp_[s]->certain && lamp_[s]->back)
+                emitter_side_[s] = find_emitter_side(mesh_, tracer_, targets_, shells_, s);
+            if (emitter_side_[s] && emitter_side_[s]->certain && emitter_side_[s]->back)
                 wrong += power[s];
         }
-        if (wrong < many_lamps * all)
-            for (std::optional<EmitterSide>& lamp : lamp_)
-                if (lamp)
-                    lamp->certain = false;
+        if (wrong < many_emitters * all)
+            for (std::optional<EmitterSide>& side : emitter_side_)
+                if (side)
+                    side->certain = false;
     }
 
     /// Light is found by facet and judged by face: the facets of a face are turned together.
@@ -116,9 +116,11 @@ class Judge {
             add(light_[f], shells_.against[f], light);
         return light;
     }
-    [[nodiscard]] bool shines_to_backs(std::uint32_t s) const { return lamp_[s] && lamp_[s]->back; }
+    [[nodiscard]] bool shines_to_backs(std::uint32_t s) const {
+        return emitter_side_[s] && emitter_side_[s]->back;
+    }
 
-    void judge(std::uint32_t s) {
+    void check(std::uint32_t s) {
         const Shell& shell = shells_.all[s];
         if (!shell.orientable)
             ++result_.one_sided;
@@ -126,12 +128,12 @@ class Judge {
             turn_some(s);
         else if (emits_[s]) {
             if (shines_to_backs(s))
-                turn_all(s, lamp_[s]->certain || disordered_, result_.lamps);
+                turn_all(s, emitter_side_[s]->certain || disordered_, result_.emitters);
         } else
-            judge_consistent(s);
+            check_consistent(s);
     }
 
-    void judge_consistent(std::uint32_t s) {
+    void check_consistent(std::uint32_t s) {
         const Shell& shell = shells_.all[s];
         const SideLight light = light_of(shell);
         if (sum_of(light) < few_rays) {
@@ -154,8 +156,8 @@ class Judge {
 
     /// Whether the majority of a shell looks away.
     [[nodiscard]] bool majority_away(std::uint32_t s) const {
-        if (lamp_[s])
-            return lamp_[s]->back;
+        if (emitter_side_[s])
+            return emitter_side_[s]->back;
         const SideLight light = light_of(shells_.all[s]);
         return sum_of(light) < few_rays ? shells_.all[s].outwards < 0 : light[1] > light[0];
     }
@@ -177,9 +179,10 @@ class Judge {
         bool any = false;
         for (const std::uint32_t f : shells_.facets_of(shell)) {
             const SideLight& light = light_of_face_[scene_.facets[f].face];
-            const bool told = encloses || lamp_[s] || (disordered_ && sum_of(light) < few_rays) ||
-                              falls_on_backs(light, disordered_ ? the_greater_part : nearly_all);
-            if (stays_[scene_.facets[f].face] || !told)
+            const bool known = encloses || emitter_side_[s] ||
+                               (disordered_ && sum_of(light) < few_rays) ||
+                               falls_on_backs(light, disordered_ ? the_greater_part : nearly_all);
+            if (stays_[scene_.facets[f].face] || !known)
                 continue;
             (clear ? looks_away_ : in_doubt_)[scene_.facets[f].face] = true;
             any = clear;
@@ -206,9 +209,9 @@ class Judge {
     const Tracer& tracer_;
     Shells shells_;
     Targets targets_;
-    std::vector<std::optional<EmitterSide>> lamp_; ///< by shell
-    std::vector<bool> emits_;                      ///< by shell
-    std::vector<SideLight> light_;                 ///< by facet
+    std::vector<std::optional<EmitterSide>> emitter_side_; ///< by shell
+    std::vector<bool> emits_;                              ///< by shell
+    std::vector<SideLight> light_;                         ///< by facet
     std::vector<SideLight> light_of_face_;
     double all_light_ = 0;
     bool reversed_ = false, disordered_ = false; ///< the file: the second follows from the first
@@ -225,7 +228,7 @@ Orientation find_orientation(const Mesh& mesh, const Tracer& tracer) {
         return !material.is_far && e.r + e.g + e.b > 0;
     };
     if (std::ranges::any_of(mesh.scene().facets, emits))
-        return Judge(mesh, tracer).find();
+        return OrientationSearch(mesh, tracer).find();
     Orientation unknown;
     unknown.clashing_edges = find_shells(mesh.scene()).clashing_edges;
     return unknown;

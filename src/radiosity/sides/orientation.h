@@ -24,9 +24,9 @@ struct Orientation {
     std::vector<bool> looks_away;      ///< by face of the file; empty where none does
     std::size_t faces = 0;             ///< that look away
     std::vector<std::uint32_t> groups; ///< of these faces, ascending
-    std::size_t inside_out = 0;        ///< closed shells without a lamp, as a whole
-    std::size_t from_behind = 0;       ///< open shells without a lamp, as a whole
-    std::size_t lamps = 0;             ///< shells with a lamp, as a whole
+    std::size_t inside_out = 0;        ///< closed shells that do not emit, as a whole
+    std::size_t from_behind = 0;       ///< open shells that do not emit, as a whole
+    std::size_t emitters = 0;          ///< shells that emit, as a whole
     std::size_t mixed = 0;             ///< shells of which some faces look away
     std::size_t clashing_edges = 0;    ///< that two facets run along in the same direction
     std::size_t one_sided = 0;         ///< shells that cannot be oriented: Moebius strips

@@ -17,7 +17,7 @@ struct Shell {
     bool closed = true;     ///< every edge has exactly two facets
     bool consistent = true; ///< all neighbours agree
     bool orientable = true; ///< they would, if some were turned; not so for a Moebius strip
-    double against = 0;     ///< the part of its area that would be turned, at most a half
+    double against = 0;     ///< the share of its area that would be turned, at most a half
     /// Which way a closed shell faces once it is consistent: 1 outwards, -1 inwards, 0 if it
     /// encloses nothing, as a folded sheet.
     int outwards = 0;

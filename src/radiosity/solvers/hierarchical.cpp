@@ -34,9 +34,9 @@
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/check_input.h"
 #include "radiosity/solving/error_spread.h"
+#include "radiosity/solving/missed_light.h"
 #include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/solver.h"
-#include "radiosity/solving/unseen_sights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -141,11 +141,11 @@ class HierarchicalSolver final : public Solver {
             traced_ += factors.back().rays();
         }
         input_.monitor.phase = "solving";
-        const RowClosing closing(lost_rays_, row_sums(factors), input_.needs.closed);
+        const RowNormalisation normalisation(lost_rays_, row_sums(factors), input_.needs.closed);
         CompensatedSum<Vec3> absorbed, escaped;
         bool drained = true;
         for (std::size_t r = 0; r < batches; ++r) {
-            const EnergyBalance energy = solve(factors[r], r, closing);
+            const EnergyBalance energy = solve(factors[r], r, normalisation);
             absorbed += energy.absorbed;
             escaped += energy.escaped;
             drained = drained && search.is_drained(energy);
@@ -181,11 +181,11 @@ class HierarchicalSolver final : public Solver {
         double area = 0, sum = 0;
         for (const double of_patch : area_)
             area += of_patch;
-        const double usual = emitted_ / area;
+        const double mean_light = emitted_ / area;
         for (const Link& link : links) {
             const PatchTree::Node &to = tree_[link.to], &from = tree_[link.from];
-            weight.push_back(rough_factor(to, from) * (light[link.from] + usual) * rho[link.to] *
-                             std::sqrt(to.area));
+            weight.push_back(rough_factor(to, from) * (light[link.from] + mean_light) *
+                             rho[link.to] * std::sqrt(to.area));
             sum += weight.back();
         }
         const double all = rays_ * double(area_.size()) / double(batches);
@@ -209,8 +209,9 @@ class HierarchicalSolver final : public Solver {
     }
 
     /// Solves one batch, from its last solution on.
-    EnergyBalance solve(const LinkFactors& factors, std::size_t batch, const RowClosing& closing) {
-        const ClosedRows rows = closing.rows(batch);
+    EnergyBalance solve(const LinkFactors& factors, std::size_t batch,
+                        const RowNormalisation& normalisation) {
+        const NormalisedRows rows = normalisation.rows(batch);
         std::vector<Vec3>& radiosity = guesses_[batch];
         std::vector<Vec3> incident = arriving_light(
             [&](auto x, auto y) {
@@ -232,7 +233,7 @@ class HierarchicalSolver final : public Solver {
         BatchMean found = mean_of_batches(guesses_, area_);
         solution_.radiosity = std::move(found.radiosity);
         note_hits(points);
-        note_errors(before, found.variance, unseen_light(points, factors));
+        note_errors(before, found.variance, missed_light(points, factors));
         solution_.effective_freedom = believed_freedom(solution_.effective_freedom,
                                                        effective_freedom(found.products, batches));
     }
@@ -249,7 +250,7 @@ class HierarchicalSolver final : public Solver {
 
     /// Squares by patch [(W/m2)^2 arriving] of what links may bring of which no ray arrived: up to
     /// three of them might have.
-    [[nodiscard]] std::vector<Vec3> unseen_light(std::span<const std::uint32_t> points,
+    [[nodiscard]] std::vector<Vec3> missed_light(std::span<const std::uint32_t> points,
                                                  std::span<const LinkFactors> factors) const {
         const std::size_t nodes = tree_.nodes().size(), n = area_.size();
         std::vector<Vec3> result(n);
@@ -304,8 +305,8 @@ class HierarchicalSolver final : public Solver {
     }
 
     void note_errors(std::span<const Vec3> before, std::span<const Vec3> variance,
-                     std::span<const Vec3> unseen) {
-        solution_.variance = solution_.unseen = 0;
+                     std::span<const Vec3> missed) {
+        solution_.variance = solution_.missed = 0;
         solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
         const double loss = input_.needs.closed
                                 ? 0
@@ -317,9 +318,9 @@ class HierarchicalSolver final : public Solver {
         for (std::size_t i = 0; i < variance.size(); ++i) {
             const Vec3 level = loss * (solution_.radiosity[i] - emission_[i]);
             const Vec3 more =
-                changes_[i] + level * level + reflectance_[i] * reflectance_[i] * unseen[i];
+                changes_[i] + level * level + reflectance_[i] * reflectance_[i] * missed[i];
             *solution_.variance += area_[i] * glm::dot(variance[i], Vec3(1.0));
-            solution_.unseen += area_[i] * glm::dot(more, Vec3(1.0));
+            solution_.missed += area_[i] * glm::dot(more, Vec3(1.0));
             solution_.standard_error[i] =
                 known ? glm::sqrt(solution_.standard_error[i] + more) : Vec3(unknown);
         }
@@ -355,7 +356,6 @@ extern const Method hierarchical_method;
 const Method hierarchical_method{
     .name = "hierarchical",
     .summary = "links between large and small parts of surfaces (Hanrahan et al. 1991)",
-    .has_literal = false,
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .05},
     .make = make_hierarchical,

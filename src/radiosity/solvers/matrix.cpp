@@ -28,9 +28,9 @@
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/check_input.h"
 #include "radiosity/solving/error_spread.h"
+#include "radiosity/solving/missed_light.h"
 #include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/solver.h"
-#include "radiosity/solving/unseen_sights.h"
 
 #include <algorithm>
 #include <array>
@@ -197,21 +197,21 @@ class MatrixSolver final : public Solver {
         solution_.effective_freedom =
             believed_freedom(solution_.effective_freedom, effective_freedom(products, batches));
         solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
-        const std::vector<Vec3> unseen = unseen_light();
-        const double share = unseen_loss();
-        solution_.unseen = 0;
-        for (std::uint32_t i = 0; i < unseen.size(); ++i) {
+        const std::vector<Vec3> missed = missed_light();
+        const double share = missed_loss();
+        solution_.missed = 0;
+        for (std::uint32_t i = 0; i < missed.size(); ++i) {
             const Vec3 level = share * (solution_.radiosity[i] - input_.mesh.material(i).emission);
-            solution_.unseen += input_.mesh.patches()[i].area * glm::dot(level, level);
+            solution_.missed += input_.mesh.patches()[i].area * glm::dot(level, level);
             solution_.standard_error[i] =
-                glm::sqrt(solution_.standard_error[i] + level * level + unseen[i] * unseen[i]);
+                glm::sqrt(solution_.standard_error[i] + level * level + missed[i] * missed[i]);
         }
     }
 
     /// The share of all light that three rays stand for which were not lost and might have been:
     /// what is emitted is all that is used, and one ray carries its part of what leaves all
     /// patches.
-    [[nodiscard]] double unseen_loss() const {
+    [[nodiscard]] double missed_loss() const {
         if (exact_ || input_.needs.closed)
             return 0;
         double leaving = 0, emitted = 0, rays = 0;
@@ -228,7 +228,7 @@ class MatrixSolver final : public Solver {
 
     /// What dark patches may receive besides; by contour integration nothing is left to chance.
     /// Emission with a closed form does not wait for a ray to find it.
-    [[nodiscard]] std::vector<Vec3> unseen_light() const {
+    [[nodiscard]] std::vector<Vec3> missed_light() const {
         const std::size_t n = solution_.radiosity.size();
         std::vector<double> area(n), rays(n, double(rays_) * batches);
         std::vector<Vec3> reflectance(n), incident(n);
@@ -241,7 +241,7 @@ class MatrixSolver final : public Solver {
         if (exact_ || input_.needs.closed)
             return std::vector<Vec3>(n, Vec3(0.0));
         const std::vector<Vec3>& leaving = rays_find_emission_ ? solution_.radiosity : incident;
-        return unseen_sights({area, reflectance, incident, leaving, rays});
+        return missed_by_rays({area, reflectance, incident, leaving, rays});
     }
 
     SolverInput input_;
@@ -270,7 +270,6 @@ extern const Method matrix_method;
 const Method matrix_method{
     .name = "matrix",
     .summary = "all form factors and a linear solver (Goral et al. 1984); the reference",
-    .has_literal = false,
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .002},
     .make = make_matrix,

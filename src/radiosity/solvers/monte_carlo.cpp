@@ -4,7 +4,7 @@
 // The patch with the largest unshot energy A_i B_i shoots first, all of it at once, by rays from
 // random points in cosine-distributed directions. Each ray carries about the same power, the same
 // throughout the run, so a patch shoots rays in proportion to what it has gathered. No form factor
-// is computed: a patch receives what the rays that strike it bring. Fractions of a ray are settled
+// is computed: a patch receives what the rays that hit it bring. Fractions of a ray are settled
 // by chance, which keeps the estimate unbiased and ends the step by itself: a patch with a third of
 // a ray shoots a whole one in a third of all cases.
 //
@@ -245,7 +245,6 @@ extern const Method monte_carlo_method;
 const Method monte_carlo_method{
     .name = "monte-carlo",
     .summary = "the brightest patch shoots all it holds by random rays (Shirley 1991; paper 3.2)",
-    .has_literal = false,
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = make_monte_carlo,

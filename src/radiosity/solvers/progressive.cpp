@@ -168,7 +168,7 @@ class ProgressiveSolver final : public Solver {
         }
         const double variance = std::accumulate(of_patch.begin(), of_patch.end(), 0.0);
         solution_.variance = variance;
-        solution_.unseen = missing;
+        solution_.missed = missing;
         solution_.effective_freedom.reset();
         if (variance > 0)
             solution_.effective_freedom = effective_freedom_of(of_patch, estimate.shared);
@@ -204,7 +204,6 @@ extern const Method progressive_method;
 const Method progressive_method{
     .name = "progressive",
     .summary = "the brightest patch shoots by explicit form factors (Cohen et al. 1988; paper 3.1)",
-    .has_literal = false,
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
     .make = make_progressive,

@@ -1,14 +1,14 @@
 // Stored transport: rays tell form factors in both directions, and a linear system all bounces.
 //
-// Each patch looks around along well-distributed rays and keeps which patches they struck, not what
+// Each patch looks around along well-distributed rays and keeps which patches they hit, not what
 // light they brought (ray_counts.h). What two patches saw of each other is put together, all rows
 // are closed (exchange_matrix.h), and all bounces are solved on the result by conjugate gradients
-// (transport_system.h): no ray is traced twice for another bounce. Small lamps are reached by
+// (transport_system.h): no ray is traced twice for another bounce. Small emitters are reached by
 // shadow rays with their exact factor (direct_light.h).
 //
-// Parameter: --rays, of the first step, half of them random, half to the lamps. Each step adds as
-// many, or as many as there are, or as many as an error asked for will take (ray_plan.h), of
-// the kind that the error comes from. Four independent batches of both give four solutions, whose
+// Parameter: --rays, of the first step, half of them random, half to the emitters. Each step adds
+// as many, or as many as there are, or as many as an error asked for will take (ray_plan.h), of the
+// kind that the error comes from. Four independent batches of both give four solutions, whose
 // spread is the standard error; the result is the solution of all rays together.
 //
 // Consistent: the solution depends on what was counted in a non-linear way, so its bias falls as
@@ -143,9 +143,9 @@ class StoredTransportSolver final : public Solver {
     }
 
   private:
-    static RayPlan first_plan(const SolverInput& input, bool lamps) {
-        const double each = input.options.rays / (lamps ? 2 * batches : batches);
-        return {input.mesh, input.needs, each, lamps ? each : 0,
+    static RayPlan first_plan(const SolverInput& input, bool small_emitters) {
+        const double each = input.options.rays / (small_emitters ? 2 * batches : batches);
+        return {input.mesh, input.needs, each, small_emitters ? each : 0,
                 RayGoal{input.options.growing_steps, input.options.aim}};
     }
 
@@ -247,12 +247,12 @@ class StoredTransportSolver final : public Solver {
         const RowSpread rows = spread_of_rows(all, light, workers_);
         TransportErrors errors = errors_of<batches>(
             {input_.mesh, system_, light_, all, rows, *direct_, input_.target}, workers_);
-        direct_variance_ = spread.direct_variance + errors.unseen_by_shadow_rays;
-        variance_ = std::max(errors.variance + errors.unseen, direct_variance_);
+        direct_variance_ = spread.direct_variance + errors.missed_by_shadow_rays;
+        variance_ = std::max(errors.variance + errors.missed, direct_variance_);
         solution_.standard_error = std::move(errors.standard_error);
         solution_.variance = errors.variance;
         solution_.variance_of_level = errors.of_losses;
-        solution_.unseen = errors.unseen + errors.unseen_by_shadow_rays;
+        solution_.missed = errors.missed + errors.missed_by_shadow_rays;
         solution_.error_batches = batches;
         solution_.effective_freedom = believed_freedom(solution_.effective_freedom,
                                                        effective_freedom(spread.products, batches));
@@ -292,7 +292,7 @@ class StoredTransportSolver final : public Solver {
         const Vec3 reflected = rho * light_.incident(batches, i);
         solution_.radiosity[i] = system_.emission()[i] + reflected;
         solution_.hits[i] = direct_->hits(i) + std::uint64_t{plan_.rays().random[i]} * batches;
-        light = reflected + system_.seen_emission()[i];
+        light = reflected + system_.sampled_emission()[i];
         direct_variance =
             area * glm::dot(rho * rho, direct_squares) / double(batches * (batches - 1));
         spread.direct_variance +=
@@ -334,7 +334,6 @@ extern const Method stored_transport_method;
 const Method stored_transport_method{
     .name = "stored-transport",
     .summary = "rays are kept and all bounces solved on them; lamps by shadow rays",
-    .has_literal = false,
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
     .make = make_stored_transport,

@@ -63,21 +63,22 @@ std::string list(const std::set<std::string>& names) {
                                : text;
 }
 
-std::string describe(const Mesh& mesh, const LosslessComponent& trapped) {
+std::string describe(const Mesh& mesh, const LosslessComponent& component) {
     constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
     std::set<std::string> groups, materials;
-    for (const std::uint32_t patch : trapped.patches) {
+    for (const std::uint32_t patch : component.patches) {
         const Facet& facet = mesh.scene().facets[mesh.patches()[patch].facet];
         if (facet.group < mesh.scene().groups.size())
             groups.insert(mesh.scene().groups[facet.group]);
         materials.insert(mesh.scene().materials[facet.material].name);
     }
-    return "there is no finite solution: " + std::to_string(trapped.patches.size()) +
+    return "there is no finite solution: " + std::to_string(component.patches.size()) +
            " patches that reflect all light (" +
-           channels.at(static_cast<std::size_t>(trapped.channel)) + ") enclose an emitter; of " +
-           std::to_string(trapped.rays) + " rays from them none got out. Groups: " + list(groups) +
+           channels.at(static_cast<std::size_t>(component.channel)) + ") enclose an emitter; of " +
+           std::to_string(component.rays) +
+           " rays from them none got out. Groups: " + list(groups) +
            "; materials: " + list(materials) + "; for example " +
-           name_of_patch(mesh, trapped.patches.front()) +
+           name_of_patch(mesh, component.patches.front()) +
            ". A reflectance below 1 on one of them lets light end";
 }
 
@@ -113,12 +114,12 @@ void check_input(const SolverInput& input) {
     if (!perfect)
         return;
     input.monitor.phase = "closed?";
-    const auto trapped =
+    const auto component =
         find_lossless_component(mesh, input.tracer, input.options.seed, enough_rays(input),
                                 Workers(input.options.threads), input.monitor);
-    if (trapped)
-        throw SolveError(describe(mesh, *trapped) + advice(input.needs),
-                         face_of(mesh, trapped->patches.front()));
+    if (component)
+        throw SolveError(describe(mesh, *component) + advice(input.needs),
+                         face_of(mesh, component->patches.front()));
 }
 
 Solution solution_before_steps(const SolverInput& input) {

@@ -157,8 +157,8 @@ std::optional<LosslessComponent> find_lossless_component(const Mesh& mesh, const
     for (int c = 0; c < 3; ++c) {
         if (c > 0 && alike(mesh, c, c - 1))
             continue;
-        if (auto trapped = Search(mesh, tracer, seed, workers, monitor, enough_rays, c).run())
-            return trapped;
+        if (auto component = Search(mesh, tracer, seed, workers, monitor, enough_rays, c).run())
+            return component;
     }
     return std::nullopt;
 }

@@ -2,9 +2,9 @@
 // Light that cannot get out: patches that reflect all of it and from which all of it falls on such
 // patches again. If one of them emits, there is no finite solution.
 //
-// Whether a scene is closed cannot be told from its faces with certainty, so rays tell: patches
+// Whether a scene is closed cannot be told from its faces with certainty, so rays show it: patches
 // from which one ray has left the scene, or fallen on something that absorbs, let light out, and so
-// do those whose rays meet them, or that lamps see. Patches that remain when many rays have found
+// do those whose rays meet them. Patches that remain when many rays have found
 // no other way out trap the light. Only reflectances of exactly 1 are looked at.
 
 #include "bvh/tracer.h"

@@ -5,8 +5,8 @@
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/check_input.h"
 #include "radiosity/solving/error_spread.h"
+#include "radiosity/solving/missed_light.h"
 #include "radiosity/solving/solve_error.h"
-#include "radiosity/solving/unseen_sights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -122,7 +122,7 @@ void MeanOfSteps::estimate_errors() {
     solution.variance = sum;
     solution.variance_of_level = level * value;
     solution.level_freedom = level_freedom;
-    solution.unseen = unseen();
+    solution.missed = missed();
     if (sum > 0)
         solution.effective_freedom = effective_freedom_of(of_patch, 0);
 }
@@ -178,7 +178,7 @@ Vec3 MeanOfSteps::one_ray(std::uint32_t patch) const {
 
 /// The squared error, weighted by area, of light that no ray has met so far: by the rule of three,
 /// that of three more rays of mean power, each of which may hit any patch that counts.
-double MeanOfSteps::unseen() const {
+double MeanOfSteps::missed() const {
     const Vec3 power = rule_of_three * mean_ray();
     double area = 0, squares = 0;
     for (std::uint32_t i = 0; i < sums.squares.size(); ++i) {

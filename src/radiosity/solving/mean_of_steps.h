@@ -75,7 +75,7 @@ class MeanOfSteps {
     [[nodiscard]] Vec3 mean_ray() const;
     [[nodiscard]] Vec3 purest_ray() const;
     [[nodiscard]] Vec3 one_ray(std::uint32_t patch) const;
-    [[nodiscard]] double unseen() const;
+    [[nodiscard]] double missed() const;
 
     SolverInput input_;
     bool equal_rays_;

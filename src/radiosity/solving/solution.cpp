@@ -76,7 +76,7 @@ double estimated_error(const Mesh& mesh, const Solution& solution) {
         all.error = std::max(all.error,
                              more * more * rest + of_level * of_level * solution.variance_of_level);
     }
-    all.error += solution.unseen;
+    all.error += solution.missed;
     if (!solution.may_find_light && all.error == 0)
         return 0;
     // Relative to light that is less than its own error an error has no meaning: a single ray that

@@ -39,7 +39,7 @@ struct Solution {
     /// everywhere on a patch.
     std::vector<Slope> slope = {};
     std::vector<Vec3> standard_error; ///< of B [W/m2]; NaN before two steps
-    std::vector<std::uint64_t> hits;  ///< energy rays that struck each patch
+    std::vector<std::uint64_t> hits;  ///< energy rays that hit each patch
     /// By patch: what its squared error and its light count in the error of the whole (target.h).
     /// Empty: 1 everywhere.
     std::vector<double> weight = {};
@@ -53,7 +53,7 @@ struct Solution {
     double level_freedom = std::numeric_limits<double>::infinity();
     /// The same sum for what no ray may have seen so far, by the rule of three, or for light that
     /// is still to be shot: a squared error which counts besides the variance.
-    double unseen = 0;
+    double missed = 0;
     /// False where no light can reach anything that reflects, as the scene itself tells: then
     /// finding none is no lack of knowledge.
     bool may_find_light = true;

@@ -59,7 +59,7 @@ struct Subdivision1997Options {
 enum class Guide {
     density, ///< surfaces along a ray, as in the paper
     pyramid, ///< patches in the pyramid of a triangle of directions
-    visible, ///< what is seen: rho^2 / A of the nearest patch
+    visible, ///< what is visible: rho^2 / A of the nearest patch
     learned  ///< the same, from the hits of the steps before
 };
 
@@ -68,7 +68,7 @@ struct SolveOptions {
     double rays = 64;
     /// Levels of subdivision of the hemisphere, 0 to 5: 4, 20, 84, ... triangles.
     int depth = 2;
-    /// A triangle whose mean density is higher is divided.
+    /// A triangle whose mean density [surfaces per ray] is higher is divided.
     double threshold = 0;
     /// The rules as printed in the paper; biased (docs/decisions.md, D1, D2, D10).
     bool literal = false;
@@ -101,7 +101,7 @@ struct SolveOptions {
 struct StopRule {
     std::optional<std::uint32_t> steps;
     std::optional<double> seconds;
-    std::optional<double> error; ///< estimated relative error, e.g. .01
+    std::optional<double> error; ///< estimated relative error [-], e.g. 0.01
     /// Rays in all, after which no further step is begun: where light is rare an error may be out
     /// of reach.
     std::optional<std::uint64_t> rays = {};
@@ -208,7 +208,7 @@ enum class Role {
 struct Method {
     std::string_view name;    ///< of --method
     std::string_view summary; ///< one line for --help, with the source
-    bool has_literal;         ///< --literal changes it
+    bool has_literal = false; ///< --literal changes it
     bool unbiased;            ///< each step, in its corrected form; else consistent
     StopRule default_stop;    ///< where the user gives none
     std::unique_ptr<Solver> (*make)(const SolverInput&);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t points_per_chunk = 64;
 
 /// What the rays from some points meet, point by point.
-std::vector<std::uint32_t> met_from(std::span<const SeenPoint> points, std::size_t first,
+std::vector<std::uint32_t> met_from(std::span<const VisiblePoint> points, std::size_t first,
                                     const Mesh& mesh, const Tracer& tracer, unsigned rays) {
     std::vector<Ray> all;
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -45,7 +45,7 @@ std::vector<double> weights_of_groups(const Mesh& mesh, std::span<const std::uin
 }
 
 std::vector<double> weights_of_points(const Mesh& mesh, const Tracer& tracer,
-                                      std::span<const SeenPoint> points, unsigned rays,
+                                      std::span<const VisiblePoint> points, unsigned rays,
                                       const Workers& workers) {
     std::vector<std::vector<std::uint32_t>> met((points.size() + points_per_chunk - 1) /
                                                 points_per_chunk);

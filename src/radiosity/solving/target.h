@@ -23,7 +23,7 @@ class Workers;
                                                     std::span<const std::uint32_t> groups);
 
 /// Where a picture shows a surface, in the local frame.
-struct SeenPoint {
+struct VisiblePoint {
     Vec3 position;
     Vec3 normal; ///< unit, to the side that is seen
     std::uint32_t facet;
@@ -36,7 +36,7 @@ struct SeenPoint {
 /// sees; the second part is theirs after one step of transport). A patch has what it gets over its
 /// area; the largest weight is 1. The same for any number of threads.
 [[nodiscard]] std::vector<double> weights_of_points(const Mesh& mesh, const Tracer& tracer,
-                                                    std::span<const SeenPoint> points,
+                                                    std::span<const VisiblePoint> points,
                                                     unsigned rays, const Workers& workers);
 
 /// Nearly surely another one for other weights: a saved state belongs to its target.

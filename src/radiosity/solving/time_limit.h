@@ -11,7 +11,7 @@
 namespace hemilux {
 
 /// While it lives, it sets the flag's out_of_time() once `seconds` have passed. Without a number it
-/// does nothing.
+/// does nothing. The flag outlives it.
 class TimeLimit {
   public:
     TimeLimit(StopFlag& flag, std::optional<double> seconds);

@@ -35,7 +35,7 @@ class BatchLight {
         const Vec3& now = solved_[batch].incident[patch];
         return before_.empty() ? now : (before_[batch].incident[patch] + now) / generations();
     }
-    /// How far each of the batches is off their mean.
+    /// How far each of the batches is off their mean [W/m2].
     template <std::size_t Sets>
     [[nodiscard]] std::array<Vec3, Sets> deviations(std::size_t patch) const {
         std::array<Vec3, Sets> off;

@@ -55,7 +55,7 @@ DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& ne
       samples_(mesh.patches().size()), hits_(mesh.patches().size()), bright_(mesh.patches().size()),
       unblocked_(mesh.patches().size()) {
     for (const Patch& emitter : emitters_)
-        lamps_.push_back(
+        emitter_shapes_.push_back(
             {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});
 }
 
@@ -132,7 +132,7 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch
 void DirectLight::look(std::uint32_t patch, std::uint32_t estimate, const Shape& receiver,
                        const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
                        RayBatch& batch) const {
-    const Emitter& emitter = lamps_[choice.emitter];
+    const Emitter& emitter = emitter_shapes_[choice.emitter];
     const std::size_t next = batch.size;
     const double factor = look_at(*receiver.patch, receiver.points, *emitter.patch, emitter.points,
                                   {u[0], u[1], u[2], u[3]}, emitter.near, batch.rays[next]);

@@ -1,11 +1,11 @@
 #pragma once
 // The light that comes straight from small emitters, by shadow rays.
 //
-// Rays at random find a small lamp by luck. Here a sample is a point of the receiver, an emitter,
-// and a point of that: well-distributed in five dimensions (sobol.h). The emitter is drawn by the
-// light that it would send without obstacles (emitter_choice.h); its contribution is the kernel of
-// form factors times the visibility along one ray (point_to_patch.h): the closed form of point and
-// polygon, or of two points where the emitter looks small.
+// Rays at random find a small emitter by luck. Here a sample is a point of the receiver, an
+// emitter, and a point of that: well-distributed in five dimensions (sobol.h). The emitter is drawn
+// by the light that it would send without obstacles (emitter_choice.h); its contribution is the
+// kernel of form factors times the visibility along one ray (point_to_patch.h): the closed form of
+// point and polygon, or of two points where the emitter looks small.
 
 #include "bvh/tracer.h"
 #include "geometry/polygon_sampler.h"
@@ -55,7 +55,7 @@ class DirectLight {
     }
     /// Mean over all.
     [[nodiscard]] Vec3 irradiance(std::uint32_t patch) const;
-    /// Counts those of this patch in each estimate; 0 also where rays at random are worth more
+    /// Counts those of this patch in each estimate; 0 also where rays at random find more
     /// (EmitterChoice::Cut::pays).
     [[nodiscard]] std::uint32_t samples(std::uint32_t patch) const { return samples_[patch]; }
     /// Samples of this patch that brought light.
@@ -106,7 +106,7 @@ class DirectLight {
     std::vector<std::uint32_t> samples_, hits_;
     std::vector<std::uint64_t> bright_; ///< emitters that brought light (EmitterChoice::bit_of)
     std::vector<double> unblocked_;     ///< sum over the samples of a patch
-    std::vector<Emitter> lamps_;
+    std::vector<Emitter> emitter_shapes_;
 };
 
 } // namespace hemilux

@@ -22,7 +22,7 @@ constexpr std::size_t most_emitters = 1024, most_clusters = 128;
 constexpr double share_of_unlinked = 1.0 / 16;
 
 /// The light of each emitter, as the mean of its channels relative to the most that any has in that
-/// channel: a lamp that is faint, but the only one in its channel, is as important as any.
+/// channel: an emitter that is faint, but the only one in its channel, is as important as any.
 std::vector<double> balanced_light(const Mesh& mesh, std::span<const Patch> emitters) {
     Vec3 most(0.0);
     for (const Patch& patch : emitters)

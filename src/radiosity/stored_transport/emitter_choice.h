@@ -27,7 +27,7 @@ struct Patch;
 
 class EmitterChoice {
   public:
-    /// `emitters`: what emits; they outlive this.
+    /// `emitters`: what emits; they and the mesh outlive this.
     EmitterChoice(const Mesh& mesh, std::span<const Patch> emitters);
 
     /// What a patch weighs: emitters or clusters, and running sums of their weights.
@@ -43,9 +43,9 @@ class EmitterChoice {
         double square_found = 0;   ///< sum of these
         /// No light can come from anywhere.
         [[nodiscard]] bool dark() const { return !(sum > 0); }
-        /// Whether a shadow ray is worth about as much as one at random, or more. Where many
-        /// emitters touch a surface each fills the view of a few points, but is seldom drawn for
-        /// just those: what such a ray brings varies more than what one finds by chance.
+        /// Whether a shadow ray lowers the error about as much as one at random, or more. Where
+        /// many emitters touch a surface each fills the view of a few points, but is seldom drawn
+        /// for just those: what such a ray brings varies more than what one finds by chance.
         [[nodiscard]] bool pays() const { return sum * sum <= 4 * square_found; }
     };
     /// Prepares choose(). `bright`: the bits of emitters from which light has reached the receiver,
@@ -65,7 +65,7 @@ class EmitterChoice {
 
     struct Choice {
         std::uint32_t emitter; ///< its place among the emitters
-        double chance;         ///< with which it is drawn
+        double chance;         ///< with which it is drawn [-]
     };
     using Choices = std::array<Choice, samples_per_block>;
     /// One for each of sixteen numbers in [0, 1), from a cut that is not dark.

@@ -1,6 +1,6 @@
 #pragma once
 // What the light of each patch counts for a target: the adjoint of the radiosity equation, solved
-// on the stored rays, and where more rays are worth most.
+// on the stored rays, and where more rays gain most.
 //
 // The light that arrives solves h = d + F rho h. Since A_i F_ij is symmetric, importance, which
 // flows the other way (Smits, Arvo and Salesin 1992), solves the same equation: I = w + F rho I,

@@ -14,7 +14,7 @@ constexpr double least_share = 1.0 / 8, most_share = 8;
 
 /// The least where patches are not of the same importance. With an eighth, patches with many rays
 /// inherit too much of what those with few are off by (docs/decisions.md, D57).
-constexpr double least_of_usual = 1.0 / 4;
+constexpr double least_of_expected = 1.0 / 4;
 
 /// The power of two nearest to a number, in logarithms: the whole part of log2(sqrt(2) rays), which
 /// is an exponent's bits. The allocation asks for it ten times a patch.
@@ -49,15 +49,15 @@ struct Open {
 
 std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double mean,
                                          std::span<const std::uint32_t> already,
-                                         std::span<const double> usual) {
+                                         std::span<const double> expected) {
     const double largest = given.empty() ? 0 : *std::ranges::max_element(given);
     std::vector<std::uint32_t> rays(given.size());
     if (!(largest > 0))
         return rays;
     const std::vector<double> weights = rounded(given, largest);
-    const double most = most_share * (usual.empty() ? 1 : *std::ranges::max_element(usual));
+    const double most = most_share * (expected.empty() ? 1 : *std::ranges::max_element(expected));
     const auto least = [&](std::uint32_t i) {
-        return usual.empty() ? least_share : least_of_usual * usual[i];
+        return expected.empty() ? least_share : least_of_expected * expected[i];
     };
     const auto rays_of = [&](std::uint32_t i, double per_weight) {
         const double share = std::clamp(per_weight * weights[i], least(i) * mean, most * mean);

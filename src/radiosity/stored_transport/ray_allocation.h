@@ -11,10 +11,10 @@ namespace hemilux {
 /// and at most eight times the mean, and never less than a patch has already. Powers of two, for
 /// which well-distributed points are best. A weight of 0 gets none.
 ///
-/// `usual`: of each patch, over the mean, where patches are not of the same importance; empty: of
-/// the same. Then it is at least a quarter of that, and at most eight times the largest.
+/// `expected`: of each patch, over the mean, where patches are not of the same importance; empty:
+/// of the same. Then it is at least a quarter of that, and at most eight times the largest.
 [[nodiscard]] std::vector<std::uint32_t> allocate_rays(std::span<const double> weights, double mean,
                                                        std::span<const std::uint32_t> already,
-                                                       std::span<const double> usual = {});
+                                                       std::span<const double> expected = {});
 
 } // namespace hemilux

@@ -33,8 +33,8 @@ constexpr double least_step = 1.1, try_next = 1.04;
 /// The share of the weights that is measured; and what a patch's area counts.
 constexpr double trust = .5, area_exponent = .42;
 
-/// Of the mean of shadow rays, what a patch gets that no light has reached: few, but not none, as a
-/// lamp may shine through a gap that all of them have missed.
+/// Of the mean of shadow rays, what a patch gets that no light has reached: few, but not none, as
+/// an emitter may shine through a gap that all of them have missed.
 constexpr double share_of_unlit = 1.0 / 8;
 
 /// The mean that a first step with a target has at least, of one batch: the search for what light
@@ -54,11 +54,11 @@ constexpr double least_of_kind = 1.0 / 4;
 constexpr double least_reflectance = .1;
 
 /// Throws StateError for rays that cannot have been allocated with this mean (ray_allocation.h): a
-/// patch has at most about eleven times what is usual for it, and all have more than a small part
-/// of the mean.
-void check_allocated(std::span<const std::uint32_t> rays, double mean, double most_usual) {
+/// patch has at most about eleven times what is expected for it, and all have more than a small
+/// part of the mean.
+void check_allocated(std::span<const std::uint32_t> rays, double mean, double most_expected) {
     constexpr double least_share = 1.0 / 64;
-    const double most_share = 12 * most_usual;
+    const double most_share = 12 * most_expected;
     double sum = 0, count = 0;
     for (const std::uint32_t of_patch : rays) {
         if (of_patch > std::max(1.0, most_share * mean))
@@ -116,17 +116,17 @@ void RayPlan::aim(std::span<const double> importance) {
 /// By patch, over the mean of those that are to get more: as important as it is, but where a patch
 /// is of little importance all the same the mean. What many such patches send together is known by
 /// few rays each, but not by any number.
-std::vector<double> RayPlan::usual_rays(std::span<const double> weights) const {
+std::vector<double> RayPlan::expected_rays(std::span<const double> weights) const {
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < aim_.size(); ++i)
         if (weights[i] * aim_[i] > 0) {
             sum += aim_[i];
             ++count;
         }
-    std::vector<double> usual;
+    std::vector<double> expected;
     for (const double each : aim_)
-        usual.push_back(sum > 0 ? std::max(each * count / sum, 1.0) : 1);
-    return usual;
+        expected.push_back(sum > 0 ? std::max(each * count / sum, 1.0) : 1);
+    return expected;
 }
 
 std::vector<std::uint32_t> RayPlan::allocate(std::span<const double> weights, double mean,
@@ -136,7 +136,7 @@ std::vector<std::uint32_t> RayPlan::allocate(std::span<const double> weights, do
     std::vector<double> aimed;
     for (std::size_t i = 0; i < weights.size(); ++i)
         aimed.push_back(weights[i] * aim_[i]);
-    return allocate_rays(aimed, mean, already, usual_rays(weights));
+    return allocate_rays(aimed, mean, already, expected_rays(weights));
 }
 
 /// Of one kind; not more than without a target.
@@ -208,11 +208,11 @@ void RayPlan::split(double rays, const ErrorSoFar& known) {
 
 /// The error that the planned rays will probably leave.
 double RayPlan::predicted(const ErrorSoFar& known) const {
-    const double of_lamps =
+    const double of_emitters =
         known.variance > 0 ? std::min(known.variance_from_emitters / known.variance, 1.0) : 0;
-    double left = (1 - of_lamps) * std::pow(before_.random / now_.random, fall);
+    double left = (1 - of_emitters) * std::pow(before_.random / now_.random, fall);
     if (now_.to_emitters > 0)
-        left += of_lamps * std::pow(before_.to_emitters / now_.to_emitters, fall);
+        left += of_emitters * std::pow(before_.to_emitters / now_.to_emitters, fall);
     return known.relative * std::sqrt(left);
 }
 
@@ -309,9 +309,9 @@ void RayPlan::load(StateReader& state) {
         stage->rays.to_emitters.resize(weights_.size());
         state.get(std::span(stage->rays.random));
         state.get(std::span(stage->rays.to_emitters));
-        const double most_usual = has_target() ? double(aim_.size()) : 1;
-        check_allocated(stage->rays.random, stage->random, most_usual);
-        check_allocated(stage->rays.to_emitters, stage->to_emitters, most_usual);
+        const double most_expected = has_target() ? double(aim_.size()) : 1;
+        check_allocated(stage->rays.random, stage->random, most_expected);
+        check_allocated(stage->rays.to_emitters, stage->to_emitters, most_expected);
     }
     if (before_.random > now_.random || before_.to_emitters > now_.to_emitters)
         throw StateError("the plan of rays does not grow");

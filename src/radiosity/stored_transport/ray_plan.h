@@ -31,7 +31,7 @@ struct RayGoal {
 
 /// The error of the solution so far.
 struct ErrorSoFar {
-    double relative = 0;               ///< as it is reported
+    double relative = 0;               ///< as it is reported [-]
     double variance = 0;               ///< in any unit
     double variance_from_emitters = 0; ///< the part of it that comes from shadow rays
     bool drained = true;               ///< the rays have seen a way out for the light
@@ -39,7 +39,7 @@ struct ErrorSoFar {
 
 class RayPlan {
   public:
-    /// The first step's means, of one batch; no `to_emitters`: there are no lamps to be reached.
+    /// The first step's means, of one batch; no `to_emitters`: there are no emitters to be reached.
     /// The mesh outlives this.
     RayPlan(const Mesh& mesh, const Needs& needs, double random, double to_emitters,
             const RayGoal& goal);
@@ -57,7 +57,7 @@ class RayPlan {
     /// Plans more rays than before, at most `room` times as many random ones; `known` is not used
     /// for the first step.
     void grow(const ErrorSoFar& known, double room, const Workers& workers);
-    /// Less room than this is not worth a step.
+    /// With less room than this there is no step.
     static constexpr double least_growth = 1.19;
 
     /// Counts them from the start until the next step ends.
@@ -72,12 +72,12 @@ class RayPlan {
     ///
     /// How many rays a patch gets must not depend on what its own rays have found: where they
     /// missed something rare, their variance is too small, fewer rays would follow, and the mean of
-    /// all would stay wrong. So a patch is judged by its neighbours, and but once, by the first
+    /// all would stay wrong. So a patch is weighed by its neighbours, and but once, by the first
     /// rays that found light, which are soon a small part of all.
     void weigh(std::span<const Vec3> variance, const std::vector<bool>& lit);
 
-    /// From now on more shadow rays from patches whose light from lamps is uncertain. `variance`:
-    /// of each patch, times its area, in any unit; negative: it takes none.
+    /// From now on more shadow rays from patches whose light from emitters is uncertain.
+    /// `variance`: of each patch, times its area, in any unit; negative: it takes none.
     void weigh_emitters(std::span<const double> variance, const std::vector<bool>& lit);
 
     void save(StateWriter& state) const;
@@ -93,7 +93,7 @@ class RayPlan {
     [[nodiscard]] double of_neighbours(std::uint32_t patch, std::span<const double> known) const;
     void learn(std::span<const Vec3> variance);
     [[nodiscard]] bool has_target() const { return !aim_.empty(); }
-    [[nodiscard]] std::vector<double> usual_rays(std::span<const double> weights) const;
+    [[nodiscard]] std::vector<double> expected_rays(std::span<const double> weights) const;
     [[nodiscard]] double first_mean(double mean) const;
     [[nodiscard]] std::vector<std::uint32_t> allocate(std::span<const double> weights, double mean,
                                                       std::span<const std::uint32_t> already) const;

@@ -4,7 +4,7 @@
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/unseen_sights.h"
+#include "radiosity/solving/missed_light.h"
 #include "radiosity/stored_transport/batch_light.h"
 #include "radiosity/stored_transport/direct_light.h"
 #include "radiosity/stored_transport/linked_parts.h"
@@ -61,18 +61,18 @@ class Account {
             all_leaving[i] = leaving(i);
         const PatchLight light{area_, rho_, incident_, all_leaving, rays_};
         bright_radiosity_ = bright_radiosity(light);
-        unseen_sights_ = unseen_sights(light);
+        missed_by_rays_ = missed_by_rays(light);
     }
 
-    void add_unseen(TransportErrors& errors) const {
+    void add_missed(TransportErrors& errors) const {
         std::vector<double> dark(parts_.count); // one of them at a time has got those few rays
         double shadow_rays = 0;                 // that arrive if nothing is in their way
         for (std::uint32_t i = 0; i < area_.size(); ++i)
             shadow_rays += shadow_rays_of(i);
         for (std::uint32_t i = 0; i < area_.size(); ++i) {
-            const Vec3 level = lit_[i] ? unseen_loss(i) + unseen_sights_[i] : unseen_light(i);
+            const Vec3 level = lit_[i] ? missed_loss(i) + missed_by_rays_[i] : missed_light(i);
             const double counts = weighted_area(result_, i);
-            (lit_[i] ? errors.unseen : dark[parts_.of[i]]) += counts * glm::dot(level, level);
+            (lit_[i] ? errors.missed : dark[parts_.of[i]]) += counts * glm::dot(level, level);
             const Vec3 loss = known_loss(i);
             errors.of_losses += counts * glm::dot(loss, loss);
             const Vec3 sample = one_shadow_ray(i);
@@ -81,11 +81,11 @@ class Account {
             Vec3& sigma = errors.standard_error[i];
             sigma = glm::sqrt(glm::max(sigma * sigma, one * one) + level * level);
             const double share = shadow_rays > 0 ? shadow_rays_of(i) / shadow_rays : 0;
-            errors.unseen_by_shadow_rays +=
+            errors.missed_by_shadow_rays +=
                 rule_of_three * share * counts * glm::dot(sample, sample);
         }
         if (!dark.empty())
-            errors.unseen += std::ranges::max(dark);
+            errors.missed += std::ranges::max(dark);
         errors.part = parts_.of;
         errors.lit = lit_;
     }
@@ -93,7 +93,7 @@ class Account {
   private:
     /// What rays at random of a patch stand for [W/m2].
     [[nodiscard]] Vec3 leaving(std::uint32_t i) const {
-        return rho_[i] * incident_[i] + result_.system.seen_emission()[i];
+        return rho_[i] * incident_[i] + result_.system.sampled_emission()[i];
     }
     void enter(std::uint32_t i) {
         PartLedger& part = ledgers_[parts_.of[i]];
@@ -125,7 +125,7 @@ class Account {
     /// If three rays of the part more had been lost: less light in all of it, in proportion to what
     /// else takes light away. The mean of a Poisson distribution lies that far above any count
     /// besides the multiple of its standard deviation (Garwood 1936).
-    [[nodiscard]] Vec3 unseen_loss(std::uint32_t i) const {
+    [[nodiscard]] Vec3 missed_loss(std::uint32_t i) const {
         if (result_.system.closed())
             return Vec3(0.0);
         const PartLedger& part = ledger(i);
@@ -144,7 +144,7 @@ class Account {
 
     /// If rays had passed between a dark part and a lit one: what the part would hold then. Neither
     /// the rays of the lit parts nor its own have.
-    [[nodiscard]] Vec3 unseen_light(std::uint32_t i) const {
+    [[nodiscard]] Vec3 missed_light(std::uint32_t i) const {
         const PartLedger& part = ledger(i);
         if (!(part.rays > 0))
             return Vec3(0.0); // no light can reach it, by geometry
@@ -182,7 +182,7 @@ class Account {
     std::vector<Vec3> incident_;
     std::vector<bool> lit_;
     Vec3 lit_one_ray_{0.0}, bright_radiosity_{0.0};
-    std::vector<Vec3> unseen_sights_;
+    std::vector<Vec3> missed_by_rays_;
 };
 
 /// The standard error of a mean of a few samples is known badly. Where patches err each for itself
@@ -249,7 +249,7 @@ TransportErrors errors_of(const TransportResult& result, const Workers& workers)
     errors.standard_error = pooled_over_neighbours(result.mesh, variance);
     for (std::size_t i = 0; i < n; ++i)
         errors.standard_error[i] = glm::sqrt(raise[i] * errors.standard_error[i]);
-    Account(result).add_unseen(errors);
+    Account(result).add_missed(errors);
     return errors;
 }
 

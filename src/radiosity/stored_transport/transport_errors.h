@@ -5,7 +5,7 @@
 // The batches differ by the noise of what they found. Nothing differs where none of them found
 // anything: a window that no ray has left through, a lit room that no ray has reached through a
 // hole. There the rule of three holds: of N rays none of which met something, the share that would
-// meet it is below 3 / N in 95 of 100 cases (unseen_sights.h). The errors below follow
+// meet it is below 3 / N in 95 of 100 cases (missed_light.h). The errors below follow
 // from that share by the balance of energy of each part of the scene. docs/numerics.md has the
 // whole account and its assumptions.
 
@@ -27,10 +27,10 @@ struct RowSpread;
 
 struct TransportErrors {
     std::vector<Vec3> standard_error; ///< of the radiosity by patch [W/m2]
-    double variance = 0;  ///< by the batches: sum over patches of weight, area and variance
+    double variance = 0;  ///< by the batches: sum over patches of weight, local area and variance
     double of_losses = 0; ///< the part of it that comes from how many rays were lost, by counting
-    /// The same, of what random rays and what shadow rays have not seen.
-    double unseen = 0, unseen_by_shadow_rays = 0;
+    /// The same, of light that no random ray and that no shadow ray may have found.
+    double missed = 0, missed_by_shadow_rays = 0;
     std::vector<std::uint32_t> part; ///< of each patch, see linked_parts.h
     std::vector<bool> lit; ///< by patch: whether light reaches it on any stored path, or it emits
 };

@@ -31,7 +31,7 @@ Vec3 sample_variance(std::span<const Vec3> values) {
 
 } // namespace
 
-TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps,
+TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> emitters,
                                  bool closed)
     : mesh_(mesh), closed_(closed) {
     const auto patches = mesh.patches();
@@ -43,9 +43,9 @@ TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t
         for (int c = 0; c < 3; ++c)
             lost_at_least_ = std::min(lost_at_least_, 1 - material.reflectance[c]);
     }
-    seen_emission_ = emission_;
-    for (const std::uint32_t lamp : lamps)
-        seen_emission_[lamp] = Vec3(0.0);
+    sampled_emission_ = emission_;
+    for (const std::uint32_t emitter : emitters)
+        sampled_emission_[emitter] = Vec3(0.0);
 }
 
 /// Each batch by itself; then the whole by all threads, from where their mean is.
@@ -127,15 +127,15 @@ std::vector<Vec3> TransportSystem::straight_light(const ExchangeMatrix& factors,
     std::vector<Lanes> all(n), some(n);
     for (std::size_t i = 0; i < n; ++i) {
         all[i] = factors.scaled(i, emission_[i]);
-        some[i] = factors.scaled(i, seen_emission_[i]);
+        some[i] = factors.scaled(i, sampled_emission_[i]);
     }
     const bool any =
-        std::ranges::any_of(seen_emission_, [](const Vec3& e) { return e != Vec3(0.0); });
+        std::ranges::any_of(sampled_emission_, [](const Vec3& e) { return e != Vec3(0.0); });
     factors.for_products(workers, [&](std::size_t begin, std::size_t end) {
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
-            if (shadow_rays.samples(i) == 0) // a lamp does not light itself
+            if (shadow_rays.samples(i) == 0) // an emitter does not light itself
                 light[i] = factors.row_times(i, all) -
-                           factors.self_factor(i) * (emission_[i] - seen_emission_[i]);
+                           factors.self_factor(i) * (emission_[i] - sampled_emission_[i]);
             else if (any)
                 light[i] = factors.row_times(i, some);
             light[i] += batch ? shadow_rays.irradiance(i, *batch) : shadow_rays.irradiance(i);

@@ -34,17 +34,17 @@ void for_batches(std::size_t batches, const Ranks& ranks, const Workers& workers
 
 class TransportSystem {
   public:
-    /// `lamps`: patches whose light comes by shadow rays, not by rays at random. `closed`: no ray
-    /// can leave the scene or meet the back of a face, as its geometry proves. The mesh outlives
-    /// this.
-    TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> lamps, bool closed);
+    /// `emitters`: patches whose light comes by shadow rays, not by rays at random. `closed`: no
+    /// ray can leave the scene or meet the back of a face, as its geometry proves. The mesh
+    /// outlives this.
+    TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> emitters, bool closed);
 
-    /// Has an entry for each patch.
+    /// By patch: areas in local units, reflectances [-], emissions [W/m2].
     [[nodiscard]] std::span<const double> area() const { return area_; }
     [[nodiscard]] std::span<const Vec3> reflectance() const { return reflectance_; }
     [[nodiscard]] std::span<const Vec3> emission() const { return emission_; }
     /// The emission [W/m2] of the patches that random rays are to find, 0 elsewhere.
-    [[nodiscard]] std::span<const Vec3> seen_emission() const { return seen_emission_; }
+    [[nodiscard]] std::span<const Vec3> sampled_emission() const { return sampled_emission_; }
     /// Whether the geometry proves that no ray is lost.
     [[nodiscard]] bool closed() const { return closed_; }
 
@@ -53,9 +53,9 @@ class TransportSystem {
         std::span<const RayCounts> counts;
         const DirectLight& direct;
     };
-    /// `light`, of each batch and at last of all: from what it holds, on to what the rays tell, as
-    /// exactly as that is worth. Returns the factors of all. `error`: the relative one of what is
-    /// known so far; nan: unknown. Where it is interrupted nothing is changed.
+    /// `light`, of each batch and at last of all: from what it holds, on to the solution of these
+    /// rays, as exactly as their noise allows. Returns the factors of all. `error`: the relative
+    /// one of what is known so far; nan: unknown. Where it is interrupted nothing is changed.
     ExchangeMatrix solve(const Rays& rays, double error, std::vector<BatchLight::Light>& light,
                          const Workers& workers, const StopFlag& interrupted) const;
 
@@ -75,7 +75,7 @@ class TransportSystem {
 
     const Mesh& mesh_;
     std::vector<double> area_;
-    std::vector<Vec3> reflectance_, emission_, seen_emission_;
+    std::vector<Vec3> reflectance_, emission_, sampled_emission_;
     double lost_at_least_ = 1; ///< of what falls on a patch, in any channel
     bool closed_;
 };

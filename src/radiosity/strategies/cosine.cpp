@@ -31,7 +31,6 @@ extern const Method cosine_method;
 const Method cosine_method{
     .name = "progressive-monte-carlo",
     .summary = "steps of random cosine-distributed rays (Feda and Purgathofer 1993; paper 3.3)",
-    .has_literal = false,
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_cosine>,

@@ -30,14 +30,18 @@
 namespace hemilux {
 namespace {
 
+ShootingRules rules(const SolveOptions& options) {
+    return options.literal ? printed_rules : ShootingRules{};
+}
+
 class HemisphereStrategy final : public Strategy {
   public:
     HemisphereStrategy(const SolverInput& input, const Hemisphere& hemisphere,
                        const Workers& workers)
-        : literal_(input.options.literal) {
+        : printed_(input.options.literal) {
         for (std::size_t cell = 0; cell < hemisphere.cells().size(); ++cell)
-            area_shares_.push_back(
-                power_share(hemisphere, static_cast<std::uint16_t>(cell), literal_));
+            area_shares_.push_back(power_share(hemisphere, static_cast<std::uint16_t>(cell),
+                                               rules(input.options).area));
         if (input.needs.densities)
             densities_ = find_densities(input, hemisphere, workers);
         else
@@ -121,13 +125,13 @@ class HemisphereStrategy final : public Strategy {
         const double least = std::max(least_density, least_share * average);
         const auto due = [&](const DensityLeaf& leaf) {
             const double density = leaf.density; // D_tr
-            return area_shares_[leaf.cell] * (literal_ ? density : std::max(density, least));
+            return area_shares_[leaf.cell] * (printed_ ? density : std::max(density, least));
         };
         double sum = 0;
         for (const DensityLeaf& leaf : leaves)
             sum += due(leaf);
         allocated.clear();
-        for (const DensityLeaf& leaf : leaves) // literal, and nothing was seen: no ray, as printed
+        for (const DensityLeaf& leaf : leaves) // as printed, where nothing was seen there is no ray
             allocated.add(leaf.cell, sum > 0 ? due(leaf) / sum : 0);
     }
 
@@ -136,7 +140,7 @@ class HemisphereStrategy final : public Strategy {
     /// mean. Where nothing is seen anywhere, rays then follow the power (D5).
     static constexpr double least_density = 1, least_share = 0.25;
 
-    bool literal_;
+    bool printed_;
     std::vector<double> area_shares_; ///< by cell
     std::unique_ptr<LeafDensities> densities_;
     AllocatedCells allocated_of_one_surface_; ///< of all patches, where there are no densities_
@@ -146,8 +150,8 @@ class HemisphereStrategy final : public Strategy {
 std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisphere& hemisphere,
                                           const Workers& workers) {
     const Guide guide = input.options.literal ? Guide::density : input.options.guide;
-    const bool by_sight = guide == Guide::visible || guide == Guide::learned;
-    if (by_sight && input.needs.densities)
+    const bool by_visibility = guide == Guide::visible || guide == Guide::learned;
+    if (by_visibility && input.needs.densities)
         return make_visibility_guide(input, hemisphere, workers, guide == Guide::learned);
     return std::make_unique<HemisphereStrategy>(input, hemisphere, workers);
 }
@@ -164,7 +168,7 @@ const Method hemisphere_method{
     .has_literal = true,
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
-    .make = shoot_with<make_hemisphere>,
+    .make = shoot_with<make_hemisphere, rules>,
     .strategy = make_hemisphere,
     .work = {.densities = true, .passes = true},
     .plain = plain::hemisphere,

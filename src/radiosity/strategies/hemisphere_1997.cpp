@@ -44,13 +44,17 @@ namespace {
 
 static_assert(Subdivision1997::most_triangles < whole_hemisphere);
 
+ShootingRules rules(const SolveOptions& options) {
+    return options.literal ? printed_rules : ShootingRules{};
+}
+
 class Hemisphere1997 final : public Strategy {
   public:
     Hemisphere1997(const SolverInput& input, const Workers& workers)
-        : input_(input), workers_(workers), literal_(input.options.literal),
+        : input_(input), workers_(workers), printed_(input.options.literal),
           numbers_(input.options.subdivision_1997),
           subdivision_(input.mesh, input.needs, numbers_) {
-        if (!literal_)
+        if (!printed_)
             find(static_cast<int>(numbers_.stored_steps)); // later steps will find no more
         begin_step(0);
     }
@@ -67,7 +71,7 @@ class Hemisphere1997 final : public Strategy {
         const double share = 1 / static_cast<double>(cells);
         for (std::size_t cell = 0; cell < cells; ++cell)
             allocated_.add(static_cast<std::uint16_t>(cell),
-                           literal_ ? rays_as_printed(cell, share) / input_.options.rays : share);
+                           printed_ ? rays_as_printed(cell, share) / input_.options.rays : share);
     }
 
     Allocation allocate(std::uint32_t, AllocatedCells&) const override { return allocated_.view(); }
@@ -83,10 +87,10 @@ class Hemisphere1997 final : public Strategy {
         PrivateCell result{.power = 0,
                            .shape = {corner[0].direction, corner[1].direction, corner[2].direction},
                            .origins = part_of(whole.shape, subdivision_.parts(), part)};
-        const double share = literal_ ? result.shape.solid_angle() / (2 * std::numbers::pi)
+        const double share = printed_ ? result.shape.solid_angle() / (2 * std::numbers::pi)
                                       : result.shape.projected_solid_angle() / std::numbers::pi;
         result.power = result.origins.area() / whole.area * std::max(share, 0.0);
-        if (literal_)
+        if (printed_)
             for (const std::size_t found : subdivision_.corners_found(level_, index))
                 result.direction[result.given++] = density_direction(corner[found].direction);
         return result;
@@ -109,7 +113,7 @@ class Hemisphere1997 final : public Strategy {
 
     SolverInput input_;
     Workers workers_;
-    bool literal_;
+    bool printed_;
     Subdivision1997Options numbers_;
     Subdivision1997 subdivision_;
     int level_ = 1;            ///< of the present step's triangles
@@ -144,7 +148,7 @@ const Method hemisphere_1997_method{
     .has_literal = true,
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
-    .make = shoot_with<make_hemisphere_1997>,
+    .make = shoot_with<make_hemisphere_1997, rules>,
     .strategy = make_hemisphere_1997,
     .work = {.densities = true, .passes = true},
     .plain = plain::hemisphere_1997,

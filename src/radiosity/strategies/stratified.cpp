@@ -15,7 +15,7 @@ class Stratified final : public Strategy {
         for (std::size_t c = Hemisphere::cells_up_to(hemisphere.depth() - 1); c < cells.size();
              ++c) {
             const auto cell = static_cast<std::uint16_t>(c);
-            allocated_.add(cell, power_share(hemisphere, cell, false));
+            allocated_.add(cell, power_share(hemisphere, cell, CellArea::projected_solid_angle));
         }
     }
     [[nodiscard]] bool is_same_in_all_steps() const override { return true; }
@@ -36,7 +36,6 @@ extern const Method stratified_method;
 const Method stratified_method{
     .name = "stratified",
     .summary = "the same spherical triangles without densities (the control)",
-    .has_literal = false,
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_stratified>,

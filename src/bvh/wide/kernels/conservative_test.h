@@ -1,7 +1,7 @@
 // Ray against triangle in floats, with a bound on the error: the test of Moeller and Trumbore
 // (1997), after which a lane is certainly missed, certainly hit, or uncertain.
 //
-// With A = corner - origin, edges e1, e2, normal N = e1 x e2 and direction d, the point struck has
+// With A = corner - origin, edges e1, e2, normal N = e1 x e2 and direction d, the point hit has
 // t = A.N / D, u = U / D, v = W / D where D = d.N, U = d.(e2 x A), W = d.(A x e1).
 // No #pragma once: see simd.h.
 
@@ -35,13 +35,13 @@ inline F8 error_bound(V3 a, F8 e) {
 
 /// The outcome of one test, lane by lane.
 struct EdgeFunctions {
-    F8 u, w, d, rest; ///< rest = D - U - W; struck where u, w, rest have one sign
+    F8 u, w, d, rest; ///< rest = D - U - W; hit where u, w, rest have one sign
     F8 error;
 
     EdgeFunctions(F8 u_, F8 w_, F8 d_, F8 error_)
         : u(u_), w(w_), d(d_), rest(d_ - u_ - w_), error(error_) {}
 
-    /// Not certainly missed, were the triangle's plane struck at a right t. NaN is not certainly
+    /// Not certainly missed, were the triangle's plane hit at a right t. NaN is not certainly
     /// missed.
     [[nodiscard]] Bits may_hit() const {
         const F8 zero = F8::splat(0);
@@ -57,7 +57,7 @@ struct EdgeFunctions {
     [[nodiscard]] Bits front() const { return less(d, F8::splat(0)); }
 };
 
-/// Bounds of t where they can be told: elsewhere anything. `volume` is A.N, whose error is at most
+/// Bounds of t where they are known: elsewhere anything. `volume` is A.N, whose error is at most
 /// E times that of D.
 struct Interval {
     F8 low, high;

@@ -91,10 +91,10 @@ struct HitMask {
             float low, float high) {
         const Bits out =
             t.known & (less(F8::splat(high), t.low) | less(t.high, F8::splat(ray.t_min_low)));
-        const Bits maybe = edges.may_hit() & ~out & ~equal(leaf.slot, flag, ray.from);
-        certain = maybe & t.known & edges.inside() & less(F8::splat(ray.t_min_high), t.low) &
+        const Bits candidates = edges.may_hit() & ~out & ~equal(leaf.slot, flag, ray.from);
+        certain = candidates & t.known & edges.inside() & less(F8::splat(ray.t_min_high), t.low) &
                   less(t.high, F8::splat(low));
-        uncertain = maybe & ~certain;
+        uncertain = candidates & ~certain;
     }
 };
 
@@ -156,7 +156,7 @@ inline void closest(const Tree& tree, const FloatRay& ray, unsigned index, Neare
     });
 }
 
-/// Whether anything in a leaf but `target` is struck before t.
+/// Whether anything in a leaf but `target` is hit before t.
 inline bool blocks(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low, float t_high,
                    std::uint32_t target, const ExactTest& exact) {
     const LeafTest test(leaf, ray);

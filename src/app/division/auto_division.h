@@ -1,5 +1,5 @@
 #pragma once
-// --divide auto, and what a solution on patches says of the light on the surfaces.
+// --divide auto: the mesh is divided until the whole error is as asked for.
 
 #include "app/settings/settings.h"
 #include "io/results/statistics.h"
@@ -20,15 +20,6 @@ inline constexpr double division_share = .7, sampling_share = .5;
 /// Whether a plain run on so many patches divides them: where the method is the standard one, and
 /// what was asked for says nothing of patches or single steps.
 [[nodiscard]] bool divides_by_default(const SolveSettings& settings, std::size_t patches);
-
-/// The whole error that a run with --divide auto is to reach.
-[[nodiscard]] double whole_error(const SolveSettings& settings);
-
-/// Whether all light that is given out is gathered at points or for pictures, none as patches have
-/// it. The whole error is then that of gathered light.
-[[nodiscard]] bool gives_gathered_light(const SolveSettings& settings);
-/// Whether it is gathered for pictures, whose rays read the patches that they meet however near.
-[[nodiscard]] bool gathers_near(const SolveSettings& settings);
 
 /// A run to an error ends at a number of rays at the latest, if nothing else ends it.
 [[nodiscard]] std::uint64_t default_max_rays(std::size_t patches);
@@ -66,15 +57,5 @@ using BeginSolver = std::function<std::unique_ptr<Solver>()>;
 
 /// The solution that is given out, with the slopes of its patches.
 [[nodiscard]] Solution with_slopes(Solution solution, const Divided& divided);
-
-/// Adds the error of the division to the statistics of a solution, and with --divide auto makes the
-/// estimated error that of the light as given out. With --for it stays unknown.
-void add_division_error(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
-                        const Tracer& tracer, const Solution& solution, const Divided& divided,
-                        const StopFlag& interrupted);
-
-/// Where --divide auto has not reached the whole error asked for: why. Else empty.
-[[nodiscard]] std::string whole_error_note(const SolveSettings& settings,
-                                           const Statistics& statistics);
 
 } // namespace hemilux

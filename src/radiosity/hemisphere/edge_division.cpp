@@ -1,4 +1,4 @@
-#include "radiosity/scene/edge_division.h"
+#include "radiosity/hemisphere/edge_division.h"
 
 #include <cmath>
 

@@ -1,21 +1,22 @@
-#include "app/command_line/options.h"
+// The options of `hemilux solve`.
 
 #include "app/command_line/option_groups.h"
 #include "app/command_line/option_kinds.h"
+#include "app/command_line/options.h"
+#include "app/command_line/solving_options.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 
 namespace hemilux {
 
 namespace {
-
-constexpr const char* comparison_group = "Comparison";
 
 void add_plain_option(Command command, bool& plain) {
     command.add_flag(
@@ -62,81 +63,6 @@ void add_method_option(Command command, const Method*& method) {
             if (std::ranges::any_of(other->implied_by, given))
                 method = other;
     });
-}
-
-/// All that --methods may name.
-std::vector<MethodVariant> possible_variants() {
-    std::vector<MethodVariant> list;
-    for (const Method* const method : methods()) {
-        list.push_back({std::string(method->name), method, {}});
-        if (method->guided)
-            for (const Guide guide : {Guide::pyramid, Guide::visible, Guide::learned})
-                list.push_back(
-                    {std::string(method->name) + "-" + guide_names[static_cast<std::size_t>(guide)],
-                     method, guide});
-    }
-    return list;
-}
-
-MethodVariant variant_by_name(std::string_view name) {
-    std::vector<std::string> names;
-    for (const MethodVariant& variant : possible_variants()) {
-        if (variant.name == name)
-            return variant;
-        if (!variant.guide && variant.method == find_method(name))
-            return {std::string(name), variant.method, {}}; // results call it as the user does
-        names.push_back(variant.name);
-    }
-    throw UsageError("--methods: " + unknown_name("method", name, names));
-}
-
-/// Names with commas between them.
-std::vector<MethodVariant> variants_from(std::string_view text) {
-    std::vector<MethodVariant> list;
-    for (bool more = true; more;) {
-        const std::size_t comma = text.find(',');
-        MethodVariant variant = variant_by_name(text.substr(0, comma));
-        if (std::ranges::any_of(list, [&variant](const MethodVariant& other) {
-                return other.method == variant.method && other.guide == variant.guide;
-            }))
-            throw UsageError("--methods: '" + variant.name + "' is named twice");
-        list.push_back(std::move(variant));
-        more = comma != std::string_view::npos;
-        if (more)
-            text.remove_prefix(comma + 1);
-    }
-    return list;
-}
-
-void add_methods_option(Command command, std::vector<MethodVariant>& list) {
-    std::string with_guides;
-    for (const MethodVariant& variant : possible_variants())
-        if (variant.guide)
-            with_guides += (with_guides.empty() ? "" : ", ") + variant.name;
-        else if (variant.method->unbiased || variant.method->role == Role::standard)
-            list.push_back(variant);
-    command.add_value("--methods", "METHOD,METHOD,...",
-                      "what to compare, see below; also " + with_guides + " [" +
-                          std::string(method_of(Role::standard).name) +
-                          " and all that are unbiased]",
-                      [&list](const std::string& text) { list = variants_from(text); });
-}
-
-/// Names of those that --guide changes.
-std::string guided_methods() {
-    return names_of_methods([](const Method& method) { return method.guided; });
-}
-
-void add_method_options(Command command, SolveOptions& options) {
-    add_number(command, "--rays", "N", options.rays, {.low = 0, .high = 1e9, .low_included = false},
-               "mean rays per patch and step [64]");
-    add_division_options(command, options);
-    add_choice(command, "--guide", options.guide, guide_names,
-               "what guides " + guided_methods() + " [density]");
-    command.add_flag("--literal", options.literal, "the paper's rules as printed; they are biased");
-    command.add_flag("--keep-all", options.keep_all,
-                     "leave out nothing that the scene does not need (see hemilux info)");
-    add_random_options(command, options);
 }
 
 void add_stop_options(Command command, StopRule& stop) {
@@ -242,71 +168,10 @@ void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
         "go on from a checkpoint: the same scene and method, the same bytes in the end");
 }
 
-void add_detail_option(Command command, std::vector<std::string>& detail) {
-    command
-        .add_texts("--detail", "GROUP", detail,
-                   "groups whose error is also reported apart [detail...]; repeatable")
-        .repeatable();
-}
-
 void add_comparison_options(Command command, SolveSettings& settings) {
     command.add_text("--reference", "FILE.csv", settings.reference,
                      "patch table of the same patches: report the true error");
     add_detail_option(command, settings.detail);
-}
-
-void add_budget_options(Command command, CompareSettings& settings) {
-    const Option rays = add_number(command, "--budget-rays", "N", settings.budget.rays, positive,
-                                   "rays, density rays included [64 steps]");
-    add_seconds(command, "--budget-time", settings.budget.seconds, positive,
-                "its own time, preprocessing included")
-        .excludes(rays);
-    add_whole<std::uint32_t>(command, "--runs", settings.runs, 1, 1000,
-                             "runs of each method, with seeds that follow each other [3]");
-}
-
-/// --factors of `matrix` and so on.
-void add_own_options(Command command, SolveOptions& options) {
-    add_factor_options(
-        command, options.factors,
-        {"matrix, progressive: form factors by rays; exact: as --exact; hemicube: by a hemicube "
-         "over each patch, N pixels along its edge [rays; N 64]",
-         "matrix: factors without chance where patches see each other fully; for small scenes"});
-    add_own_numbers(command, methods(), options);
-    std::vector<std::string_view> added;
-    for (const Method* const method : methods())
-        for (const MethodFlag& flag : method->flags) {
-            if (std::ranges::find(added, flag.name) != added.end())
-                continue; // several methods take it
-            command.add_flag(std::string(flag.name), flag.value(options), std::string(flag.help));
-            added.push_back(flag.name);
-        }
-}
-
-void add_reference_options(Command command, CompareSettings& settings) {
-    const std::string method(method_of(Role::reference).name);
-    command.add_value("--reference", "FILE.csv|" + method,
-                      "what is taken for the truth: a patch table, or the " + method + " method [" +
-                          method + "]",
-                      [&settings, method](const std::string& text) {
-                          settings.reference = text == method ? std::string() : text;
-                      });
-    add_error(command, "--reference-error", settings.reference_error,
-              "estimated relative error of the " + method + " method [.002]");
-    command.add_flag("--total", settings.total,
-                     "curves and gains by the error of the light itself: also that a patch has one "
-                     "value; the table has both errors");
-    add_detail_option(command, settings.detail);
-}
-
-std::string methods_text() {
-    std::string text = "Methods:\n";
-    for (const Method* const method : methods()) {
-        std::string name(method->name);
-        name.resize(std::max<std::size_t>(name.size() + 2, 26), ' ');
-        text += "  " + name + std::string(method->summary) + "\n";
-    }
-    return text;
 }
 
 constexpr const char* solve_examples = R"(
@@ -322,23 +187,6 @@ Examples:
   hemilux solve room.obj --steps 999 -o room.csv --checkpoint room.saved
   hemilux solve room.obj --steps 999 -o room.csv --checkpoint room.saved --resume room.saved
 )";
-
-constexpr const char* compare_examples = R"(
-Examples:
-  hemilux compare room.obj -o compared
-  hemilux compare room.obj -o compared --methods hemisphere,stratified --budget-time 10
-  hemilux compare room.obj -o again --reference compared/reference.csv --literal
-)";
-
-constexpr const char* info_examples = R"(Examples:
-  hemilux info room.obj
-  hemilux info room.obj --max-edge .1
-  hemilux info room.obj --json
-)";
-
-constexpr const char* exit_codes = R"(
-Exit codes: 0 done, 1 wrong usage, 2 bad input, 3 output or system failure,
-130 interrupted by Ctrl-C and 143 by SIGTERM (what was computed is written).)";
 
 /// What patches are divided by.
 struct DivisionChoice {
@@ -397,40 +245,6 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_comparison_options(command.under(comparison_group), settings);
     add_verbosity_options(command, settings.verbosity);
     command.end_help_with(methods_text() + solve_examples + exit_codes);
-    return command;
-}
-
-Command add_compare_command(Arguments& program, CompareSettings& settings) {
-    const Command command =
-        program.add_command("compare", "error against run time of several methods, side by side");
-    const Command method = command.under(method_group), outputs = command.under(output_group);
-    add_scene_options(command, settings.scene);
-    add_memory_option(command.under(scene_group), settings.scene);
-    add_methods_option(method, settings.variants);
-    add_method_options(method, settings.options);
-    add_own_options(command.under(own_group), settings.options);
-    add_budget_options(command.under("Budget of each run of each method, one of the two"),
-                       settings);
-    add_reference_options(command.under(comparison_group), settings);
-    outputs
-        .add_text("-o,--output", "DIR", settings.folder,
-                  "folder, made where it is not there: error.csv, error.svg, reference.csv, "
-                  "reference.png and two pictures per method")
-        .required();
-    add_view_options(outputs, settings.view);
-    add_verbosity_options(command, settings.verbosity);
-    command.end_help_with(methods_text() + compare_examples + exit_codes);
-    return command;
-}
-
-Command add_info_command(Arguments& program, InfoSettings& settings) {
-    const Command command = program.add_command(
-        "info", "what was read from a scene, what is doubtful in it, what it does not need");
-    add_scene_options(command, settings.scene);
-    command.under(output_group)
-        .add_flag("--json", settings.json, "one JSON object instead of lines of text");
-    add_verbosity_options(command, settings.verbosity);
-    command.end_help_with(std::string(info_examples) + exit_codes);
     return command;
 }
 

@@ -1,4 +1,4 @@
-#include "radiosity/solving/unseen_sights.h"
+#include "radiosity/solving/missed_light.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -32,7 +32,7 @@ double rays_of_bright(const PatchLight& light) {
 
 } // namespace
 
-std::vector<Vec3> unseen_sights(const PatchLight& light) {
+std::vector<Vec3> missed_by_rays(const PatchLight& light) {
     constexpr double darker = 4; // patches so many times darker, as in a room beyond, tell nothing
     const Vec3 bright = bright_radiosity(light);
     const auto arrives = [&](std::uint32_t i) {

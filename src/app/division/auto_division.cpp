@@ -1,5 +1,6 @@
-#include "app/running/division.h"
+#include "app/division/auto_division.h"
 
+#include "app/division/whole_error.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
@@ -30,17 +31,14 @@ constexpr double share_of_time = .5;
 constexpr double first_sampling_of_gathered = .05, sampling_of_gathered = .4;
 
 /// A goal is set lower by a factor in this range, with some room.
-constexpr double safe = .9, least_step = .5, most_step = .9;
+constexpr double safe = .9, least_step = .5, most_step = .9, least_step_of_gathered = .3;
 
 /// So often the division goes on where the whole error is too large still.
 constexpr unsigned most_attempts = 8;
 
-/// Rays to find out the error of the division: of all before, at most one in so many; where patches
-/// were divided by rays the second.
-constexpr std::uint64_t share_of_rays = 2, share_of_divided = 5;
-
-/// Of the whole error asked for, what the error of gathered light is found out to.
-constexpr double share_of_gathered = 1. / 3;
+/// Rays to find out the error of the division where patches were divided by rays: of all before, at
+/// most one in so many.
+constexpr std::uint64_t share_of_divided = 5;
 
 std::string round_text(const DivisionRound& round) {
     return "division: " + counted(round.patches, "patch", "patches") + ", within them the light " +
@@ -135,11 +133,11 @@ void AutoDivision::forget_run() {
 void AutoDivision::measure(std::uint64_t most_rays, double negligible,
                            std::span<const double> square) {
     const Stopwatch watch;
-    const DivisionErrorOptions options{.seed = hash_words({settings_.options.seed, 4, gathers_++}),
-                                       .most_rays = most_rays,
-                                       .negligible =
-                                           is_gathered_ ? share_of_gathered * whole_ : negligible,
-                                       .square = is_gathered_ ? std::span<const double>() : square};
+    const DivisionErrorOptions options{
+        .seed = hash_words({settings_.options.seed, 4, gathers_++}),
+        .most_rays = most_rays,
+        .negligible = is_gathered_ ? resolved_gathered_error(settings_) : negligible,
+        .square = is_gathered_ ? std::span<const double>() : square};
     const Workers workers(settings_.options.threads);
     const DivisionError found =
         is_gathered_ ? gathered_error(mesh_, input_.tracer, divided_.rough, gathers_near(settings_),
@@ -156,15 +154,16 @@ void AutoDivision::measure(std::uint64_t most_rays, double negligible,
 void AutoDivision::begin_gathered() {
     options_.error = division_error(mesh_, input_.tracer, divided_.rough,
                                     {.seed = hash_words({settings_.options.seed, 6})},
-                                    Workers(settings_.options.threads), input_.monitor.interrupted)
+                                    Workers(settings_.options.threads), input_.monitor.interrupted,
+                                    &*divided_.gathered)
                          .error;
     lower_goals();
 }
 
 /// Of patches, by less than gathered light is to gain: its error falls faster than theirs.
 void AutoDivision::lower_goals() {
-    const double step =
-        std::clamp(std::sqrt(safe * whole_ / divided_.gathered->error), least_step, most_step);
+    const double step = std::clamp(std::sqrt(safe * whole_ / divided_.gathered->error),
+                                   least_step_of_gathered, most_step);
     options_.error *= step;
     divided_.sampling = std::max(step * *divided_.sampling, sampling_of_gathered * whole_);
 }
@@ -173,8 +172,10 @@ void AutoDivision::lower_goals() {
 bool AutoDivision::is_enough(double sampling) {
     constexpr double least_sampling = .6;
     if (is_gathered_) {
+        if (divided_.gathered->error <= whole_)
+            return true;
         lower_goals();
-        return divided_.gathered->error <= whole_;
+        return false;
     }
     const double division = divided_.error->error;
     if (std::hypot(division, sampling) <= whole_)
@@ -274,26 +275,6 @@ bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
            settings.checkpoint.path.empty() && settings.checkpoint.resumed.empty();
 }
 
-double whole_error(const SolveSettings& settings) {
-    constexpr double usual = .05, usual_gathered = .02;
-    return settings.stop.error.value_or(gives_gathered_light(settings) ? usual_gathered : usual);
-}
-
-bool gathers_near(const SolveSettings& settings) {
-    return std::ranges::any_of(settings.outputs, is_picture, &Output::kind);
-}
-
-bool gives_gathered_light(const SolveSettings& settings) {
-    const bool is_of_patches =
-        !settings.error_map.empty() || !settings.report.empty() ||
-        !std::ranges::all_of(settings.outputs, [](const Output& output) {
-            return is_picture(output.kind) && output.kind != OutputKind::exr; // layers of patches
-        });
-    const bool pictures = !settings.outputs.empty() && settings.gather_pictures;
-    return !is_of_patches && (settings.outputs.empty() || pictures) &&
-           (pictures || !settings.points.path.empty());
-}
-
 std::uint64_t default_max_rays(std::size_t patches) {
     constexpr std::uint64_t least = 100'000'000, each = 1000;
     return least + each * patches;
@@ -314,84 +295,6 @@ Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, Needs& needs,
 Solution with_slopes(Solution solution, const Divided& divided) {
     solution.slope = divided.slope;
     return solution;
-}
-
-void add_division_error(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
-                        const Tracer& tracer, const Solution& solution, const Divided& divided,
-                        const StopFlag& interrupted) {
-    statistics.error_sampling = statistics.estimated_error;
-    if (!solution.weight.empty()) // all that was not asked for is too rough to tell
-        return;
-    const bool gathered = settings.divide_auto && gives_gathered_light(settings);
-    const bool is_same = solution.steps == divided.before.steps;
-    const bool is_known = is_same && divided.error, is_gathered_known = is_same && divided.gathered;
-    if (settings.divide_auto)
-        statistics.estimated_error_of = gathered ? ErrorOf::gathered : ErrorOf::surfaces;
-    if (!(is_known || is_gathered_known) && (solution.steps == 0 || interrupted)) {
-        if (settings.divide_auto) // the whole error is not known
-            statistics.estimated_error = statistics.estimated_error_uncertainty =
-                std::numeric_limits<double>::quiet_NaN();
-        return;
-    }
-    const Stopwatch watch;
-    const Workers workers(settings.options.threads);
-    const auto options = [&](std::uint64_t number, double negligible) {
-        return DivisionErrorOptions{
-            .seed = hash_words({settings.options.seed, number}),
-            .most_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
-                         share_of_rays,
-            .negligible = negligible};
-    };
-    const auto count = [&](const DivisionError& found) {
-        statistics.rays_division_error += found.rays;
-        return found;
-    };
-    const DivisionError found =
-        is_known ? *divided.error
-                 : count(division_error(mesh, tracer, solution,
-                                        options(1, statistics.error_sampling / 2), workers,
-                                        interrupted));
-    statistics.error_division = found.error;
-    statistics.error_division_uncertainty = found.uncertainty;
-    if (gathered) {
-        const DivisionError all =
-            is_gathered_known
-                ? *divided.gathered
-                : count(gathered_error(mesh, tracer, solution, gathers_near(settings),
-                                       options(5, share_of_gathered * whole_error(settings)),
-                                       workers, interrupted));
-        statistics.estimated_error = all.error;
-        statistics.estimated_error_uncertainty = all.uncertainty;
-    } else if (settings.divide_auto) {
-        const double whole = std::hypot(statistics.error_sampling, found.error);
-        statistics.estimated_error_uncertainty =
-            std::hypot(statistics.error_sampling * statistics.estimated_error_uncertainty,
-                       found.error * found.uncertainty) /
-            whole;
-        statistics.estimated_error = whole;
-    }
-    if (!is_known) {
-        const double before = statistics.seconds_division_error;
-        statistics.seconds_division_error = (before > 0 ? before : 0) + watch.seconds();
-    }
-}
-
-std::string whole_error_note(const SolveSettings& settings, const Statistics& statistics) {
-    const bool is_asked = settings.stop.error || (!settings.stop.steps && !settings.stop.seconds);
-    if (!settings.divide_auto || !is_asked || statistics.estimated_error <= whole_error(settings) ||
-        !std::isfinite(statistics.error_division))
-        return "";
-    const std::string options =
-        settings.divide == Divide::by_default ? "--divide auto" : "--memory, --time";
-    if (statistics.estimated_error_of == ErrorOf::gathered)
-        return "the run ended before the error of " + percent(whole_error(settings)) +
-               " of gathered light was reached, which more patches (" + options +
-               ") and more rays (--max-rays, --time) make less";
-    const bool of_division = statistics.error_division > statistics.error_sampling;
-    return "the run ended before the whole error of " + percent(whole_error(settings)) +
-           " was reached; most of what is left is of " +
-           (of_division ? "the division, which more patches (" + options + ") make less"
-                        : "sampling, which more rays (--max-rays, --time) make less");
 }
 
 } // namespace hemilux

@@ -28,6 +28,6 @@ struct PatchLight {
 
 /// By patch: the light that it would reflect [W/m2] if three rays had met something bright, among
 /// those of all patches that are about as dark as it and those by which bright patches look at it.
-[[nodiscard]] std::vector<Vec3> unseen_sights(const PatchLight& light);
+[[nodiscard]] std::vector<Vec3> missed_by_rays(const PatchLight& light);
 
 } // namespace hemilux

@@ -47,8 +47,9 @@ struct Guided {
         const Allocation allocation = strategy->allocate(patch, memory);
         std::vector<double> result;
         for (std::size_t k = 0; k < allocation.cells.size(); ++k)
-            result.push_back(strategy->rays_for_power(patch) * allocation.rays(k) /
-                             power_share(hemisphere, allocation.cells[k], false));
+            result.push_back(
+                strategy->rays_for_power(patch) * allocation.rays(k) /
+                power_share(hemisphere, allocation.cells[k], CellArea::projected_solid_angle));
         return result;
     }
 };
@@ -110,7 +111,8 @@ TEST_CASE("Guided by what is seen, no triangle starves and the shares sum to 1")
                     const Allocation allocation = made.strategy->allocate(i, memory);
                     double power = 0, rays = 0, least = 1;
                     for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
-                        power += power_share(made.hemisphere, allocation.cells[k], false);
+                        power += power_share(made.hemisphere, allocation.cells[k],
+                                             CellArea::projected_solid_angle);
                         rays += allocation.rays(k);
                     }
                     for (const double density : made.densities(i)) {
@@ -206,7 +208,7 @@ TEST_CASE("Patches may get more and weaker rays without a bias") {
     SolveOptions options;
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor};
-    ShootingSolver solver(input, make_uneven);
+    ShootingSolver solver(input, make_uneven, {});
     run(solver, input, test::steps(64));
     const ZScores z =
         z_scores(model.mesh, solver.solution(), exact.radiosity, exact.standard_error);

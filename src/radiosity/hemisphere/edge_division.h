@@ -13,13 +13,13 @@ namespace hemilux {
 /// or ens in the paper.
 struct CountedDirection {
     Vec3 direction;
-    double surfaces;
+    double surfaces; ///< [-]; the mean of integers where it is estimated
 };
 
 /// Counter-clockwise seen from outside.
 using CountedTriangle = std::array<CountedDirection, 3>;
 
-/// How far from P1 towards P2 the new point P3 lies, as a share of the edge: equation (1),
+/// How far from P1 towards P2 the new point P3 lies, as a share of the edge in [0,1]: equation (1),
 /// P3P1 / P2P3 = ns(P2) / ns(P1). One half where nothing was found along P1 or P2.
 [[nodiscard]] double division_share(double ns_1, double ns_2);
 

@@ -1,0 +1,32 @@
+// The options of `hemilux info`.
+
+#include "app/command_line/option_groups.h"
+#include "app/command_line/options.h"
+#include "app/command_line/solving_options.h"
+
+#include <string>
+
+namespace hemilux {
+
+namespace {
+
+constexpr const char* info_examples = R"(Examples:
+  hemilux info room.obj
+  hemilux info room.obj --max-edge .1
+  hemilux info room.obj --json
+)";
+
+} // namespace
+
+Command add_info_command(Arguments& program, InfoSettings& settings) {
+    const Command command = program.add_command(
+        "info", "what was read from a scene, what is doubtful in it, what it does not need");
+    add_scene_options(command, settings.scene);
+    command.under(output_group)
+        .add_flag("--json", settings.json, "one JSON object instead of lines of text");
+    add_verbosity_options(command, settings.verbosity);
+    command.end_help_with(std::string(info_examples) + exit_codes);
+    return command;
+}
+
+} // namespace hemilux

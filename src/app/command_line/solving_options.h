@@ -1,0 +1,28 @@
+#pragma once
+// Groups of options that `solve` and `compare` share, and the ends of their --help.
+
+#include "app/command_line/arguments.h"
+#include "app/settings/settings.h"
+
+#include <string>
+#include <vector>
+
+namespace hemilux {
+
+inline constexpr const char* comparison_group = "Comparison";
+
+/// Adds --rays, --depth and others that say how to solve, but for the method itself.
+void add_method_options(Command command, SolveOptions& options);
+/// Adds --factors and what else single methods declare (Method::flags, Method::numbers).
+void add_own_options(Command command, SolveOptions& options);
+/// Adds --detail.
+void add_detail_option(Command command, std::vector<std::string>& detail);
+
+/// The methods with their summaries, a line each.
+[[nodiscard]] std::string methods_text();
+/// What the program's exit codes mean.
+inline constexpr const char* exit_codes = R"(
+Exit codes: 0 done, 1 wrong usage, 2 bad input, 3 output or system failure,
+130 interrupted by Ctrl-C and 143 by SIGTERM (what was computed is written).)";
+
+} // namespace hemilux

@@ -1,0 +1,26 @@
+#pragma once
+// The end of `solve`: the figures of the run, its outputs, its warnings.
+
+#include "app/loading/reference.h"
+#include "app/running/results.h"
+#include "app/running/run_notes.h"
+#include "app/settings/settings.h"
+#include "app/terminal/stopwatch.h"
+
+#include <optional>
+
+namespace hemilux {
+
+/// Fills in what is known of a solution. `seconds_solver`: of the solver, its density rays
+/// included.
+void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
+          const Solution& solution, double seconds_solver);
+
+/// Writes the outputs and logs the last lines; returns the exit code. `of_steps`: what was written
+/// after steps. `seconds_before`: of the run that this one goes on with.
+[[nodiscard]] int finish(const SolveSettings& settings, Results results,
+                         const WriteReport& of_steps, const std::optional<Reference>& reference,
+                         const RunNotes& notes, bool interrupted, const Stopwatch& started,
+                         double seconds_before);
+
+} // namespace hemilux

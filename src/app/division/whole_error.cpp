@@ -1,0 +1,129 @@
+#include "app/division/whole_error.h"
+
+#include "app/settings/text.h"
+#include "app/terminal/stopwatch.h"
+#include "radiosity/final_gather/division_error.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/sampling/workers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace hemilux {
+namespace {
+
+/// Rays to find out the error of the division: of all before, at most one in so many.
+constexpr std::uint64_t share_of_rays = 2;
+
+/// Errors of the division below this are not resolved where nothing asks for it.
+constexpr double resolved_on_fixed_patches = .01;
+
+/// With --divide auto the estimated error is that of the light as given out: gathered, or both
+/// errors of patches together.
+void enter(Statistics& statistics, const DivisionError& of_patches, bool divide_auto,
+           const std::optional<DivisionError>& gathered) {
+    statistics.error_division = of_patches.error;
+    statistics.error_division_uncertainty = of_patches.uncertainty;
+    if (gathered) {
+        statistics.estimated_error = gathered->error;
+        statistics.estimated_error_uncertainty = gathered->uncertainty;
+    } else if (divide_auto) {
+        const double whole = std::hypot(statistics.error_sampling, of_patches.error);
+        statistics.estimated_error_uncertainty =
+            std::hypot(statistics.error_sampling * statistics.estimated_error_uncertainty,
+                       of_patches.error * of_patches.uncertainty) /
+            whole;
+        statistics.estimated_error = whole;
+    }
+}
+
+} // namespace
+
+double whole_error(const SolveSettings& settings) {
+    constexpr double usual = .05, usual_gathered = .02;
+    return settings.stop.error.value_or(gives_gathered_light(settings) ? usual_gathered : usual);
+}
+
+double resolved_gathered_error(const SolveSettings& settings) { return whole_error(settings) / 4; }
+
+bool gathers_near(const SolveSettings& settings) {
+    return std::ranges::any_of(settings.outputs, is_picture, &Output::kind);
+}
+
+bool gives_gathered_light(const SolveSettings& settings) {
+    const bool is_of_patches =
+        !settings.error_map.empty() || !settings.report.empty() ||
+        !std::ranges::all_of(settings.outputs, [](const Output& output) {
+            return is_picture(output.kind) && output.kind != OutputKind::exr; // layers of patches
+        });
+    const bool pictures = !settings.outputs.empty() && settings.gather_pictures;
+    return !is_of_patches && (settings.outputs.empty() || pictures) &&
+           (pictures || !settings.points.path.empty());
+}
+
+void add_division_error(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
+                        const Tracer& tracer, const Solution& solution, const Divided& divided,
+                        const StopFlag& interrupted) {
+    statistics.error_sampling = statistics.estimated_error;
+    if (!solution.weight.empty()) // all that was not asked for is too rough to tell
+        return;
+    const bool is_gathered = settings.divide_auto && gives_gathered_light(settings);
+    std::optional<DivisionError> of_patches, gathered;
+    if (solution.steps == divided.before.steps) {
+        of_patches = divided.error;
+        gathered = divided.gathered;
+    }
+    if (settings.divide_auto)
+        statistics.estimated_error_of = is_gathered ? ErrorOf::gathered : ErrorOf::surfaces;
+    if (!of_patches && !gathered && (solution.steps == 0 || interrupted)) {
+        if (settings.divide_auto) // the whole error is not known
+            statistics.estimated_error = statistics.estimated_error_uncertainty =
+                std::numeric_limits<double>::quiet_NaN();
+        return;
+    }
+    const Stopwatch watch;
+    const Workers workers(settings.options.threads);
+    DivisionErrorOptions options{
+        .most_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
+                     share_of_rays};
+    if (is_gathered && !gathered) {
+        options.seed = hash_words({settings.options.seed, 5});
+        options.negligible = resolved_gathered_error(settings);
+        gathered = gathered_error(mesh, tracer, solution, gathers_near(settings), options, workers,
+                                  interrupted);
+        statistics.rays_division_error += gathered->rays;
+    }
+    if (!of_patches) {
+        options.seed = hash_words({settings.options.seed, 1});
+        options.negligible = std::max(statistics.error_sampling / 2,
+                                      settings.divide_auto ? 0 : resolved_on_fixed_patches);
+        of_patches = division_error(mesh, tracer, solution, options, workers, interrupted,
+                                    gathered ? &*gathered : nullptr);
+        statistics.rays_division_error += of_patches->rays;
+        const double before = statistics.seconds_division_error;
+        statistics.seconds_division_error = (before > 0 ? before : 0) + watch.seconds();
+    }
+    enter(statistics, *of_patches, settings.divide_auto, gathered);
+}
+
+std::string whole_error_note(const SolveSettings& settings, const Statistics& statistics) {
+    const bool is_asked = settings.stop.error || (!settings.stop.steps && !settings.stop.seconds);
+    if (!settings.divide_auto || !is_asked || statistics.estimated_error <= whole_error(settings) ||
+        !std::isfinite(statistics.error_division))
+        return "";
+    const std::string options =
+        settings.divide == Divide::by_default ? "--divide auto" : "--memory, --time";
+    if (statistics.estimated_error_of == ErrorOf::gathered)
+        return "the run ended before the error of " + percent(whole_error(settings)) +
+               " of gathered light was reached, which more patches (" + options +
+               ") and more rays (--max-rays, --time) make less";
+    const bool of_division = statistics.error_division > statistics.error_sampling;
+    return "the run ended before the whole error of " + percent(whole_error(settings)) +
+           " was reached; most of what is left is of " +
+           (of_division ? "the division, which more patches (" + options + ") make less"
+                        : "sampling, which more rays (--max-rays, --time) make less");
+}
+
+} // namespace hemilux

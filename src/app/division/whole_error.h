@@ -1,0 +1,33 @@
+#pragma once
+// The whole error of the light as given out: which it is, and how large.
+
+#include "app/division/auto_division.h"
+#include "app/settings/settings.h"
+#include "io/results/statistics.h"
+
+#include <string>
+
+namespace hemilux {
+
+/// The whole error that a run with --divide auto is to reach.
+[[nodiscard]] double whole_error(const SolveSettings& settings);
+
+/// Whether all light that is given out is gathered at points or for pictures, none as patches have
+/// it. The whole error is then that of gathered light.
+[[nodiscard]] bool gives_gathered_light(const SolveSettings& settings);
+/// Errors of gathered light below this are not resolved.
+[[nodiscard]] double resolved_gathered_error(const SolveSettings& settings);
+/// Whether it is gathered for pictures, whose rays read the patches that they meet however near.
+[[nodiscard]] bool gathers_near(const SolveSettings& settings);
+
+/// Adds the error of the division to the statistics of a solution, and with --divide auto makes the
+/// estimated error that of the light as given out. With --for it stays unknown.
+void add_division_error(Statistics& statistics, const SolveSettings& settings, const Mesh& mesh,
+                        const Tracer& tracer, const Solution& solution, const Divided& divided,
+                        const StopFlag& interrupted);
+
+/// Where --divide auto has not reached the whole error asked for: why. Else empty.
+[[nodiscard]] std::string whole_error_note(const SolveSettings& settings,
+                                           const Statistics& statistics);
+
+} // namespace hemilux

@@ -1,0 +1,31 @@
+#pragma once
+// How the power of a patch becomes rays. A strategy's file chooses; the engine knows no more of it.
+
+#include "radiosity/hemisphere/cell_directions.h"
+
+namespace hemilux {
+
+/// Where rays into a cell start; those into the whole hemisphere start anywhere.
+enum class RayOrigins {
+    anywhere, ///< uniform over the patch, or over the part that a private cell belongs to
+    centre,   ///< of that: biased (docs/decisions.md, D2)
+};
+
+/// How many rays a patch shoots in a bounce.
+enum class RaysPerPatch {
+    by_power,    ///< in proportion to its unshot power, made whole by systematic sampling
+    same_number, ///< N_hemi each, and N_tr rounded: what is due less than half a ray is lost (D10)
+};
+
+struct ShootingRules {
+    CellArea area = CellArea::projected_solid_angle;
+    RayOrigins origins = RayOrigins::anywhere;
+    RaysPerPatch rays = RaysPerPatch::by_power;
+};
+
+/// The rules of the paper as printed.
+inline constexpr ShootingRules printed_rules{.area = CellArea::solid_angle,
+                                             .origins = RayOrigins::centre,
+                                             .rays = RaysPerPatch::same_number};
+
+} // namespace hemilux
