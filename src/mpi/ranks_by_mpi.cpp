@@ -1,8 +1,10 @@
 #include "mpi/ranks_by_mpi.h"
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <mpi.h>
+#include <thread>
 
 namespace hemilux {
 namespace {
@@ -89,9 +91,15 @@ extern "C" const hemilux::Ranks* hemilux_start_ranks() {
     return hemilux::ranks.get();
 }
 
-extern "C" void hemilux_end_ranks() {
+extern "C" int hemilux_end_ranks(int code) {
+    constexpr auto pause = std::chrono::milliseconds(5); // MPI itself would look without end
+    MPI_Request of_first = MPI_REQUEST_NULL;
+    MPI_Ibcast(&code, 1, MPI_INT, 0, MPI_COMM_WORLD, &of_first);
+    for (int is_there = 0; MPI_Test(&of_first, &is_there, MPI_STATUS_IGNORE), !is_there;)
+        std::this_thread::sleep_for(pause);
     hemilux::ranks.reset();
     MPI_Finalize();
+    return code;
 }
 
 extern "C" void hemilux_abort_ranks(int code) { MPI_Abort(MPI_COMM_WORLD, code); }

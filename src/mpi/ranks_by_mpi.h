@@ -8,8 +8,9 @@ namespace hemilux {
 
 /// Starts MPI; the ranks live until it is ended. nullptr where that fails.
 using StartRanks = const Ranks* (*)();
-/// Ends MPI: all ranks call it, after everything else.
-using EndRanks = void (*)();
+/// Ends MPI: all ranks call it, after everything else. Returns the first one's code, for which the
+/// others wait without work, as it may still write.
+using EndRanks = int (*)(int code);
 /// Ends all ranks at once with this exit code; any of them may call it at any time.
 using AbortRanks = void (*)(int code);
 

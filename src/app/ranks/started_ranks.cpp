@@ -82,13 +82,7 @@ void StartedRanks::be_silent() {
     dup2(nowhere, STDERR_FILENO);
 }
 
-int StartedRanks::end(int code) {
-    if (!end_ranks_)
-        return code;
-    code = ranks_->of_first(code);
-    end_ranks_();
-    return code;
-}
+int StartedRanks::end(int code) const { return end_ranks_ ? end_ranks_(code) : code; }
 
 void StartedRanks::fail(int code, const std::string& message) const {
     constexpr auto until_the_first_has_spoken = std::chrono::seconds(2);

@@ -16,7 +16,7 @@ class StartedRanks {
 
     [[nodiscard]] const Ranks& ranks() const { return *ranks_; }
     /// Called by all ranks at the end: the exit code of the first.
-    [[nodiscard]] int end(int code);
+    [[nodiscard]] int end(int code) const;
     /// Of a rank that cannot go on: ends all of them. What all ranks meet the first one says; what
     /// one alone meets is said with its number.
     void fail(int code, const std::string& message) const;
@@ -26,7 +26,7 @@ class StartedRanks {
     void be_silent();
 
     const Ranks* ranks_ = &one_rank();
-    void (*end_ranks_)() = nullptr;
+    int (*end_ranks_)(int code) = nullptr;
     void (*abort_ranks_)(int code) = nullptr;
     int errors_ = 2; ///< the descriptor for a message that must be said
 };
