@@ -43,7 +43,7 @@ std::string lightmap_path(const std::string& glb) {
 }
 
 void check_writable(const std::string& path) {
-    if (path == standard_output)
+    if (path == standard_output || writes_no_files())
         return;
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
