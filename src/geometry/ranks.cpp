@@ -1,7 +1,7 @@
 #include "geometry/ranks.h"
 
 #include <algorithm>
-#include <functional>
+#include <memory>
 #include <numeric>
 
 namespace hemilux {
@@ -86,17 +86,20 @@ void OwnBlocks::gather_rounds(std::span<std::byte> some, std::size_t bytes_of_bl
             packed += size;
         }
     };
-    std::vector<std::byte> own(sizes[ranks_->index()]), all(some.size());
-    for_blocks_of(ranks_->index(), own.data(),
+    const std::size_t own_size = sizes[ranks_->index()];
+    const auto own = std::make_unique_for_overwrite<std::byte[]>(own_size);
+    const auto all = std::make_unique_for_overwrite<std::byte[]>(some.size());
+    for_blocks_of(ranks_->index(), own.get(),
                   [](const std::byte* item, std::byte* packed, std::size_t size) {
                       std::memcpy(packed, item, size);
                   });
-    ranks_->gather(own, sizes, all);
-    std::byte* packed = all.data();
+    ranks_->gather({own.get(), own_size}, sizes, {all.get(), some.size()});
+    std::byte* packed = all.get();
     for (std::size_t r = 0; r < count; packed += sizes[r++])
-        for_blocks_of(r, packed, [](std::byte* item, const std::byte* from, std::size_t size) {
-            std::memcpy(item, from, size);
-        });
+        if (r != ranks_->index())
+            for_blocks_of(r, packed, [](std::byte* item, const std::byte* from, std::size_t size) {
+                std::memcpy(item, from, size);
+            });
 }
 
 } // namespace hemilux
