@@ -105,7 +105,7 @@ std::uint64_t kind_of(const Patch& patch) {
 /// How good a view is, by a few rays.
 struct Rating {
     double score = 0;
-    double enclosed = 0; ///< the share of rays that meet something of the scene
+    double enclosed = 0; ///< the share of rays that meet a front of the scene
 };
 
 bool is_from_outside(const Camera& camera) { return camera.vertical_fov_degrees == outside_fov; }
@@ -128,11 +128,13 @@ Rating rate(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
     for (std::size_t k = 0; k < rays.size(); ++k) {
         if (hits[k].facet == none)
             continue;
-        if (!mesh.scene().materials[mesh.scene().facets[hits[k].facet].material].is_far)
-            result.enclosed += 1.0 / rays.size();
         const Hit hit = tracer.locate(rays[k], hits[k].facet);
         const std::uint32_t patch = mesh.patch_at(hit);
-        if (patch != none && lit[patch]) {
+        if (patch == none)
+            continue;
+        if (is_near(mesh, patch))
+            result.enclosed += 1.0 / rays.size();
+        if (lit[patch]) {
             seen.push_back(kind_of(mesh.patches()[patch]));
             depths.push_back(hit.t);
         }
@@ -150,16 +152,16 @@ Rating rate(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
     return result;
 }
 
-/// Whether views from within the scene's box mostly look past what is there: a thing, not a room.
+/// Whether hardly a view from within the scene's box shows walls all around: a thing, not rooms.
 bool is_object(std::span<const Camera> cameras, std::span<const Rating> ratings) {
-    constexpr double least_of_room = 0.5;
+    constexpr double all_around = 0.8, least_of_rooms = 0.1;
     double enclosed = 0, views = 0;
     for (std::size_t i = 0; i < cameras.size(); ++i)
         if (!is_from_outside(cameras[i])) {
-            enclosed += ratings[i].enclosed;
+            enclosed += ratings[i].enclosed > all_around;
             views += 1;
         }
-    return enclosed < least_of_room * views;
+    return enclosed < least_of_rooms * views;
 }
 
 } // namespace
