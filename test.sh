@@ -16,7 +16,7 @@ usage() {
 }
 preset=dev
 slow=yes
-packages=catch2
+packages="catch2 libopenmpi-dev openmpi-bin"
 [ $# -le 1 ] || { usage >&2; exit 1; }
 case ${1-} in
 '') ;;

@@ -6,6 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/density.h"
 #include "app/commands/formfactors.h"
+#include "app/ranks/started_ranks.h"
 #include "app/running/signals.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
@@ -16,6 +17,7 @@
 #include <array>
 #include <cstdio>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,11 +36,6 @@ void keep_freed_memory() {
     (void)mallopt(M_MMAP_THRESHOLD, 1 << 25); // the largest that it takes
     (void)mallopt(M_TRIM_THRESHOLD, 1 << 26);
 #endif
-}
-
-int fail(int code, const char* message, const char* advice = "") {
-    std::fprintf(stderr, "hemilux: %s%s\n", printable_message(message).c_str(), advice);
-    return code;
 }
 
 /// The arguments after the program's name; `help` and `help SUBCOMMAND` are --help in other words.
@@ -85,12 +82,13 @@ std::string parsed(Arguments& program, const ConfigWords& config) {
 }
 
 /// `advice` names the help of the subcommand, where one is asked for.
-int run_program(std::vector<std::string> words, std::string& advice) {
+int run_program(std::vector<std::string> words, const Ranks& ranks, std::string& advice) {
     Arguments program("hemilux",
                       "hemilux " HEMILUX_VERSION
                       ": radiosity by hemisphere subdivision, and the methods around it");
     SolveSettings solve_settings;
     CompareSettings compare_settings;
+    solve_settings.ranks = compare_settings.ranks = &ranks;
     DensitySettings density_settings;
     FormFactorSettings formfactor_settings;
     InfoSettings info_settings;
@@ -133,8 +131,16 @@ int run_program(std::vector<std::string> words, std::string& advice) {
 /// Every error ends here, as one message and an exit code.
 int guarded_main(int argc, const char* const* argv) {
     std::string advice = "\nhemilux --help tells what can be asked for.";
+    std::optional<StartedRanks> started;
+    const auto fail = [&](int code, const char* message, const char* more = "") {
+        std::fprintf(stderr, "hemilux: %s%s\n", printable_message(message).c_str(), more);
+        if (started)
+            started->fail(code, printable_message(message));
+        return code;
+    };
     try {
-        return run_program(arguments_of(argc, argv), advice);
+        started.emplace();
+        return started->end(run_program(arguments_of(argc, argv), started->ranks(), advice));
     } catch (const UsageError& error) {
         return fail(exit_usage, error.what(), advice.c_str());
     } catch (const InputError& error) {

@@ -36,9 +36,19 @@ std::string Workplace::read(const std::string& name) const {
 }
 
 Workplace::Outcome Workplace::hemilux(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" HEMILUX_PROGRAM "' " +
-                                arguments + " >stdout.txt 2>stderr.txt </dev/null";
-    const int status = std::system(command.c_str());
+    return run("'" HEMILUX_PROGRAM "' " + arguments);
+}
+
+/// There may be fewer cores, and the user may be root in a container.
+Workplace::Outcome Workplace::hemilux_on(int ranks, const std::string& arguments) const {
+    return run("mpirun --quiet --allow-run-as-root --oversubscribe -n " + std::to_string(ranks) +
+               " '" HEMILUX_PROGRAM "' " + arguments);
+}
+
+Workplace::Outcome Workplace::run(const std::string& command) const {
+    const std::string in_folder =
+        "cd '" + folder_.string() + "' && { " + command + "; } >stdout.txt 2>stderr.txt </dev/null";
+    const int status = std::system(in_folder.c_str());
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return {code, read("stdout.txt"), read("stderr.txt")};
 }

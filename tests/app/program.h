@@ -30,11 +30,16 @@ class Workplace {
     /// `hemilux ARGUMENTS` by the shell, which expands them, inside the folder.
     [[nodiscard]] Outcome hemilux(const std::string& arguments) const;
 
+    /// The same as so many processes that mpirun starts.
+    [[nodiscard]] Outcome hemilux_on(int ranks, const std::string& arguments) const;
+
     /// room.obj with room.mtl: a closed box of 24 quads, a lamp in its ceiling, groups `walls`,
     /// `lamp` and `detail_floor`.
     void write_room() const;
 
   private:
+    [[nodiscard]] Outcome run(const std::string& command) const;
+
     std::filesystem::path folder_;
 };
 

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 /// Folders of src/; those of radiosity, io and app have no files of their own but main.cpp.
 const std::vector<std::string> rooms{
     "geometry",
+    "mpi",
     "bvh",
     "bvh/wide",
     "radiosity/sampling",
@@ -46,6 +47,7 @@ const std::vector<std::string> rooms{
     "io/meshes",
     "io/drawings",
     "app/settings",
+    "app/ranks",
     "app/terminal",
     "app/loading",
     "app/report",
@@ -87,6 +89,8 @@ bool may_include_system(const std::string& file, const std::string& header) {
                file == "app/report/run_data.cpp";
     if (begins("CLI/"))
         return file == "app/command_line/arguments.cpp";
+    if (header == "mpi.h")
+        return layer == "mpi" && source;
     if (header == "immintrin.h" || header == "sys/mman.h")
         return layer == "bvh"; // intrinsics and huge pages
     const bool standard = header.find_first_of("./") == std::string::npos;

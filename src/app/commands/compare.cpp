@@ -43,7 +43,12 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
     if (!method.work_with(options).estimates_error)
         options.factors = {};
     options.seed = hash_words({options.seed, 0x7265666572656e63u});
-    const SolverInput input{mesh, tracer, options, monitor, needs};
+    const SolverInput input{.mesh = mesh,
+                            .tracer = tracer,
+                            .options = options,
+                            .monitor = monitor,
+                            .needs = needs,
+                            .ranks = *settings.ranks};
     Progress progress(monitor, share_of(stop, method), wants_bar(settings));
     progress.set_topic("reference");
     const std::unique_ptr<Solver> solver = method.make(input);
@@ -113,6 +118,8 @@ void check_reference(const Comparison& comparison, std::span<const MethodSummary
 
 int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
     const Verbosity verbosity = comparison.settings.verbosity;
+    if (!comparison.settings.ranks->is_first()) // whose result is the first one's
+        return exit_done;
     drop_empty(results);
     WriteReport report;
     if (!results.empty()) {
@@ -166,6 +173,7 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     const Needs& needs = prepared.needs;
     const auto& [tracer, tree] = prepared.made;
     guard.watch(monitor.interrupted);
+    monitor.interrupted.share(*settings.ranks);
     log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, prepared.seconds));
     if (!reference)
         reference = compute_reference(settings, mesh, *tracer, needs, monitor);
@@ -181,7 +189,7 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     if (settings.reference.empty()) {
         const WriteReport report = write_reference(comparison);
         report.log(settings.verbosity);
-        if (!report.failed.empty())
+        if (settings.ranks->any(!report.failed.empty()))
             return exit_output;
     }
     std::optional<SolveError> fault;

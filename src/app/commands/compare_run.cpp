@@ -34,9 +34,13 @@ class Runner {
         options_.literal = options_.literal && variant.method->has_literal;
         options_.guide = variant.guide.value_or(options_.guide);
         const Stopwatch preparing;
-        solver_ = variant.method->make(
-            {comparison.mesh, comparison.tracer, options_, comparison.monitor, comparison.needs});
-        seconds_ = preparing.seconds();
+        solver_ = variant.method->make({.mesh = comparison.mesh,
+                                        .tracer = comparison.tracer,
+                                        .options = options_,
+                                        .monitor = comparison.monitor,
+                                        .needs = comparison.needs,
+                                        .ranks = ranks()});
+        seconds_ = ranks().of_first(preparing.seconds());
     }
 
     /// False when it was interrupted, or cut short as it took much longer than the budget.
@@ -44,11 +48,11 @@ class Runner {
         const double before = used();
         const Stopwatch stepping;
         const TimeLimit limit(comparison_.monitor.interrupted, seconds_left());
-        if (!solver_->step()) {
-            cut_short_ = !comparison_.monitor.interrupted.load();
+        if (comparison_.monitor.interrupted.agree() || !solver_->step()) {
+            cut_short_ = !comparison_.monitor.interrupted.wished();
             return false;
         }
-        seconds_ += stepping.seconds();
+        seconds_ += ranks().of_first(stepping.seconds());
         step_before_ = last_step_;
         last_step_ = used() - before;
         result_.rows.push_back(row());
@@ -84,6 +88,7 @@ class Runner {
             return std::nullopt;
         return std::max(2 * *budget_.seconds - seconds_, least);
     }
+    [[nodiscard]] const Ranks& ranks() const { return *comparison_.settings.ranks; }
     [[nodiscard]] double limit() const { return budget_.rays ? *budget_.rays : *budget_.seconds; }
     [[nodiscard]] double used() const {
         return budget_.rays ? static_cast<double>(rays()) : seconds_;

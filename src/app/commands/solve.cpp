@@ -147,7 +147,9 @@ void SolveRun::build_tree() {
     log_line(settings_.verbosity, Verbosity::verbose,
              tracer_text(prepared_->made.tree, statistics_.seconds_bvh));
     target_ = target_weights(settings_, mesh(), tracer());
-    input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs, target_});
+    input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs, target_,
+                               *settings_.ranks});
+    monitor_.interrupted.share(*settings_.ranks);
     guard_.watch(monitor_.interrupted);
 }
 
@@ -247,9 +249,14 @@ void SolveRun::estimate_errors() {
     if (!settings_.plain) // which leaves out nothing
         statistics_.left_out = left_out(prepared_->needs, settings_.work(), *solution_);
     statistics_.bytes_peak = peak_memory_bytes();
+    if (settings_.ranks->are_several())
+        statistics_.ranks =
+            settings_.ranks->of_each(RankFigures{settings_.ranks->work(), statistics_.bytes_peak});
 }
 
 int SolveRun::write() {
+    if (!settings_.ranks->is_first()) // whose result is the first one's
+        return exit_done;
     const bool interrupted = !completed_ && !fault_;
     SolveSettings shown = settings_;
     shown.view.camera = camera_;
@@ -258,7 +265,7 @@ int SolveRun::write() {
                              loaded_->warnings, monitor_.interrupted},
                             of_steps_, reference_, *notes_, interrupted, started_,
                             resumed_ ? resumed_->seconds : 0);
-    if (interrupted)
+    if (interrupted && !settings_.ranks->are_several())
         end_at_once(code);
     if (!fault_ || code != exit_done)
         return code;

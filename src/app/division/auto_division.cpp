@@ -37,8 +37,8 @@ constexpr double safe = .9, least_step = .5, most_step = .9, least_step_of_gathe
 constexpr unsigned most_attempts = 8;
 
 /// Rays to find out the error of the division where patches were divided by rays: of all before, at
-/// most one in so many.
-constexpr std::uint64_t share_of_divided = 5;
+/// most one in so many; but so many are always worth it.
+constexpr std::uint64_t share_of_divided = 5, least_rays_of_error = 400'000;
 
 std::string round_text(const DivisionRound& round) {
     return "division: " + counted(round.patches, "patch", "patches") + ", within them the light " +
@@ -218,7 +218,8 @@ void AutoDivision::divide_until_enough() {
         statistics_.rays_divide += division.add_slopes(divided_.rough, options_.error);
         const double sampling = estimated_error(mesh_, divided_.rough);
         const std::uint64_t rays = divided_.rough.rays_energy + statistics_.rays_divide;
-        measure(rays / share_of_divided, sampling / 2, division.squares());
+        measure(std::max(rays / share_of_divided, least_rays_of_error), sampling / 2,
+                division.squares());
         const bool is_limited = !(sampling <= *divided_.sampling); // by rays or steps
         if (is_over() || is_enough(sampling) || is_limited)
             break;

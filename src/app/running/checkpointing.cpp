@@ -127,7 +127,8 @@ Checkpointer::Checkpointer(const SolveSettings& settings, const Mesh& mesh, cons
 
 void Checkpointer::step_done(const std::vector<StepRow>& rows, double seconds) {
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_;
-    if (since.count() >= settings_.checkpoint.every.value_or(CheckpointSettings::default_every))
+    if (settings_.ranks->any(since.count() >= settings_.checkpoint.every.value_or(
+                                                  CheckpointSettings::default_every)))
         write(rows, seconds);
 }
 
@@ -149,7 +150,7 @@ void Checkpointer::write(const std::vector<StepRow>& rows, double seconds) {
                          {options_of(settings_), scene_, seconds, rows, std::move(state).bytes()});
     });
     last_ = std::chrono::steady_clock::now();
-    if (!report_.written.empty())
+    if (settings_.ranks->all(!report_.written.empty()))
         steps_written_ = solver_.solution().steps;
     else if (first_failure && !report_.failed.empty())
         log_line(settings_.verbosity, Verbosity::normal, "warning: " + report_.failed.front());

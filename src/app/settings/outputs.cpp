@@ -39,7 +39,7 @@ std::optional<Output> parse_output(std::string_view path) {
 }
 
 void check_writable(const std::string& path) {
-    if (path == standard_output)
+    if (path == standard_output || writes_no_files())
         return;
     std::error_code error;
     const fs::file_status status = fs::status(path, error);

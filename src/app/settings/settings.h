@@ -123,6 +123,7 @@ struct SolveSettings {
     static constexpr unsigned bake_rays_per_gather_ray = 64;
     bool gather_pictures = true; ///< else they interpolate the light of the patches
     Verbosity verbosity = Verbosity::normal;
+    const Ranks* ranks = &one_rank(); ///< that solve it together
 
     /// What the method does in this run.
     [[nodiscard]] MethodWork work() const { return method->work_with(options); }
@@ -157,6 +158,7 @@ struct CompareSettings {
     std::string folder;
     std::vector<std::string> detail; ///< groups; empty: those that begin with `detail`
     Verbosity verbosity = Verbosity::normal;
+    const Ranks* ranks = &one_rank(); ///< that work at it together
 };
 
 struct InfoSettings {

@@ -47,6 +47,7 @@ bool is_written_as_it_is_open(int descriptor) {
 }
 
 std::atomic<const std::atomic<bool>*> ends_waits{nullptr};
+std::atomic<bool> no_files{false};
 
 /// A wait for another process, in short pauses: a signal may reach any thread at any moment, so
 /// only looking again and again never misses it.
@@ -66,6 +67,9 @@ class Wait {
 
 } // namespace
 
+void write_no_files() { no_files = true; }
+bool writes_no_files() { return no_files; }
+
 void end_waits_on(const std::atomic<bool>* flag) { ends_waits = flag; }
 
 bool wait_until_writable(int descriptor) {
@@ -79,6 +83,8 @@ bool wait_until_writable(int descriptor) {
 AtomicFile::AtomicFile(const std::string& path)
     : path_(path == standard_output ? "standard output" : path),
       target_(path == standard_output ? "/dev/stdout" : path) {
+    if (no_files)
+        return;
     if (path == standard_output) {
         if (is_written_as_it_is_open(STDOUT_FILENO))
             descriptor_ = ::dup(STDOUT_FILENO);
@@ -134,12 +140,16 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::string_view bytes) {
+    if (descriptor_ < 0)
+        return;
     buffer_ += bytes;
     if (buffer_.size() >= buffer_size)
         flush();
 }
 
 void AtomicFile::commit(Durable durable) {
+    if (descriptor_ < 0)
+        return;
     flush();
     take_over_access();
     if (durable == Durable::yes && !temporary_.empty() && ::fsync(descriptor_) != 0)

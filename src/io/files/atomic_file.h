@@ -44,6 +44,11 @@ class AtomicFile {
     int descriptor_ = -1;
 };
 
+/// From now on no file is opened or written: another process writes what this one would.
+void write_no_files();
+/// Whether that was asked for.
+[[nodiscard]] bool writes_no_files();
+
 /// Once the flag is set, a pipe whose reader takes nothing for a second is given up: Interrupted is
 /// thrown. nullptr: pipes are waited for without end, as at the start.
 void end_waits_on(const std::atomic<bool>* flag);

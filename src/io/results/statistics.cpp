@@ -92,6 +92,12 @@ Json to_object(const Statistics& s) {
         object["for"] = s.target;
         object["estimated_error_elsewhere"] = s.estimated_error_elsewhere;
     }
+    for (const auto& [work, bytes_peak] : s.ranks)
+        object["ranks"].push_back({{"rays", work.rays},
+                                   {"matrix_entries", work.entries},
+                                   {"bytes_sent", work.sent},
+                                   {"bytes_received", work.received},
+                                   {"bytes_peak", bytes_peak}});
     object["program"] = s.program;
     object["settings"] = settings(s.settings);
     return object;

@@ -1,6 +1,7 @@
 #pragma once
 // The figures of a run, as the JSON object that other tools read (docs: the program's outputs).
 
+#include "geometry/ranks.h"
 #include "radiosity/solving/left_out.h"
 #include "radiosity/solving/solution.h"
 
@@ -21,6 +22,12 @@ struct GivenOption {
 /// functions on patches have it; of the light that is gathered at points or for pictures; of that
 /// on the target of --for.
 enum class ErrorOf { patches, surfaces, gathered, target };
+
+/// Of one rank.
+struct RankFigures {
+    RankWork work;
+    std::uint64_t bytes_peak;
+};
 
 struct Statistics {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); ///< JSON: null
@@ -64,6 +71,8 @@ struct Statistics {
     double error_division = unknown, error_division_uncertainty = unknown;
     EnergyBalance energy;
     std::vector<LeftOut> left_out;
+    /// What each rank has done, where there are several.
+    std::vector<RankFigures> ranks = {};
     std::string program; ///< with its version, whose defaults hold for options that are not given
     std::vector<GivenOption> settings;
 };

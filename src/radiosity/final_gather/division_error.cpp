@@ -23,18 +23,21 @@ namespace {
 /// Rounds of points: many, since the spread of a few would end them when it happens to be small.
 constexpr std::size_t least_rounds = 16;
 
-/// In each: of patches few hold most of the error, that of gathered light is much the same
-/// everywhere.
-constexpr std::size_t points_of_patches = 64, points_of_gathered = 16;
+/// What depends on how the error varies over the surfaces: of patches few hold most of it, that of
+/// gathered light is much the same everywhere.
+struct Manner {
+    std::size_t points_per_round;
+    /// Relative uncertainty of the squared error at which it is known well enough: where few places
+    /// hold it, what is known of its spread is uncertain itself.
+    double well_known;
+};
+constexpr Manner of_patches{64, .15}, of_gathered{16, .25};
 
 /// So many points times the length of gathers at the most, in a round.
 constexpr std::size_t longest_round = 4096;
 
-/// Relative uncertainty of the squared error at which it is known well enough.
-constexpr double well_known = .25;
-
 /// Of the error within patches, as what has spread to others is found out.
-constexpr double share_of_spread = 1. / 3;
+constexpr double share_of_spread = .4;
 
 /// Sums over independent rounds of points.
 struct Rounds {
@@ -139,19 +142,19 @@ double uncertainty_by_noise(double noise_square, std::size_t points) {
 /// noise leaves too much uncertainty longer gathers know the error sooner than more points would.
 /// They begin anew, as a sum that ends by its own spread is biased.
 DivisionError error_at_points(const Mesh& mesh, double size, const OffAt& off_at,
-                              FinalGather& gather, const OtherError& other,
-                              std::size_t points_per_round, const DivisionErrorOptions& options,
-                              const Workers& workers, const StopFlag& interrupted) {
+                              FinalGather& gather, const OtherError& other, const Manner& manner,
+                              const DivisionErrorOptions& options, const Workers& workers,
+                              const StopFlag& interrupted) {
     constexpr double least_growth = 2, most_growth = 4;
     DivisionError result;
     const double negligible = options.negligible * options.negligible;
     const PointsOverSurface surface(mesh, density_of_points(mesh, options.square));
-    const auto longest = double(longest_round / points_per_round);
+    const auto longest = double(longest_round / manner.points_per_round);
     double length = 1;
     Rounds rounds, noise;
     for (std::uint64_t number = 0;; ++number) {
         const Products sums =
-            products_over_surface(mesh, off_at, gather, surface, points_per_round,
+            products_over_surface(mesh, off_at, gather, surface, manner.points_per_round,
                                   hash_words({options.seed, number}), workers, interrupted);
         if (interrupted)
             return result;
@@ -159,10 +162,12 @@ DivisionError error_at_points(const Mesh& mesh, double size, const OffAt& off_at
         noise.add(sums.noise / size);
         if (rounds.count < least_rounds)
             continue;
-        const double enough = std::max(well_known * (rounds.mean() - other.square), negligible);
+        const double enough =
+            std::max(manner.well_known * (rounds.mean() - other.square), negligible);
         if (rounds.uncertainty() <= enough)
             break;
-        const double by_noise = uncertainty_by_noise(noise.mean(), rounds.count * points_per_round);
+        const double by_noise =
+            uncertainty_by_noise(noise.mean(), rounds.count * manner.points_per_round);
         if (by_noise > enough && length < longest) {
             const double growth = std::clamp(by_noise / enough, least_growth, most_growth);
             length = std::min(std::round(growth * length), longest);
@@ -173,7 +178,7 @@ DivisionError error_at_points(const Mesh& mesh, double size, const OffAt& off_at
         }
     }
     set_error(result, rounds, other);
-    result.points = rounds.count * points_per_round;
+    result.points = rounds.count * manner.points_per_round;
     result.rays = gather.rays();
     return result;
 }
@@ -188,8 +193,8 @@ DivisionError missing_error(const Mesh& mesh, const Tracer& tracer, const Soluti
     FinalGather gather(mesh, tracer, solution);
     gather.find_missing(reads_near);
     options.square = {};
-    return error_at_points(mesh, size, missing_at, gather, other, points_of_gathered, options,
-                           workers, interrupted);
+    return error_at_points(mesh, size, missing_at, gather, other, of_gathered, options, workers,
+                           interrupted);
 }
 
 DivisionError without(const DivisionError& all, const OtherError& other) {
@@ -243,7 +248,7 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
                         mesh.material(point.patch).emission);
     };
     DivisionError found = error_at_points(mesh, size, off_at, gather, {seen, seen * scatter},
-                                          points_of_patches, options, workers, interrupted);
+                                          of_patches, options, workers, interrupted);
     const double reflected = known.common * rho * rho;
     const OtherError of_sampling{reflected, reflected * scatter};
     const double least = std::max(found.error, std::sqrt(known.own + known.common));

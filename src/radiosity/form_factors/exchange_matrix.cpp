@@ -37,18 +37,18 @@ double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
 
 } // namespace
 
-ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& batch)
-    : scale_(mesh.patches().size(), 1.0), lost_(mesh.patches().size()) {
+ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& batch, const Workers& workers)
+    : own_(batch.own_rows()), scale_(mesh.patches().size(), 1.0), lost_(mesh.patches().size()) {
     for (const Patch& patch : mesh.patches())
         area_.push_back(patch.area);
     find_lost(batch);
     store(batch);
-    close(scalings, Workers(1));
+    close(scalings, workers);
 }
 
 ExchangeMatrix::ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers)
-    : scale_(batches[0].scale_.size()), area_(std::move(batches[0].area_)), rays_(area_.size()),
-      lost_(area_.size()) {
+    : own_(batches[0].own_), scale_(batches[0].scale_.size()), area_(std::move(batches[0].area_)),
+      rays_(area_.size()), lost_(area_.size()) {
     find_lost(batches);
     for (const ExchangeMatrix& batch : batches)
         for (std::size_t i = 0; i < scale_.size(); ++i)
@@ -79,28 +79,58 @@ void ExchangeMatrix::find_lost(std::span<const ExchangeMatrix> batches) {
         }
 }
 
+/// What rays of another rank's patch have hit.
+struct ExchangeMatrix::Hits {
+    std::uint32_t from, patch, hits;
+};
+
+/// On this rank's patches, by rank and in the order of the patches that they come from.
+std::vector<std::vector<ExchangeMatrix::Hits>>
+ExchangeMatrix::hits_of_others(const RayCounts& batch) const {
+    std::vector<std::vector<Hits>> sent(own_.ranks().count());
+    if (!own_.ranks().are_several())
+        return sent;
+    for (std::uint32_t i = 0; i < batch.patches(); ++i)
+        for (const auto& [patch, hits] : batch.row(i))
+            if (!own_.owns(patch))
+                sent[own_.owner(patch)].push_back({i, patch, hits});
+    return own_.ranks().exchange(sent);
+}
+
 /// First in each row stands what the patch saw, then by what it was seen.
 void ExchangeMatrix::store(const RayCounts& batch) {
     const auto n = static_cast<std::uint32_t>(area_.size());
+    const std::vector<std::vector<Hits>> others = hits_of_others(batch);
     std::vector<double> rays_per_area(n);
     std::vector<std::uint32_t> sizes(n);
     for (std::uint32_t i = 0; i < n; ++i) {
         rays_per_area[i] = area_[i] > 0 ? rays_[i] / area_[i] : 0;
         sizes[i] += static_cast<std::uint32_t>(batch.row(i).size());
         for (const RayCounts::Count& count : batch.row(i))
-            ++sizes[count.patch];
+            sizes[count.patch] += own_.owns(count.patch);
     }
+    for (const std::vector<Hits>& of_rank : others)
+        for (const Hits& hits : of_rank)
+            ++sizes[hits.patch];
     rows_ = SparseRows(std::move(sizes));
     std::vector<MatrixEntry*> next(n);
     for (std::uint32_t i = 0; i < n; ++i)
         next[i] = rows_.to_write(i) + batch.row(i).size();
+    const auto value_of = [&](std::uint32_t i, std::uint32_t j, std::uint32_t hits) {
+        return static_cast<float>(hits / (rays_per_area[i] + rays_per_area[j]));
+    };
+    std::vector<std::size_t> read(others.size());
     for (std::uint32_t i = 0; i < n; ++i) {
         MatrixEntry* seen = rows_.to_write(i);
         for (const auto& [j, hits] : batch.row(i)) {
-            const auto value = static_cast<float>(hits / (rays_per_area[i] + rays_per_area[j]));
+            const float value = value_of(i, j, hits);
             *seen++ = {j, value};
-            *next[j]++ = {i, value};
+            if (own_.owns(j))
+                *next[j]++ = {i, value};
         }
+        const std::vector<Hits>& of_rank = others[own_.owner(i)];
+        for (std::size_t& k = read[own_.owner(i)]; k < of_rank.size() && of_rank[k].from == i; ++k)
+            *next[of_rank[k].patch]++ = {i, value_of(i, of_rank[k].patch, of_rank[k].hits)};
     }
 }
 
@@ -153,7 +183,7 @@ void ExchangeMatrix::find_scale(std::span<const double> due, int times, const Wo
     const std::size_t n = area_.size();
     std::vector<double> before, after(n);
     for (int k = 0; k < times; ++k) {
-        for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for_products(workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const double sum = row_sum(rows_.row(i), scale_);
                 after[i] = 1; // where the patch itself has not looked, what others saw is all
@@ -161,6 +191,7 @@ void ExchangeMatrix::find_scale(std::span<const double> due, int times, const Wo
                     after[i] = sum > 0 ? due[i] / sum : 0;
             }
         });
+        own_.gather(after);
         before = std::exchange(scale_, after);
     }
     for (std::size_t i = 0; i < n; ++i)
@@ -172,7 +203,7 @@ void ExchangeMatrix::close(int times, const Workers& workers) {
     find_scale(due, times, workers);
     self_.assign(area_.size(), 0.0);
     per_area_.assign(area_.size(), 0.0);
-    for_rows(workers, [&](std::size_t begin, std::size_t end) {
+    for_products(workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const double sum = row_sum(rows_.row(i), scale_);
             if (scale_[i] > 0 && due[i] >= 0)
@@ -188,10 +219,11 @@ void ExchangeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y,
     std::vector<Lanes> z(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
         z[i] = scaled(i, x[i]);
-    for_rows(workers, [&](std::size_t begin, std::size_t end) {
+    for_products(workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             y[i] = row_times(i, z);
     });
+    own_.gather(y);
 }
 
 } // namespace hemilux

@@ -11,6 +11,7 @@
 //
 // Stored is S before it is scaled, so that the S of several batches is their mean.
 
+#include "geometry/ranks.h"
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/form_factors/sampled_form_factors.h"
 #include "radiosity/form_factors/sparse_rows.h"
@@ -25,8 +26,9 @@ namespace hemilux {
 class ExchangeMatrix {
   public:
     ExchangeMatrix() = default;
-    /// Makes the matrix from the rays of one batch.
-    ExchangeMatrix(const Mesh& mesh, const RayCounts& batch);
+    /// Makes the matrix from the rays of one batch. All ranks that have rays of it call this, as
+    /// all functions that take workers.
+    ExchangeMatrix(const Mesh& mesh, const RayCounts& batch, const Workers& workers = Workers(1));
     /// Makes the matrix from several batches, in each of which a patch shot the same number of
     /// rays.
     ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers);
@@ -52,31 +54,53 @@ class ExchangeMatrix {
     [[nodiscard]] double self_factor(std::size_t i) const {
         return per_area_[i] * self_[i] * scale_[i];
     }
-    /// Calls body(begin, end) for chunks of the rows, by as many threads as pay.
+    /// Calls body(begin, end) for chunks of this rank's rows, by as many threads as pay,
     template <class Body>
     void for_rows(const Workers& workers, const Body& body) const {
-        readers(workers).for_chunks(area_.size(), rows_per_chunk, body);
+        readers(workers).for_chunks(own_.count(), rows_per_chunk,
+                                    [&](std::size_t begin, std::size_t end) {
+                                        body(own_.item(begin), own_.item(begin) + (end - begin));
+                                    });
+    }
+    /// and counts the work of a product with each row.
+    template <class Body>
+    void for_products(const Workers& workers, const Body& body) const {
+        count_products(1);
+        for_rows(workers, body);
+    }
+    /// Counts the work of so many products with all of this rank's rows.
+    void count_products(int products) const {
+        own_.ranks().add_work(0, rows_.entries() * static_cast<std::size_t>(products));
     }
     static constexpr std::size_t rows_per_chunk = SparseRows::rows_per_chunk;
+    /// Those that this rank has; of one rank alone all.
+    [[nodiscard]] const OwnBlocks& own_rows() const { return own_; }
 
-    /// What patch i exchanges with others; a value is S before it is scaled [local area].
+    /// What patch i exchanges with others; a value is S before it is scaled [local area]. Empty
+    /// where the row is another rank's.
     [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const { return rows_.row(i); }
     /// Has an entry for each patch.
     [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }
     /// Counts, by patch, the rays that it shot itself.
     [[nodiscard]] std::span<const double> rays() const { return rays_; }
-    [[nodiscard]] std::uint64_t bytes() const { return rows_.entries() * sizeof(MatrixEntry); }
+    /// Of the rows of all ranks, which all call this.
+    [[nodiscard]] std::uint64_t bytes() const {
+        return own_.ranks().sum(rows_.entries()) * sizeof(MatrixEntry);
+    }
 
   private:
     void find_lost(const RayCounts& batch);
     void find_lost(std::span<const ExchangeMatrix> batches);
     void store(const RayCounts& batch);
+    struct Hits;
+    [[nodiscard]] std::vector<std::vector<Hits>> hits_of_others(const RayCounts& batch) const;
     void close(int times, const Workers& workers);
     [[nodiscard]] std::vector<double> due(const Workers& workers) const;
     void find_scale(std::span<const double> due, int times, const Workers& workers);
     [[nodiscard]] Workers readers(const Workers& workers) const;
 
     const MatrixKernels* kernels_ = &matrix_kernels();
+    OwnBlocks own_{one_rank(), 0};
     /// S_ij, the same number in both rows. A column may come twice in a row of a batch: as one
     /// patch saw the other, and was seen by it.
     SparseRows rows_;

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 namespace hemilux {
@@ -35,9 +37,9 @@ void draw(const Patch& from, const PolygonSampler& origins, const Frame& frame,
 
 } // namespace
 
-RayCounts::RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed)
-    : mesh_(mesh), tracer_(tracer), seed_(seed), rows_(mesh.patches().size()),
-      blocks_((rows_.size() + rows_per_block - 1) / rows_per_block) {}
+RayCounts::RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, const Ranks& ranks)
+    : mesh_(mesh), tracer_(tracer), seed_(seed), own_(ranks, mesh.patches().size()),
+      rows_(mesh.patches().size()), blocks_((rows_.size() + rows_per_block - 1) / rows_per_block) {}
 
 /// A block of rows, written anew with what was hit since.
 class RayCounts::Tally {
@@ -105,17 +107,34 @@ std::uint64_t RayCounts::trace_up_to(std::span<RayCounts> batches,
                                      Monitor& monitor, double share) {
     std::atomic<std::uint64_t> traced{0};
     std::atomic<std::size_t> done{0};
-    const std::size_t blocks = batches[0].blocks_.size(), all = batches.size() * blocks;
+    const OwnBlocks& own = batches[0].own_;
+    const std::size_t blocks = (own.count() + rows_per_block - 1) / rows_per_block,
+                      all = batches.size() * blocks;
+    std::optional<StopFlag::OfThisRank> on_this_rank(monitor.interrupted);
     workers.for_chunks_with(
         all, 1, [&] { return RayBatch(rays.size()); },
         [&](RayBatch& batch, std::size_t k, std::size_t) {
-            batches[k / blocks].trace_block(k % blocks, rays, batch, monitor);
+            const std::size_t block = own.item(k % blocks * rows_per_block) / rows_per_block;
+            batches[k / blocks].trace_block(block, rays, batch, monitor);
             traced += batch.traced;
             monitor.rays += std::exchange(batch.traced, 0);
             if (share > 0)
                 monitor.step_share = share * static_cast<double>(++done) / static_cast<double>(all);
         });
-    return traced;
+    on_this_rank.reset();
+    monitor.interrupted.agree();
+    own.ranks().add_work(traced, 0);
+    for (RayCounts& batch : batches)
+        batch.gather_rows();
+    return own.ranks().sum(traced);
+}
+
+/// All ranks know how many rays there are, but not what those of others have hit.
+void RayCounts::gather_rows() {
+    own_.gather(rows_);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+        if (!own_.owns(i))
+            rows_[i].end = 0;
 }
 
 void RayCounts::trace_block(std::size_t block, std::span<const std::uint32_t> rays, RayBatch& batch,
@@ -186,15 +205,41 @@ void RayCounts::store(std::uint32_t begin, std::uint32_t end, Tally& tally) {
     tally.clear();
 }
 
+void RayCounts::save_row(std::uint32_t patch, StateWriter& state) const {
+    const Row& of = rows_[patch];
+    for (const std::uint32_t rays : {of.rays, of.escaped, of.absorbed})
+        state.add(rays);
+    state.add(std::uint64_t{row(patch).size()});
+    for (const Count& count : row(patch)) {
+        state.add(count.patch);
+        state.add(count.hits);
+    }
+}
+
 void RayCounts::save(StateWriter& state) const {
-    for (std::uint32_t i = 0; i < rows_.size(); ++i) {
-        for (const std::uint32_t rays : {rows_[i].rays, rows_[i].escaped, rows_[i].absorbed})
-            state.add(rays);
-        state.add(std::uint64_t{row(i).size()});
-        for (const Count& count : row(i)) {
-            state.add(count.patch);
-            state.add(count.hits);
+    const Ranks& ranks = own_.ranks();
+    std::vector<std::vector<char>> sent(ranks.count());
+    if (!ranks.is_first()) {
+        StateWriter own;
+        for (std::size_t k = 0; k < own_.count(); ++k)
+            save_row(static_cast<std::uint32_t>(own_.item(k)), own);
+        sent[0].assign(own.bytes().begin(), own.bytes().end());
+    }
+    const std::vector<std::vector<char>> of_ranks = ranks.exchange(sent);
+    std::vector<std::string_view> left;
+    for (const std::vector<char>& of_rank : of_ranks)
+        left.emplace_back(of_rank.data(), of_rank.size());
+    for (std::uint32_t i = 0; ranks.is_first() && i < rows_.size(); ++i) {
+        if (own_.owns(i)) {
+            save_row(i, state);
+            continue;
         }
+        std::string_view& rows = left[own_.owner(i)];
+        constexpr std::size_t before_size = 3 * sizeof(std::uint32_t);
+        const std::uint64_t hit = StateReader(rows.substr(before_size)).whole();
+        const std::size_t size = before_size + sizeof(hit) + hit * sizeof(Count);
+        state.append(rows.substr(0, size));
+        rows.remove_prefix(size);
     }
 }
 
@@ -214,7 +259,8 @@ void RayCounts::load(StateReader& state) {
             if (!once || count.hits == 0)
                 throw StateError("a patch is no patch, or counted twice");
             sum += count.hits;
-            block.push_back(count);
+            if (own_.owns(i))
+                block.push_back(count);
         }
         // Every ray has hit something, once.
         if (sum != rows_[i].rays)
@@ -226,10 +272,11 @@ void RayCounts::load(StateReader& state) {
 }
 
 std::uint64_t RayCounts::bytes() const {
-    std::uint64_t bytes = rows_.size() * sizeof(Row) + blocks_.size() * sizeof(blocks_[0]);
+    std::uint64_t counts = 0;
     for (const std::vector<Count>& block : blocks_)
-        bytes += block.size() * sizeof(Count);
-    return bytes;
+        counts += block.size();
+    return rows_.size() * sizeof(Row) + blocks_.size() * sizeof(blocks_[0]) +
+           own_.ranks().sum(counts) * sizeof(Count);
 }
 
 } // namespace hemilux

@@ -4,6 +4,7 @@
 // be prolonged.
 
 #include "bvh/tracer.h"
+#include "geometry/ranks.h"
 #include "radiosity/sampling/workers.h"
 
 #include <cstdint>
@@ -24,8 +25,10 @@ class RayCounts {
         std::uint32_t patch, hits;
     };
 
-    /// Different seeds: independent batches. What is referred to outlives this.
-    RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed);
+    /// Different seeds: independent batches. What is referred to outlives this. Each of the ranks
+    /// traces the rays of its patches and keeps what they hit.
+    RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed,
+              const Ranks& ranks = one_rank());
 
     /// Goes on until each patch has so many rays. Returns the number traced now. Where the monitor
     /// was interrupted meanwhile some patches have fewer, and another call takes up the rest.
@@ -34,7 +37,7 @@ class RayCounts {
         return trace_up_to({this, 1}, rays, workers, monitor, 0);
     }
     /// The same in several batches of one mesh, so that no thread waits at the end of each.
-    /// `share`: what part of a step this is.
+    /// `share`: what part of a step this is. Called by all ranks; the rays are those of all.
     static std::uint64_t trace_up_to(std::span<RayCounts> batches,
                                      std::span<const std::uint32_t> rays, const Workers& workers,
                                      Monitor& monitor, double share);
@@ -42,7 +45,10 @@ class RayCounts {
     [[nodiscard]] std::uint32_t patches() const { return static_cast<std::uint32_t>(rows_.size()); }
     /// Counts the rays of this patch.
     [[nodiscard]] std::uint32_t rays(std::uint32_t patch) const { return rows_[patch].rays; }
-    /// Each patch once, in the order in which they were first hit.
+    /// Those whose row() this rank has.
+    [[nodiscard]] const OwnBlocks& own_rows() const { return own_; }
+    /// Each patch once, in the order in which they were first hit. Empty where the row is
+    /// another rank's.
     [[nodiscard]] std::span<const Count> row(std::uint32_t patch) const {
         const std::uint32_t begin = patch % rows_per_block > 0 ? rows_[patch - 1].end : 0;
         return std::span(blocks_[patch / rows_per_block]).subspan(begin, rows_[patch].end - begin);
@@ -52,8 +58,10 @@ class RayCounts {
     [[nodiscard]] std::uint32_t absorbed(std::uint32_t patch) const {
         return rows_[patch].absorbed;
     }
+    /// Of all ranks, which all call this and the following ones.
     [[nodiscard]] std::uint64_t bytes() const;
 
+    /// The state is whole on the first rank.
     void save(StateWriter& state) const;
     /// Throws StateError for what save() cannot have written of this mesh.
     void load(StateReader& state);
@@ -62,7 +70,7 @@ class RayCounts {
     static constexpr std::uint32_t rows_per_block = 16;
     struct Row {
         std::uint32_t rays = 0, escaped = 0, absorbed = 0;
-        std::uint32_t end = 0; ///< of its counts in its block
+        std::uint32_t end = 0; ///< of its counts in its block; 0 where that is another rank's
     };
     class Tally;
     struct RayBatch;
@@ -71,10 +79,13 @@ class RayCounts {
     void draw_row(std::uint32_t patch, std::uint32_t end, RayBatch& batch);
     void trace(RayBatch& batch);
     void store(std::uint32_t begin, std::uint32_t end, Tally& tally);
+    void gather_rows();
+    void save_row(std::uint32_t patch, StateWriter& state) const;
 
     const Mesh& mesh_;
     const Tracer& tracer_;
     std::uint64_t seed_;
+    OwnBlocks own_;
     std::vector<Row> rows_;
     std::vector<std::vector<Count>> blocks_; ///< the counts of some rows each
 };

@@ -52,7 +52,9 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
     std::vector<Vec3> weight(n), r(n), p(n), q(n);
     std::vector<Lanes> reflected(n);
     const std::size_t chunks = (n + factors.rows_per_chunk - 1) / factors.rows_per_chunk;
-    /// Sum of term(i) over all patches, in an order that does not depend on the threads.
+    const OwnBlocks& rows = factors.own_rows();
+    const OwnBlocks own_chunks(rows.ranks(), chunks, 1);
+    /// Sum of term(i) over all patches, in an order that does not depend on the threads or ranks.
     const auto sum = [&](const auto& term) {
         using Term = decltype(term(std::size_t{0}));
         std::vector<Term> part(chunks);
@@ -62,6 +64,7 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
                 some += term(i);
             part[begin / factors.rows_per_chunk] = some;
         });
+        own_chunks.gather(part);
         Term all{};
         for (const Term& some : part)
             all += some;
@@ -80,6 +83,7 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
             reflect(i, h[i]);
         }
     });
+    rows.gather(reflected);
     Sums sums = sum([&](std::size_t i) {
         r[i] = d[i] - (h[i] - factors.row_times(i, reflected));
         return residual_at(i);
@@ -90,7 +94,7 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
         const Vec3 share = glm::sqrt(ratio_or_zero(sums.relative, sums.lit));
         return std::max({share.x, share.y, share.z});
     };
-    const auto interrupted = [&] { return options.interrupted && *options.interrupted; };
+    const auto interrupted = [&] { return options.interrupted && options.interrupted->agree(); };
     for (result.residual = worst();
          result.residual > options.tolerance && result.iterations < options.most && !interrupted();
          result.residual = worst(), ++result.iterations) {
@@ -100,6 +104,7 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
                 reflect(i, p[i]);
             }
         });
+        rows.gather(reflected);
         const Vec3 curvature = sum([&](std::size_t i) {
             q[i] = p[i] - factors.row_times(i, reflected);
             return weight[i] * p[i] * q[i];
@@ -117,6 +122,8 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
     // Where nothing is reflected the weight is 0: there one more step without a product tells h.
     for (std::size_t i = 0; i < n; ++i)
         h[i] += r[i];
+    rows.gather(h);
+    factors.count_products(1 + result.iterations);
     return result;
 }
 

@@ -34,6 +34,8 @@ class StateWriter {
     void add(double value);
     void add(const Vec3& value);
     void add(std::string_view text);
+    /// What another writer has made, as it is.
+    void append(std::string_view bytes) { bytes_ += bytes; }
     template <class T>
     void add(std::span<const T> values) {
         add(std::uint64_t{values.size()});

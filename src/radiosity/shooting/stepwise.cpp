@@ -30,8 +30,10 @@ bool StepwiseSolver::step() {
         return false;
     if (ahead_.empty())
         work_ahead();
-    const Ahead next = std::move(ahead_.front());
+    Ahead next = std::move(ahead_.front());
     ahead_.pop_front();
+    if (next.failed && !next.failure) // on another rank: here it fails for the same reason
+        solve(next, task_of(0, 0, workers_));
     if (next.failure || !next.done)
         ahead_.clear();
     if (next.failure)
@@ -42,45 +44,105 @@ bool StepwiseSolver::step() {
     return true;
 }
 
-/// Each thread takes one step after the other; whoever is done with all helps with the last.
+/// Steps that are alike go to the ranks in turn; any other is solved by each.
 void StepwiseSolver::work_ahead() {
     input_.monitor.phase = "step";
+    ahead_.resize(side_by_side());
+    if (!steps_are_alike() || !input_.ranks.are_several())
+        return work_at(0, 1);
+    {
+        const StopFlag::OfThisRank on_this_rank(input_.monitor.interrupted);
+        work_at(input_.ranks.index(), input_.ranks.count());
+    }
+    input_.monitor.interrupted.agree();
+    gather_ahead();
+}
+
+/// Each thread takes one step after the other; whoever is done with all helps with the last.
+void StepwiseSolver::work_at(std::size_t first, std::size_t every) {
+    const std::size_t count = first < ahead_.size() ? (ahead_.size() - first - 1) / every + 1 : 0;
+    if (count == 0)
+        return;
     const auto start = std::chrono::steady_clock::now();
-    const unsigned count = side_by_side(), places = std::min(count, workers_.threads());
+    const auto places = static_cast<unsigned>(std::min<std::size_t>(count, workers_.threads()));
     make_places(places);
-    ahead_.resize(count);
     std::atomic<unsigned> place{0};
     const Workers own(workers_.threads() / places);
     const auto work = [&](unsigned at, std::size_t k, std::size_t) {
-        const std::uint64_t number = mean_.solution.steps + k;
-        const StepTask task{
-            number,      number + 1, mean_.ray_power, at, k + 1 == count ? workers_ : own,
-            mean_.aimed, &balls_};
-        try {
-            ahead_[k].result = StepResult(input_.mesh);
-            ahead_[k].done = solve_once(task, ahead_[k].result);
-        } catch (...) {
-            ahead_[k].failure = std::current_exception();
-        }
+        const std::size_t ahead = first + k * every;
+        solve(ahead_[ahead], task_of(ahead, at, k + 1 == count ? workers_ : own));
     };
     workers_.for_chunks_with(
         count, 1, [&] { return place++; }, work);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    seconds_per_step_ = took.count() * places / count;
+    seconds_per_step_ = took.count() * places / static_cast<double>(count);
+}
+
+/// Of the next step but so many.
+StepTask StepwiseSolver::task_of(std::size_t ahead, unsigned place, const Workers& workers) const {
+    const std::uint64_t number = mean_.solution.steps + ahead;
+    return {number, number + 1, mean_.ray_power, place, workers, mean_.aimed, &balls_};
+}
+
+void StepwiseSolver::solve(Ahead& ahead, const StepTask& task) {
+    try {
+        ahead.result = StepResult(input_.mesh);
+        ahead.done = solve_once(task, ahead.result);
+    } catch (...) {
+        ahead.failure = std::current_exception();
+        ahead.failed = true;
+    }
+}
+
+/// All ranks know what each has found.
+void StepwiseSolver::gather_ahead() {
+    struct Numbers {
+        bool done, failed;
+        CompensatedSum<Vec3> absorbed, escaped, sent;
+        double shot;
+        std::uint64_t rays;
+    };
+    const Ranks& ranks = input_.ranks;
+    seconds_per_step_ = ranks.of_first(seconds_per_step_);
+    for (unsigned k = 0; k < ahead_.size(); ++k) {
+        const unsigned rank = k % ranks.count();
+        auto& [step, done, failed, failure] = ahead_[k];
+        if (rank == ranks.index())
+            ranks.add_work(step.rays, 0);
+        const Numbers of_step = ranks.of_each(Numbers{done, failed, step.absorbed, step.escaped,
+                                                      step.sent, step.shot, step.rays})[rank];
+        done = of_step.done;
+        failed = of_step.failed;
+        step.absorbed = of_step.absorbed;
+        step.escaped = of_step.escaped;
+        step.sent = of_step.sent;
+        step.shot = of_step.shot;
+        step.rays = of_step.rays;
+        if (!done)
+            continue;
+        step.radiosity.resize(input_.mesh.patches().size());
+        step.hits.resize(step.radiosity.size());
+        ranks.give_to_all(rank, std::span(step.radiosity));
+        ranks.give_to_all(rank, std::span(step.hits));
+    }
 }
 
 /// If so many will be wanted, as many as threads work out within half a second, so that none waits
-/// long for another, one at least for each. In large scenes a step keeps all threads busy, and
-/// several would take much memory.
+/// long for another, one at least for each. In large scenes a step keeps all threads of a rank
+/// busy, and several would take much memory.
 unsigned StepwiseSolver::side_by_side() const {
     constexpr std::size_t most_patches = 100'000;
     constexpr double seconds_ahead = .5, most_each = 16;
-    if (!steps_are_alike() || workers_.threads() == 1 ||
-        input_.mesh.patches().size() > most_patches)
+    if (!steps_are_alike())
         return 1;
-    const double each =
-        seconds_per_step_ > 0 ? std::clamp(seconds_ahead / seconds_per_step_, 1.0, most_each) : 1;
-    return static_cast<unsigned>(std::min(steps_to_come(), std::floor(each) * workers_.threads()));
+    const unsigned threads = input_.ranks.of_first(workers_.threads());
+    const bool several = threads * input_.ranks.count() > 1;
+    double of_rank = 1;
+    if (several && input_.mesh.patches().size() <= most_patches) {
+        const double each = seconds_per_step_ > 0 ? seconds_ahead / seconds_per_step_ : 1;
+        of_rank = threads * std::floor(std::clamp(each, 1.0, most_each));
+    }
+    return static_cast<unsigned>(std::min(steps_to_come(), of_rank * input_.ranks.count()));
 }
 
 std::uint32_t StepwiseSolver::steps_ready() const {

@@ -1,6 +1,6 @@
 #pragma once
 // Methods whose steps are independent solutions of all bounces (mean_of_steps.h). As they are
-// independent, several are solved at the same time, each by a thread.
+// independent, several are solved at the same time, each by a thread, or by a rank.
 
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/workers.h"
@@ -80,10 +80,14 @@ class StepwiseSolver : public Solver {
     /// A step that is solved, or that was begun.
     struct Ahead {
         StepResult result;
-        bool done = false;
-        std::exception_ptr failure;
+        bool done = false, failed = false;
+        std::exception_ptr failure; ///< where this rank has worked at it
     };
     void work_ahead();
+    void work_at(std::size_t first, std::size_t every);
+    [[nodiscard]] StepTask task_of(std::size_t ahead, unsigned place, const Workers& workers) const;
+    void solve(Ahead& ahead, const StepTask& task);
+    void gather_ahead();
     [[nodiscard]] unsigned side_by_side() const;
     [[nodiscard]] double steps_to_come() const;
     bool find_ray_power();

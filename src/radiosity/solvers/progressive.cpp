@@ -86,7 +86,7 @@ class ProgressiveSolver final : public Solver {
             pass_.shoot(solution_.steps + 1);
             cut_short = input_.monitor.interrupted;
             // At the end of the time the shots of this step count.
-            if (cut_short && (input_.monitor.interrupted.load() || pass_.points() == before))
+            if (cut_short && (input_.monitor.interrupted.wished() || pass_.points() == before))
                 return false;
             if (input_.options.one_shot)
                 break;

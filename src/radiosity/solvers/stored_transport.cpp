@@ -175,8 +175,8 @@ class StoredTransportSolver final : public Solver {
 
     [[nodiscard]] ExchangeMatrix factors_so_far() const {
         std::vector<ExchangeMatrix> parts(batches);
-        workers_.for_chunks(batches, 1, [&](std::size_t batch, std::size_t) {
-            parts[batch] = ExchangeMatrix(input_.mesh, counts_[batch]);
+        for_batches(batches, input_.ranks, workers_, [&](std::size_t batch, const Workers& own) {
+            parts[batch] = ExchangeMatrix(input_.mesh, counts_[batch], own);
         });
         return {std::move(parts), workers_};
     }
@@ -204,10 +204,11 @@ class StoredTransportSolver final : public Solver {
         std::vector<std::uint64_t> seeds;
         for (std::uint64_t s = 0; s < batches; ++s) {
             const std::uint64_t seed = hash_words({input_.options.seed, s, light_.generation()});
-            counts_.emplace_back(input_.mesh, input_.tracer, hash_words({seed, 0}));
+            counts_.emplace_back(input_.mesh, input_.tracer, hash_words({seed, 0}), input_.ranks);
             seeds.push_back(hash_words({seed, 1}));
         }
-        direct_.emplace(input_.mesh, input_.tracer, input_.needs, emitters_, std::move(seeds));
+        direct_.emplace(input_.mesh, input_.tracer, input_.needs, emitters_, std::move(seeds),
+                        input_.ranks);
     }
 
     /// How many times as many rays may be stored.

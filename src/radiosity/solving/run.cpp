@@ -29,7 +29,7 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
     const auto start = std::chrono::steady_clock::now();
     const auto elapsed = [&] {
         const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start;
-        return solver.solution().seconds_density + before.seconds + d.count();
+        return input.ranks.of_first(solver.solution().seconds_density + before.seconds + d.count());
     };
     double last = elapsed(), longest = 0, growth = 1;
     const auto done = [&](std::uint32_t step, double seconds, double error) {
@@ -48,8 +48,8 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
     StopFlag& interrupted = input.monitor.interrupted;
     const TimeLimit limit(interrupted, time_left);
     for (std::uint32_t step = before.steps + 1;; ++step) {
-        if ((interrupted && solver.steps_ready() == 0) || !solver.step())
-            return !interrupted.load(); // but for the caller's wish the run ends by its rule
+        if ((interrupted.agree() && solver.steps_ready() == 0) || !solver.step())
+            return !interrupted.wished(); // but for the caller's wish the run ends by its rule
         const Solution& solution = solver.solution();
         const StepRecord record{step, solution.rays_energy + solution.rays_density, elapsed(),
                                 estimated_error(input.mesh, solution)};

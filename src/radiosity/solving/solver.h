@@ -3,6 +3,7 @@
 // improves the solution.
 
 #include "bvh/tracer.h"
+#include "geometry/ranks.h"
 #include "radiosity/scene/needs.h"
 #include "radiosity/solving/solution.h"
 #include "radiosity/solving/stop_flag.h"
@@ -153,6 +154,9 @@ struct SolverInput {
     const Needs& needs = everything_needed; ///< of this mesh: what is not needed may be left out
     /// By patch: Solution::weight, for methods that take one (Method::aims). Empty: 1 everywhere.
     std::span<const double> target = {};
+    /// Those that solve it together, which the monitor's flag is one of (StopFlag::share). The
+    /// solution does not depend on their number.
+    const Ranks& ranks = one_rank();
 };
 
 class Strategy;

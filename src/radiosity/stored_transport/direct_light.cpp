@@ -16,6 +16,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace hemilux {
@@ -45,8 +46,9 @@ struct DirectLight::RayBatch {
 DirectLight::Shape::Shape(const Patch& of) : patch(&of), points(of.shape) {}
 
 DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
-                         std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds)
-    : mesh_(mesh), tracer_(tracer), needs_(needs),
+                         std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds,
+                         const Ranks& ranks)
+    : mesh_(mesh), tracer_(tracer), needs_(needs), own_(ranks, mesh.patches().size()),
       emitters_(whole_sides(mesh, one_of_each_side(mesh, emitters))), choice_(mesh, emitters_),
       seeds_(std::move(seeds)), sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)),
       samples_(mesh.patches().size()), hits_(mesh.patches().size()),
@@ -65,19 +67,32 @@ Vec3 DirectLight::irradiance(std::uint32_t patch) const {
 
 std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
                                         const Workers& workers, Monitor& monitor) {
+    if (emitters_.empty())
+        return 0;
     std::atomic<std::uint64_t> traced{0};
-    if (!emitters_.empty())
-        workers.for_chunks_with(
-            hits_.size(), patches_per_chunk, [] { return RayBatch(); },
-            [&](RayBatch& batch, std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
-                    if (samples[i] > samples_[i])
-                        sample(static_cast<std::uint32_t>(i), samples[i], batch);
-                send(batch);
-                traced += batch.traced;
-                monitor.rays += std::exchange(batch.traced, 0);
-            });
-    return traced;
+    std::optional<StopFlag::OfThisRank> on_this_rank(monitor.interrupted);
+    workers.for_chunks_with(
+        own_.count(), patches_per_chunk, [] { return RayBatch(); },
+        [&](RayBatch& batch, std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end && !monitor.interrupted; ++k)
+                if (const std::size_t i = own_.item(k); samples[i] > samples_[i])
+                    sample(static_cast<std::uint32_t>(i), samples[i], batch);
+            send(batch);
+            traced += batch.traced;
+            monitor.rays += std::exchange(batch.traced, 0);
+        });
+    on_this_rank.reset();
+    monitor.interrupted.agree();
+    own_.ranks().add_work(traced, 0);
+    gather();
+    return own_.ranks().sum(traced);
+}
+
+void DirectLight::gather() {
+    OwnBlocks(own_.ranks(), sum_.size(), OwnBlocks::usual_block * seeds_.size()).gather(sum_);
+    own_.gather(samples_);
+    own_.gather(hits_);
+    own_.gather(unblocked_);
 }
 
 void DirectLight::sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch) {

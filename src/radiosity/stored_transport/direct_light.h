@@ -9,6 +9,7 @@
 
 #include "bvh/tracer.h"
 #include "geometry/polygon_sampler.h"
+#include "geometry/ranks.h"
 #include "geometry/vector.h"
 #include "radiosity/sampling/workers.h"
 #include "radiosity/scene/needs.h"
@@ -30,13 +31,15 @@ struct Monitor;
 class DirectLight {
   public:
     /// An estimate for each seed. `emitters`: patches, in their order; a facet's are either all
-    /// among them or none. What is referred to outlives this.
+    /// among them or none. What is referred to outlives this. Each of the ranks traces the rays of
+    /// its patches.
     DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
-                std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds);
+                std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds,
+                const Ranks& ranks = one_rank());
 
     /// Goes on until each patch for which that pays has so many samples in each estimate. Returns
     /// the number of rays traced now. Where the monitor was interrupted meanwhile some patches have
-    /// fewer, and another call takes up the rest.
+    /// fewer, and another call takes up the rest. Called by all ranks; the rays are those of all.
     std::uint64_t sample_up_to(std::span<const std::uint32_t> samples, const Workers& workers,
                                Monitor& monitor);
 
@@ -83,10 +86,12 @@ class DirectLight {
               const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
               RayBatch& batch) const;
     void send(RayBatch& batch);
+    void gather();
 
     const Mesh& mesh_;
     const Tracer& tracer_;
     const Needs& needs_;
+    OwnBlocks own_;
     std::vector<Patch> emitters_; ///< whole sides of facets
     EmitterChoice choice_;
     std::vector<std::uint64_t> seeds_;

@@ -37,6 +37,34 @@ class DisjointSets {
     std::vector<std::uint32_t> parent_;
 };
 
+/// The least name that any rank has for each patch, which its owner finds.
+void take_least(std::vector<std::uint32_t>& names, const OwnBlocks& own) {
+    std::vector<std::vector<std::uint32_t>> sent(own.ranks().count());
+    for (std::size_t i = 0; i < names.size(); ++i)
+        sent[own.owner(i)].push_back(names[i]);
+    for (const std::vector<std::uint32_t>& of_rank : own.ranks().exchange(sent))
+        for (std::size_t k = 0; k < of_rank.size(); ++k)
+            names[own.item(k)] = std::min(names[own.item(k)], of_rank[k]);
+    own.gather(names);
+}
+
+/// Each rank knows what its own rays have joined; until all know the same, they join what any does.
+LinkedParts parts_of_all(DisjointSets& sets, const OwnBlocks& own, std::uint32_t patches) {
+    for (bool differ = own.ranks().are_several(); differ;) {
+        std::vector<std::uint32_t> names;
+        for (std::uint32_t i = 0; i < patches; ++i)
+            names.push_back(sets.find(i));
+        take_least(names, own);
+        differ = false;
+        for (std::uint32_t i = 0; i < patches; ++i) {
+            differ |= sets.find(i) != names[i];
+            sets.join(i, names[i]);
+        }
+        differ = own.ranks().any(differ);
+    }
+    return sets.parts();
+}
+
 } // namespace
 
 LinkedParts find_linked_parts(const ExchangeMatrix& factors) {
@@ -46,7 +74,7 @@ LinkedParts find_linked_parts(const ExchangeMatrix& factors) {
         for (const MatrixEntry& entry : factors.row(i))
             if (entry.column < i) // the matrix is symmetric
                 sets.join(i, entry.column);
-    return sets.parts();
+    return parts_of_all(sets, factors.own_rows(), n);
 }
 
 LinkedParts find_linked_parts(std::span<const RayCounts> sets_of_rays) {
@@ -55,7 +83,7 @@ LinkedParts find_linked_parts(std::span<const RayCounts> sets_of_rays) {
         for (std::uint32_t i = 0; i < set.patches(); ++i)
             for (const RayCounts::Count& seen : set.row(i))
                 sets.join(i, seen.patch);
-    return sets.parts();
+    return parts_of_all(sets, sets_of_rays[0].own_rows(), sets_of_rays[0].patches());
 }
 
 } // namespace hemilux

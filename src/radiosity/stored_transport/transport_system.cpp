@@ -48,7 +48,7 @@ TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t
         sampled_emission_[emitter] = Vec3(0.0);
 }
 
-/// Each batch by a thread of its own; then the whole by all threads, from where their mean is.
+/// Each batch by itself; then the whole by all threads, from where their mean is.
 ExchangeMatrix TransportSystem::solve(const Rays& rays, double error,
                                       std::vector<BatchLight::Light>& light, const Workers& workers,
                                       const StopFlag& interrupted) const {
@@ -56,10 +56,10 @@ ExchangeMatrix TransportSystem::solve(const Rays& rays, double error,
     std::vector<ExchangeMatrix> parts(batches);
     std::vector<Direct> direct(batches);
     std::vector<Vec3> power(batches);
-    const Workers alone(1);
-    workers.for_chunks(batches, 1, [&](std::size_t batch, std::size_t) {
-        parts[batch] = ExchangeMatrix(mesh_, rays.counts[batch]);
-        direct[batch].light = straight_light(parts[batch], rays.direct, batch, alone);
+    const Ranks& ranks = rays.counts[0].own_rows().ranks();
+    for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
+        parts[batch] = ExchangeMatrix(mesh_, rays.counts[batch], own);
+        direct[batch].light = straight_light(parts[batch], rays.direct, batch, own);
         power[batch] = power_arriving(transport(parts[batch]), direct[batch].light);
     });
     const Vec3 variance = sample_variance(power);
@@ -67,16 +67,16 @@ ExchangeMatrix TransportSystem::solve(const Rays& rays, double error,
     // What a residual makes of the light is no larger than its sum over all reflections.
     const double known = std::fmin(left_of_sets * error, first_residual); // unknown: the latter
     const double residual = std::max(known * lost_at_least_, least_residual);
-    workers.for_chunks(batches, 1, [&](std::size_t batch, std::size_t) {
+    for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
         direct[batch].variance = variance;
-        solve(parts[batch], std::move(direct[batch]), found[batch], alone, residual, interrupted);
+        solve(parts[batch], std::move(direct[batch]), found[batch], own, residual, interrupted);
     });
     ExchangeMatrix all(std::move(parts), workers);
     const double tolerance = left_of_all * average(found) * lost_at_least_;
     solve(all,
           {straight_light(all, rays.direct, std::nullopt, workers), variance / double(batches)},
           found[batches], workers, std::max(tolerance, least_residual), interrupted);
-    if (!interrupted)
+    if (!interrupted.agree())
         light = std::move(found);
     return all;
 }
@@ -131,7 +131,7 @@ std::vector<Vec3> TransportSystem::straight_light(const ExchangeMatrix& factors,
     }
     const bool any =
         std::ranges::any_of(sampled_emission_, [](const Vec3& e) { return e != Vec3(0.0); });
-    factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
+    factors.for_products(workers, [&](std::size_t begin, std::size_t end) {
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
             if (shadow_rays.samples(i) == 0) // an emitter does not light itself
                 light[i] = factors.row_times(i, all) -
@@ -141,6 +141,7 @@ std::vector<Vec3> TransportSystem::straight_light(const ExchangeMatrix& factors,
             light[i] += batch ? shadow_rays.irradiance(i, *batch) : shadow_rays.irradiance(i);
         }
     });
+    factors.own_rows().gather(light);
     return light;
 }
 

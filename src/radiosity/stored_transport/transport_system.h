@@ -19,6 +19,19 @@ namespace hemilux {
 
 class Mesh;
 
+/// Calls body(batch, workers) for each: by a thread of its own, or where ranks solve each together
+/// one after the other.
+template <class Body>
+void for_batches(std::size_t batches, const Ranks& ranks, const Workers& workers,
+                 const Body& body) {
+    if (ranks.are_several())
+        for (std::size_t batch = 0; batch < batches; ++batch)
+            body(batch, workers);
+    else
+        workers.for_chunks(batches, 1,
+                           [&](std::size_t batch, std::size_t) { body(batch, Workers(1)); });
+}
+
 class TransportSystem {
   public:
     /// `emitters`: patches whose light comes by shadow rays, not by rays at random. `closed`: no

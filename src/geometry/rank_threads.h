@@ -1,0 +1,16 @@
+#pragma once
+// Ranks that are threads of one process: a whole run on several ranks within a test, with its
+// counts of work and bytes.
+
+#include "geometry/ranks.h"
+
+#include <functional>
+
+namespace hemilux {
+
+/// Calls body(rank) for each of `count` ranks, each on a thread of its own, and returns when all
+/// have returned. Where one throws the others fail at their next call of Ranks, and its exception
+/// is thrown here.
+void run_as_ranks(unsigned count, const std::function<void(const Ranks&)>& body);
+
+} // namespace hemilux

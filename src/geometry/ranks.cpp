@@ -1,0 +1,102 @@
+#include "geometry/ranks.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+namespace hemilux {
+namespace {
+
+class OneRank final : public Ranks {
+  public:
+    [[nodiscard]] unsigned count() const override { return 1; }
+    [[nodiscard]] unsigned index() const override { return 0; }
+
+  private:
+    void do_gather(std::span<const std::byte> own, std::span<const std::size_t> /*sizes*/,
+                   std::span<std::byte> all) const override {
+        std::ranges::copy(own, all.begin());
+    }
+    void do_exchange(std::span<const std::span<const std::byte>> sent,
+                     std::span<const std::span<std::byte>> received) const override {
+        std::ranges::copy(sent[0], received[0].begin());
+    }
+};
+
+/// Bytes that are gathered at a time: they are kept twice meanwhile.
+constexpr std::size_t bytes_at_a_time = std::size_t{1} << 24;
+
+} // namespace
+
+const Ranks& one_rank() {
+    static const OneRank one;
+    return one;
+}
+
+void Ranks::gather(std::span<const std::byte> own, std::span<const std::size_t> sizes,
+                   std::span<std::byte> all) const {
+    do_gather(own, sizes, all);
+    sent_ += own.size() * (count() - 1);
+    received_ += all.size() - own.size();
+}
+
+void Ranks::exchange_bytes(std::span<const Bytes> sent,
+                           std::span<const std::span<std::byte>> received) const {
+    do_exchange(sent, received);
+    for (std::size_t r = 0; r < count(); ++r)
+        if (r != index()) {
+            sent_ += sent[r].size();
+            received_ += received[r].size();
+        }
+}
+
+bool Ranks::any(bool value) const {
+    const std::vector<char> values = of_each(static_cast<char>(value));
+    return std::ranges::any_of(values, [](char each) { return each != 0; });
+}
+
+std::uint64_t Ranks::sum(std::uint64_t value) const {
+    const std::vector<std::uint64_t> values = of_each(value);
+    return std::accumulate(values.begin(), values.end(), std::uint64_t{0});
+}
+
+std::size_t OwnBlocks::items_of(unsigned rank) const {
+    const std::size_t round = block_ * ranks_->count(), rest = all_ % round;
+    const std::size_t before = std::min(rest, rank * block_);
+    return all_ / round * block_ + std::min(rest - before, block_);
+}
+
+void OwnBlocks::gather_bytes(std::span<std::byte> all, std::size_t bytes_each) const {
+    const std::size_t block = block_ * bytes_each, round = block * ranks_->count();
+    const std::size_t piece = round * std::max<std::size_t>(1, bytes_at_a_time / round);
+    for (std::size_t begin = 0; begin < all.size(); begin += piece)
+        gather_rounds(all.subspan(begin, std::min(piece, all.size() - begin)), block);
+}
+
+/// Of whole rounds of blocks, but for the last.
+void OwnBlocks::gather_rounds(std::span<std::byte> some, std::size_t bytes_of_block) const {
+    const std::size_t count = ranks_->count(), round = bytes_of_block * count;
+    std::vector<std::size_t> sizes;
+    for (unsigned r = 0; r < count; ++r)
+        sizes.push_back(OwnBlocks(*ranks_, some.size(), bytes_of_block).items_of(r));
+    const auto for_blocks_of = [&](std::size_t r, std::byte* packed, const auto& copy) {
+        for (std::size_t at = r * bytes_of_block; at < some.size(); at += round) {
+            const std::size_t size = std::min(bytes_of_block, some.size() - at);
+            copy(&some[at], packed, size);
+            packed += size;
+        }
+    };
+    std::vector<std::byte> own(sizes[ranks_->index()]), all(some.size());
+    for_blocks_of(ranks_->index(), own.data(),
+                  [](const std::byte* item, std::byte* packed, std::size_t size) {
+                      std::memcpy(packed, item, size);
+                  });
+    ranks_->gather(own, sizes, all);
+    std::byte* packed = all.data();
+    for (std::size_t r = 0; r < count; packed += sizes[r++])
+        for_blocks_of(r, packed, [](std::byte* item, const std::byte* from, std::size_t size) {
+            std::memcpy(item, from, size);
+        });
+}
+
+} // namespace hemilux

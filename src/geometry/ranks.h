@@ -1,0 +1,176 @@
+#pragma once
+// Several processes that solve one problem, as MPI starts them: each is a rank, runs the same
+// program on the same input, and owns a part of what is large.
+//
+// The result does not depend on their number: what a rank computes is gathered as it is, and each
+// adds numbers in the same order. Nothing here adds floating-point numbers.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace hemilux {
+
+/// What a rank has done for the run so far.
+struct RankWork {
+    std::uint64_t rays = 0;               ///< traced
+    std::uint64_t entries = 0;            ///< of matrices, each as often as it was multiplied
+    std::uint64_t sent = 0, received = 0; ///< bytes
+};
+
+/// This rank, and its way to the others. All ranks call the same functions in the same order, each
+/// from one thread at a time; every call waits for the others. Throws std::runtime_error where
+/// another rank has failed.
+class Ranks {
+  public:
+    using Bytes = std::span<const std::byte>;
+
+    Ranks() = default;
+    Ranks(const Ranks&) = delete;
+    Ranks& operator=(const Ranks&) = delete;
+    virtual ~Ranks() = default;
+
+    [[nodiscard]] virtual unsigned count() const = 0;
+    /// Of this one, below count().
+    [[nodiscard]] virtual unsigned index() const = 0;
+    [[nodiscard]] bool are_several() const { return count() > 1; }
+    [[nodiscard]] bool is_first() const { return index() == 0; }
+
+    /// `all` becomes the bytes of all ranks one after the other; rank r gives sizes[r] of them, and
+    /// this one `own`.
+    void gather(std::span<const std::byte> own, std::span<const std::size_t> sizes,
+                std::span<std::byte> all) const;
+    /// The items of one rank become those of all. All give as many.
+    template <class T>
+    void give_to_all(unsigned rank, std::span<T> items) const;
+    /// The value of each rank.
+    template <class T>
+    [[nodiscard]] std::vector<T> of_each(const T& value) const;
+    /// The value of the first rank: what depends on a clock is decided there.
+    template <class T>
+    [[nodiscard]] T of_first(T value) const {
+        give_to_all(0, std::span(&value, 1));
+        return value;
+    }
+    /// Whether it holds on some rank.
+    [[nodiscard]] bool any(bool value) const;
+    [[nodiscard]] bool all(bool value) const { return !any(!value); }
+    [[nodiscard]] std::uint64_t sum(std::uint64_t value) const;
+    /// sent[r] goes to rank r; returns what each has sent to this one.
+    template <class T>
+    [[nodiscard]] std::vector<std::vector<T>>
+    exchange(const std::vector<std::vector<T>>& sent) const;
+
+    /// Counts work that this rank has done.
+    void add_work(std::uint64_t rays, std::uint64_t entries) const {
+        rays_ += rays;
+        entries_ += entries;
+    }
+    [[nodiscard]] RankWork work() const { return {rays_, entries_, sent_, received_}; }
+
+  private:
+    virtual void do_gather(Bytes own, std::span<const std::size_t> sizes,
+                           std::span<std::byte> all) const = 0;
+    virtual void do_exchange(std::span<const Bytes> sent,
+                             std::span<const std::span<std::byte>> received) const = 0;
+    void exchange_bytes(std::span<const Bytes> sent,
+                        std::span<const std::span<std::byte>> received) const;
+
+    mutable std::atomic<std::uint64_t> rays_{0}, entries_{0}, sent_{0}, received_{0};
+};
+
+/// The only rank of a program that runs alone.
+[[nodiscard]] const Ranks& one_rank();
+
+/// Items in blocks that belong to the ranks in turn. What is known of each item is kept by all
+/// ranks; what takes more memory or time than that is the owner's.
+class OwnBlocks {
+  public:
+    static constexpr std::size_t usual_block = 64;
+    /// The ranks outlive this.
+    OwnBlocks(const Ranks& ranks, std::size_t items, std::size_t block = usual_block)
+        : ranks_(&ranks), all_(items), block_(block), own_(items_of(ranks.index())) {}
+
+    [[nodiscard]] const Ranks& ranks() const { return *ranks_; }
+    [[nodiscard]] bool are_all() const { return own_ == all_; }
+    [[nodiscard]] unsigned owner(std::size_t item) const {
+        return static_cast<unsigned>(item / block_ % ranks_->count());
+    }
+    [[nodiscard]] bool owns(std::size_t item) const {
+        return are_all() || owner(item) == ranks_->index();
+    }
+    /// Counts its own.
+    [[nodiscard]] std::size_t count() const { return own_; }
+    /// The own item at place `k` among them. Those of a block follow each other.
+    [[nodiscard]] std::size_t item(std::size_t k) const {
+        return (k / block_ * ranks_->count() + ranks_->index()) * block_ + k % block_;
+    }
+    [[nodiscard]] std::size_t items_of(unsigned rank) const;
+
+    /// Each rank has written its own items; afterwards all have all.
+    template <class T>
+    void gather(std::span<T> items) const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        if (ranks_->are_several())
+            gather_bytes(std::as_writable_bytes(items), sizeof(T));
+    }
+    template <class T>
+    void gather(std::vector<T>& items) const {
+        gather(std::span(items));
+    }
+
+  private:
+    void gather_bytes(std::span<std::byte> all, std::size_t bytes_each) const;
+    void gather_rounds(std::span<std::byte> some, std::size_t bytes_of_block) const;
+
+    const Ranks* ranks_;
+    std::size_t all_, block_, own_;
+};
+
+template <class T>
+void Ranks::give_to_all(unsigned rank, std::span<T> items) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<std::size_t> sizes(count());
+    sizes[rank] = items.size_bytes();
+    const std::vector<T> own(items.begin(), rank == index() ? items.end() : items.begin());
+    if (are_several())
+        gather(std::as_bytes(std::span(own)), sizes, std::as_writable_bytes(items));
+}
+
+template <class T>
+std::vector<T> Ranks::of_each(const T& value) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<T> values(count(), value);
+    if (are_several())
+        gather(std::as_bytes(std::span(&value, 1)), std::vector(count(), sizeof(T)),
+               std::as_writable_bytes(std::span(values)));
+    return values;
+}
+
+template <class T>
+std::vector<std::vector<T>> Ranks::exchange(const std::vector<std::vector<T>>& sent) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<std::uint64_t> sizes(count());
+    std::vector<std::span<const std::byte>> bytes;
+    for (std::size_t r = 0; r < sent.size(); ++r) {
+        sizes[r] = sent[r].size();
+        bytes.push_back(std::as_bytes(std::span(sent[r])));
+    }
+    std::vector<std::uint64_t> all_sizes(count() * count());
+    gather(std::as_bytes(std::span(sizes)), std::vector(count(), count() * sizeof(std::uint64_t)),
+           std::as_writable_bytes(std::span(all_sizes)));
+    std::vector<std::vector<T>> received(count());
+    std::vector<std::span<std::byte>> places;
+    for (std::size_t r = 0; r < count(); ++r) {
+        received[r].resize(all_sizes[r * count() + index()]);
+        places.push_back(std::as_writable_bytes(std::span(received[r])));
+    }
+    exchange_bytes(bytes, places);
+    return received;
+}
+
+} // namespace hemilux
