@@ -104,7 +104,7 @@ TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may brin
         most = glm::max(most, model.mesh.material(patch).emission);
     EmitterChoice::Cut cut;
     for (std::uint32_t i = 0; i < patches.size(); i += 7) {
-        choice.weigh(i, 0, cut);
+        choice.weigh(i, cut);
         if (cut.dark())
             continue;
         const Sweep sweep(choice, cut, patches.size());
@@ -140,7 +140,7 @@ TEST_CASE("Direct light is unbiased where emitters are drawn by clusters", "[slo
     const EmitterChoice choice(fine.mesh, emitters);
     EmitterChoice::Cut cut;
     for (std::uint32_t i = 0; i < n; i += 97) {
-        choice.weigh(i, 0, cut);
+        choice.weigh(i, cut);
         if (cut.dark())
             continue;
         const auto [told, met] = Sweep(choice, cut, emitters.size());
@@ -164,7 +164,7 @@ TEST_CASE("Shadow rays do not pay where many emitters touch a surface") {
             const EmitterChoice choice(each->mesh, emitters);
             EmitterChoice::Cut cut;
             for (std::uint32_t i = 0; i < each->mesh.patches().size(); ++i) {
-                choice.weigh(i, 0, cut);
+                choice.weigh(i, cut);
                 if (!cut.pays()) {
                     CHECK(each == &model);
                     touched.push_back(i);

@@ -76,7 +76,7 @@ TEST_CASE("Facets in one place make no more pairs than the few that are kept") {
     CHECK(overlaps.pairs.size() == kept_alike * (2 * kept_alike - 1));
     CHECK(find_coplanar_layers(scene, local(scene)).covered == 30'000 - 2);
     const Mesh mesh(scene);
-    CHECK(mesh.is_laid_apart());
+    CHECK(mesh.all_layers_are_offset());
     CHECK(mesh.patches().size() == 30'001);
     const FacetSoup traced = mesh.soup_to_trace();
     CHECK(std::ranges::count_if(traced.facets, [](const FacetCorners& c) {
@@ -110,7 +110,7 @@ TEST_CASE("Pairs of facets over each other end at their limit, which is reported
     const Overlaps overlaps = find_overlaps(scene, local(scene));
     CHECK(overlaps.pairs.size() <= limits.pairs);
     CHECK_FALSE(overlaps.complete);
-    CHECK_FALSE(Mesh(scene).is_laid_apart());
+    CHECK_FALSE(Mesh(scene).all_layers_are_offset());
     CHECK(find_overlaps(heap(500), local(heap(500))).complete);
 }
 

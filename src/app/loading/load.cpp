@@ -157,7 +157,7 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                       dividing.seconds(),          std::move(read.face_lines), read.camera,
                       std::move(read.camera_name), std::move(read.warnings)};
     loaded.up = up_of(settings.path);
-    if (!loaded.mesh.is_laid_apart()) {
+    if (!loaded.mesh.all_layers_are_offset()) {
         loaded.warnings.push_back(
             settings.path +
             ": very many faces lie over each other in one plane; for some of them it was not "

@@ -142,7 +142,7 @@ void FinalGather::weigh(const SurfacePoint& point, Batch& batch) const {
     if (point.patch == none)
         choice_.weigh(point.position, point.normal, batch.cut);
     else if (point.patch != batch.weighed)
-        choice_.weigh(point.patch, 0, batch.cut);
+        choice_.weigh(point.patch, batch.cut);
     batch.weighed = point.patch;
 }
 

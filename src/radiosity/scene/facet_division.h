@@ -38,8 +38,6 @@ class FacetDivision {
     [[nodiscard]] Place place_of(const Hit& hit) const {
         return triangle_ ? place_in_triangle(hit) : place_in_quad(hit);
     }
-    /// From now on places within a facet of one piece are as in the file, as those of its cells.
-    void count_from_first_corner() { apex_ = 0; }
 
   private:
     void divide_quad(const Polygon& shape, double max_edge);
@@ -51,7 +49,7 @@ class FacetDivision {
     std::uint32_t rows_ = 1, columns_ = 1;
     bool triangle_;
     bool similar_ = false;
-    std::uint8_t apex_ = 0; ///< triangle: which corner
+    std::uint8_t apex_ = 0; ///< triangle: which corner; of one piece the first
     /// Quad: corner 0 - 1 + 2 - 3 in the basis of its edges at corner 0.
     double g_x_ = 0, g_y_ = 0;
 };

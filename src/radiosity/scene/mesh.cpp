@@ -75,7 +75,7 @@ Mesh::Mesh(Scene scene, const MeshOptions& options)
     vertices_ = frame_.to_local(scene_.vertices);
     for (const Facet& facet : scene_.facets)
         corners_.push_back(facet.vertex);
-    lay_apart();
+    offset_layers();
     divisions_.reserve(scene_.facets.size());
     patches_.reserve(scene_.facets.size() * (two_sided_ ? 2 : 1));
     for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
@@ -131,7 +131,7 @@ Patch Mesh::patch_from(const Polygon& shape, std::uint32_t facet, bool back) con
         scene_.facets[facet].material,  back,           scene_.facets[facet].material};
 }
 
-void Mesh::lay_apart() {
+void Mesh::offset_layers() {
     constexpr double step = 0x1p-28; // larger than what is taken for rounding elsewhere
     const CoplanarLayers layers = find_coplanar_layers(scene_, vertices_);
     for (std::uint32_t f = 0; f < layers.offset.size(); ++f) {
@@ -145,7 +145,7 @@ void Mesh::lay_apart() {
             vertices_.push_back(corner + way);
         corners_[f] = {first, first + 1, first + 2, first + (triangle ? 2 : 3)};
     }
-    laid_apart_ = layers.complete;
+    all_layers_are_offset_ = layers.complete;
     if (!layers.buried.empty())
         corners_to_trace_ = corners_;
     for (const std::uint32_t f : layers.buried)

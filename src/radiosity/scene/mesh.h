@@ -101,7 +101,7 @@ class Mesh {
     /// The same for a tracer, in which no ray can meet what is buried under many others.
     [[nodiscard]] FacetSoup soup_to_trace() const;
     /// False where so many facets lie over each other that not all could be offset.
-    [[nodiscard]] bool is_laid_apart() const { return laid_apart_; }
+    [[nodiscard]] bool all_layers_are_offset() const { return all_layers_are_offset_; }
     /// One side of a facet as a single patch, as if the facet were not divided.
     [[nodiscard]] Patch whole_side(std::uint32_t facet, bool back) const;
     /// Whether a facet has more than one patch a side.
@@ -124,7 +124,7 @@ class Mesh {
     struct Refinement;
 
     [[nodiscard]] Patch patch_from(const Polygon& shape, std::uint32_t facet, bool back) const;
-    void lay_apart();
+    void offset_layers();
     void divide(std::uint32_t facet, const MeshOptions& options);
     [[nodiscard]] CellShape cell_shape(std::uint32_t facet, const Polygon& piece) const;
     void refine_facet(std::uint32_t facet, Refinement& before);
@@ -141,7 +141,7 @@ class Mesh {
     std::vector<Vec3> vertices_;
     std::vector<FacetCorners> corners_;
     std::vector<FacetCorners> corners_to_trace_; ///< empty: as corners_
-    bool laid_apart_ = true;
+    bool all_layers_are_offset_ = true;
     std::vector<Patch> patches_;
     std::vector<Material> colours_; ///< the materials, then those of textured patches
     std::vector<Division> divisions_;

@@ -266,7 +266,6 @@ class StoredTransportSolver final : public Solver {
         }
         plan_.weigh(rows.variance, errors.lit);
         plan_.weigh_emitters(direct_variances, errors.lit);
-        direct_->set_parts(errors.part);
         account();
         solution_.rays_energy = traced_;
         solution_.bytes_transport = all.bytes() + direct_->bytes();

@@ -1,7 +1,7 @@
 #pragma once
 // The light that is solved for: of each of its independent batches of rays, and of all
-// together. Where rays had to be forgotten for want of memory, what they showed is kept as a
-// generation, and the light is the mean of the generations.
+// together. Where rays had to be forgotten for want of memory (--memory), what they showed is kept
+// as a generation, and the light is the mean of the generations.
 
 #include "radiosity/solving/solution.h"
 

@@ -29,7 +29,7 @@ constexpr std::size_t patches_per_chunk = 8;
 /// Samples whose rays are not traced yet, the first `size` of each array.
 struct DirectLight::RayBatch {
     struct Sample {
-        std::uint32_t patch, estimate, emitter;
+        std::uint32_t patch, estimate;
         Vec3 light; ///< if the ray arrives
     };
     std::size_t size = 0;
@@ -49,19 +49,13 @@ DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& ne
                          std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds,
                          const Ranks& ranks)
     : mesh_(mesh), tracer_(tracer), needs_(needs), own_(ranks, mesh.patches().size()),
-      patch_of_emitter_(one_of_each_side(mesh, emitters)),
-      emitters_(whole_sides(mesh, patch_of_emitter_)), choice_(mesh, emitters_),
+      emitters_(whole_sides(mesh, one_of_each_side(mesh, emitters))), choice_(mesh, emitters_),
       seeds_(std::move(seeds)), sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)),
-      samples_(mesh.patches().size()), hits_(mesh.patches().size()), bright_(mesh.patches().size()),
+      samples_(mesh.patches().size()), hits_(mesh.patches().size()),
       unblocked_(mesh.patches().size()) {
     for (const Patch& emitter : emitters_)
         emitter_shapes_.push_back(
             {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});
-}
-
-void DirectLight::set_parts(std::span<const std::uint32_t> part) {
-    part_.assign(part.begin(), part.end());
-    choice_.set_parts(part_, patch_of_emitter_);
 }
 
 Vec3 DirectLight::irradiance(std::uint32_t patch) const {
@@ -98,14 +92,13 @@ void DirectLight::gather() {
     OwnBlocks(own_.ranks(), sum_.size(), OwnBlocks::usual_block * seeds_.size()).gather(sum_);
     own_.gather(samples_);
     own_.gather(hits_);
-    own_.gather(bright_);
     own_.gather(unblocked_);
 }
 
 void DirectLight::sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch) {
     const std::uint32_t begin = std::exchange(samples_[patch], end);
     EmitterChoice::Cut& cut = batch.cut;
-    choice_.weigh(patch, bright_[patch], cut);
+    choice_.weigh(patch, cut);
     if (cut.dark())
         return;
     if (!cut.pays()) {
@@ -138,8 +131,7 @@ void DirectLight::look(std::uint32_t patch, std::uint32_t estimate, const Shape&
                                   {u[0], u[1], u[2], u[3]}, emitter.near, batch.rays[next]);
     if (!(factor > 0))
         return;
-    batch.samples[next] = {patch, estimate, choice.emitter,
-                           factor / choice.chance * emitter.emission};
+    batch.samples[next] = {patch, estimate, factor / choice.chance * emitter.emission};
     batch.targets[next] = emitter.patch->facet;
     ++batch.size;
 }
@@ -155,12 +147,11 @@ void DirectLight::send(RayBatch& batch) {
         std::ranges::fill(blocked, std::uint8_t{0});
     }
     for (std::size_t k = 0; k < size; ++k) {
-        const auto& [patch, estimate, emitter, light] = batch.samples[k];
+        const auto& [patch, estimate, light] = batch.samples[k];
         unblocked_[patch] += mean_of_channels(light);
         if (!blocked[k]) {
             sum_[patch * seeds_.size() + estimate] += light;
             ++hits_[patch];
-            bright_[patch] |= EmitterChoice::bit_of(emitter);
         }
     }
 }
@@ -169,10 +160,7 @@ void DirectLight::save(StateWriter& state) const {
     state.add(std::span<const Vec3>(sum_));
     state.add(std::span<const std::uint32_t>(samples_));
     state.add(std::span<const std::uint32_t>(hits_));
-    state.add(std::span<const std::uint64_t>(bright_));
     state.add(std::span<const double>(unblocked_));
-    state.add(std::uint64_t{!part_.empty()});
-    state.add(std::span<const std::uint32_t>(part_));
 }
 
 void DirectLight::load(StateReader& state) {
@@ -190,17 +178,9 @@ void DirectLight::load(StateReader& state) {
             throw StateError("more shadow rays arrived than were traced");
     for (std::size_t k = 0; k < sum_.size(); ++k)
         check_mean(std::max({sum_[k].x, sum_[k].y, sum_[k].z}), samples_[k / seeds_.size()]);
-    state.get(std::span(bright_));
     state.get(std::span(unblocked_), bounds::non_negative);
     for (std::size_t i = 0; i < unblocked_.size(); ++i)
         check_mean(unblocked_[i], double(samples_[i]) * double(seeds_.size()));
-    part_.resize(state.flag() ? hits_.size() : 0);
-    state.get(std::span(part_));
-    for (const std::uint32_t part : part_)
-        if (part >= part_.size())
-            throw StateError("a part of the scene is out of range");
-    if (!part_.empty())
-        choice_.set_parts(part_, patch_of_emitter_);
 }
 
 } // namespace hemilux

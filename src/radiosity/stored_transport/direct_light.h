@@ -43,10 +43,6 @@ class DirectLight {
     std::uint64_t sample_up_to(std::span<const std::uint32_t> samples, const Workers& workers,
                                Monitor& monitor);
 
-    /// From now on emitters of other parts of the scene (linked_parts.h) get few samples, unless
-    /// one has brought light; by patch.
-    void set_parts(std::span<const std::uint32_t> part);
-
     [[nodiscard]] std::size_t estimates() const { return seeds_.size(); }
     /// Mean over the samples of one estimate [W/m2 arriving].
     [[nodiscard]] Vec3 irradiance(std::uint32_t patch, std::size_t estimate) const {
@@ -67,8 +63,7 @@ class DirectLight {
     }
     [[nodiscard]] std::uint64_t bytes() const {
         return sum_.size() * sizeof(Vec3) +
-               samples_.size() *
-                   (2 * sizeof(std::uint32_t) + sizeof(std::uint64_t) + sizeof(double));
+               samples_.size() * (2 * sizeof(std::uint32_t) + sizeof(double));
     }
 
     void save(StateWriter& state) const;
@@ -97,15 +92,12 @@ class DirectLight {
     const Tracer& tracer_;
     const Needs& needs_;
     OwnBlocks own_;
-    std::vector<std::uint32_t> patch_of_emitter_; ///< one of each
-    std::vector<Patch> emitters_;                 ///< whole sides of facets
+    std::vector<Patch> emitters_; ///< whole sides of facets
     EmitterChoice choice_;
-    std::vector<std::uint32_t> part_; ///< empty: not known
     std::vector<std::uint64_t> seeds_;
     std::vector<Vec3> sum_; ///< by patch and estimate
     std::vector<std::uint32_t> samples_, hits_;
-    std::vector<std::uint64_t> bright_; ///< emitters that brought light (EmitterChoice::bit_of)
-    std::vector<double> unblocked_;     ///< sum over the samples of a patch
+    std::vector<double> unblocked_; ///< sum over the samples of a patch
     std::vector<Emitter> emitter_shapes_;
 };
 

@@ -18,9 +18,6 @@ namespace {
 /// Emitters that a patch weighs one by one; else so many clusters.
 constexpr std::size_t most_emitters = 1024, most_clusters = 128;
 
-/// Of the rays of a receiver, to emitters from which no light was seen to come.
-constexpr double share_of_unlinked = 1.0 / 16;
-
 /// The light of each emitter, as the mean of its channels relative to the most that any has in that
 /// channel: an emitter that is faint, but the only one in its channel, is as important as any.
 std::vector<double> balanced_light(const Mesh& mesh, std::span<const Patch> emitters) {
@@ -150,10 +147,8 @@ double EmitterChoice::nearness(const EmitterReceiver& to, const Cluster& cluster
     return cluster.left == 0 ? 0 : cluster.radius / std::max(gap, 1e-3 * cluster.radius);
 }
 
-void EmitterChoice::weigh(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const {
+void EmitterChoice::weigh(std::uint32_t receiver, Cut& cut) const {
     weigh_all(receiver_at(receiver), cut);
-    if (!part_.empty())
-        limit_unlinked(receiver, bright, cut);
     add_up(cut);
 }
 
@@ -188,39 +183,6 @@ void EmitterChoice::add_up(Cut& cut) {
         cut.sums[k] = cut.sum += cut.sums[k];
     cut.square_found = std::accumulate(cut.found.begin(), cut.found.end(), 0.0);
     cut.sums.resize(std::bit_ceil(cut.sums.size()), std::numeric_limits<double>::infinity());
-}
-
-void EmitterChoice::set_parts(std::span<const std::uint32_t> part,
-                              std::span<const std::uint32_t> patches) {
-    part_.assign(part.begin(), part.end());
-    part_of_emitter_.clear();
-    for (const std::uint32_t patch : patches)
-        part_of_emitter_.push_back(part[patch]);
-}
-
-/// A cluster of several emitters may belong to several parts and counts as linked.
-void EmitterChoice::limit_unlinked(std::uint32_t receiver, std::uint64_t bright, Cut& cut) const {
-    const auto is_dark = [&](std::uint32_t place) {
-        return part_of_emitter_[place] != part_[receiver] && (bright & bit_of(place)) == 0;
-    };
-    const auto is_unlinked = [&](std::size_t k) {
-        if (cut.clusters.empty())
-            return is_dark(order_[k]);
-        const Cluster& cluster = clusters_[cut.clusters[k]];
-        return cluster.left == 0 && is_dark(order_[cluster.begin]);
-    };
-    double linked = 0, unlinked = 0;
-    const std::size_t count = cut.found.size();
-    for (std::size_t k = 0; k < count; ++k)
-        (is_unlinked(k) ? unlinked : linked) += cut.sums[k + 1];
-    const double most = linked * share_of_unlinked / (1 - share_of_unlinked);
-    if (!(linked > 0) || unlinked <= most)
-        return;
-    for (std::size_t k = 0; k < count; ++k)
-        if (is_unlinked(k)) {
-            cut.sums[k + 1] *= most / unlinked;
-            cut.found[k] *= most / unlinked;
-        }
 }
 
 /// The cluster that is nearest for its size is divided as long as there is room.

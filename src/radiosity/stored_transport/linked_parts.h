@@ -1,6 +1,7 @@
 #pragma once
 // Which patches exchange light with each other, directly or through others, as far as the stored
-// rays know.
+// rays know. Reported errors need it: each part answers for the light that its own rays may have
+// missed (transport_errors.h).
 
 #include <cstdint>
 #include <span>

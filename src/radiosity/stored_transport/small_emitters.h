@@ -1,5 +1,7 @@
 #pragma once
-// Which emitters are reached by shadow rays, and which are left to rays at random.
+// Which emitters are reached by shadow rays, and which are left to rays at random. With random rays
+// alone, 1 % takes 50 times (office_3576) and 100 times (room_1002) as many rays; with all suns by
+// their area, the light of a distant one is missed.
 
 #include <cstdint>
 #include <span>
