@@ -1,5 +1,6 @@
-// The commands that README.md, docs/tutorial.md and docs/exchange.md print work: every line of a block that is fenced
-// as ```sh run is executed in the repository's folder, with hemilux in the PATH.
+// The commands that README.md, docs/tutorial.md and docs/exchange.md print work: every line of a
+// block that is fenced as ```sh run is executed in the repository's folder, with hemilux in the
+// PATH.
 #include "support/catch.h"
 
 #include <cstdlib>

@@ -70,8 +70,8 @@ struct Statistics {
     /// (division_error.h).
     double error_division = unknown, error_division_uncertainty = unknown;
     EnergyBalance energy;
-    /// Of the emitted power that of suns and skies, whose light mostly passes the scene by, and what
-    /// all other surfaces reflect [W]. In the JSON where there are suns or skies.
+    /// Of the emitted power that of suns and skies, whose light mostly passes the scene by, and
+    /// what all other surfaces reflect [W]. In the JSON where there are suns or skies.
     double emitted_far = 0, reflected = 0;
     std::vector<LeftOut> left_out;
     /// What each rank has done, where there are several.
