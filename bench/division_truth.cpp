@@ -218,7 +218,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     Monitor monitor;
     Statistics statistics;
     SolveOptions options = solve.options;
-    options.aim = sampling_share * error;
+    options.aim = share_of_sampling * error;
     Needs needs = find_needs(mesh);
     const SolverInput input{mesh, *made.tracer, options, monitor, needs};
     const auto begin = [&] { return solve.method->make(input); };
