@@ -244,7 +244,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     Monitor monitor;
     Statistics statistics;
     SolveOptions options = solve.options;
-    options.aim = sampling_share * error;
+    options.aim = share_of_sampling * error;
     Needs needs;
     std::vector<double> target;
     if (settings.for_all)

@@ -10,7 +10,7 @@ namespace hemilux {
 
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* density_examples = R"(Examples:
   hemilux density room.obj -o densities.png
   hemilux density room.obj --patch 17 --rays 1000 -o hemisphere.svg
   hemilux density room.obj --method hemisphere-1997 --estimated-steps 0 -o parts.svg
@@ -68,7 +68,7 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
                      "draw the subdivision in a plane across the patch, as the paper's figure 1");
     add_camera_options(outputs, settings.view);
     add_verbosity_options(command, settings.verbosity);
-    command.end_help_with(examples);
+    command.end_help_with(density_examples);
     return command;
 }
 

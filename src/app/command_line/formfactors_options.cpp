@@ -9,7 +9,7 @@ namespace hemilux {
 
 namespace {
 
-constexpr const char* examples = R"(Examples:
+constexpr const char* formfactors_examples = R"(Examples:
   hemilux formfactors room.obj -o factors.csv
   hemilux formfactors room.obj --exact -o factors.npy -o factors.csv
   hemilux formfactors room.obj --factors hemicube:256 -o factors.csv
@@ -46,7 +46,7 @@ Command add_formfactors_command(Arguments& program, FormFactorSettings& settings
         .repeatable()
         .required();
     add_verbosity_options(command, settings.verbosity);
-    command.end_help_with(examples);
+    command.end_help_with(formfactors_examples);
     return command;
 }
 

@@ -39,7 +39,7 @@ StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
                    std::optional<double> sampling = {}) {
     StopRule stop = settings.stop;
     if (settings.divide_auto && (stop.error || (!stop.steps && !stop.seconds)))
-        stop.error = sampling.value_or(sampling_share * whole_error(settings));
+        stop.error = sampling.value_or(share_of_sampling * whole_error(settings));
     if (!stop.steps && !stop.seconds && !stop.error) {
         stop = settings.method->default_stop;
         stop.rays = settings.stop.rays;

@@ -46,7 +46,7 @@ std::string round_text(const DivisionRound& round) {
 }
 
 AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches) {
-    AdaptiveDivision division{.error = division_share * whole_error(settings),
+    AdaptiveDivision division{.error = share_of_division * whole_error(settings),
                               .seed = settings.options.seed,
                               .threads = settings.options.threads};
     if (settings.divide == Divide::by_default)
@@ -231,13 +231,13 @@ void AutoDivision::divide_until_enough() {
 Divided AutoDivision::divide() {
     const Stopwatch watch;
     StopRule rough = rough_stop(options_, mesh_.patches().size());
-    divided_.sampling = sampling_share * whole_;
+    divided_.sampling = share_of_sampling * whole_;
     if (is_gathered_)
         divided_.sampling = rough.error =
             std::max(first_sampling_of_gathered, sampling_of_gathered * whole_);
     run_to(*rough.error, rough);
     if (!is_over()) {
-        const double most = division_share * whole_;
+        const double most = share_of_division * whole_;
         measure(0, most, {});
         divided_.linear =
             is_gathered_ ? divided_.gathered->error > whole_ : divided_.error->error > most;

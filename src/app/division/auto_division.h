@@ -15,7 +15,7 @@ namespace hemilux {
 
 /// Where --divide auto is asked for: which share of the whole error may be left by the division,
 /// and which by sampling, at first.
-inline constexpr double division_share = .7, sampling_share = .5;
+inline constexpr double share_of_division = .7, share_of_sampling = .5;
 
 /// Whether a plain run on so many patches divides them: where the method is the standard one, and
 /// what was asked for says nothing of patches or single steps.

@@ -17,6 +17,9 @@ struct Colour {
     std::uint8_t r = 0, g = 0, b = 0;
 };
 
+/// What all drawings are written with, and the rays in them.
+inline constexpr Colour ink{40, 40, 40}, ray_blue{0, 90, 200};
+
 struct Stroke {
     Colour colour{};
     double width = 1;

@@ -12,10 +12,10 @@ namespace hemilux {
 
 namespace {
 
-constexpr Colour ink{40, 40, 40}, edge_ink{90, 90, 90}, white{255, 255, 255}, ray_blue{0, 90, 200};
+constexpr Colour edge_ink{90, 90, 90}, white{255, 255, 255};
 constexpr double side_elevation = 20, side_azimuth = 28; // degrees
 constexpr std::size_t most_labels = 150;                 // the vertices of depth 3 fit
-constexpr double text_size = 14, title_size = 17;
+constexpr double label_size = 14, title_size = 17;
 
 /// A parallel projection of the unit sphere.
 struct DomeView {
@@ -181,7 +181,7 @@ void draw_rays(std::span<const Vec3> rays, const DomeView& view, Canvas& canvas)
 }
 
 void draw_captions(const HemisphereDrawing& drawing, Canvas& canvas) {
-    const TextStyle middle{.anchor = Anchor::middle, .size = text_size, .colour = ink};
+    const TextStyle middle{.anchor = Anchor::middle, .size = label_size, .colour = ink};
     canvas.text({40, 30}, drawing.title, {.size = title_size, .colour = ink});
     canvas.text({centre_above.x, 68}, "from above", middle);
     canvas.text({centre_side.x, 68},

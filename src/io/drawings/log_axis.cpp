@@ -10,9 +10,9 @@ namespace hemilux {
 namespace {
 
 constexpr double least_ratio = 4;     ///< of the ends of an axis
-constexpr double room = 0.04;         ///< at each end, as a share of the range
+constexpr double margin_share = 0.04; ///< at each end, as a share of the range
 constexpr double decades_for_all = 2; ///< longer axes have labels at powers of ten alone
-constexpr double most_labels = 7;
+constexpr double most_tick_labels = 7;
 
 } // namespace
 
@@ -30,7 +30,7 @@ LogAxis::LogAxis(const std::vector<double>& numbers) {
         low_ /= widen;
         high_ *= widen;
     }
-    const double margin = std::pow(high_ / low_, room);
+    const double margin = std::pow(high_ / low_, margin_share);
     low_ /= margin;
     high_ *= margin;
 }
@@ -41,7 +41,7 @@ std::vector<LogTick> LogAxis::ticks() const {
     const int first = static_cast<int>(std::floor(std::log10(low_)));
     const int last = static_cast<int>(std::floor(std::log10(high_)));
     const double decades = std::log10(high_ / low_);
-    const int every = std::max(1, static_cast<int>(std::ceil(decades / most_labels)));
+    const int every = std::max(1, static_cast<int>(std::ceil(decades / most_tick_labels)));
     std::vector<LogTick> result;
     for (int decade = first; decade <= last; ++decade)
         for (const int digit : {1, 2, 5}) {

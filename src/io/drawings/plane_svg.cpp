@@ -12,11 +12,11 @@ namespace hemilux {
 
 namespace {
 
-constexpr Colour ink{40, 40, 40}, ray_blue{0, 90, 200}, faint{150, 150, 150}, red{190, 30, 30};
+constexpr Colour faint{150, 150, 150}, red{190, 30, 30};
 constexpr int width = 1280, height = 790;
 constexpr Vec2 ground{640, 700};
 /// Of the scene about the patch [pixels], and of the half circle.
-constexpr Vec2 room{590, 620};
+constexpr Vec2 space{590, 620};
 constexpr double circle = 220;
 
 /// The part of a polygon's outline between which the plane y = 0 lies, its corners being in the
@@ -76,7 +76,7 @@ std::string plane_svg(const PlaneDrawing& drawing) {
     for (const PlaneSection& section : drawing.sections)
         for (const Vec2& end : section.end)
             reach = glm::max(reach, glm::abs(end));
-    const double scale = std::min(room.x / reach.x, room.y / reach.y);
+    const double scale = std::min(space.x / reach.x, space.y / reach.y);
     const auto place = [&](const Vec2& p) { return ground + scale * Vec2(p.x, -p.y); };
     canvas.text({40, 30}, drawing.title, {.size = 17, .colour = ink});
     canvas.text({width / 2.0, 760},
@@ -88,8 +88,8 @@ std::string plane_svg(const PlaneDrawing& drawing) {
         if (count.direction.y != 0)
             continue;
         const Vec2 way(count.direction.x, -count.direction.z);
-        const double end = std::min(room.x / std::max(std::abs(way.x), 1e-9),
-                                    room.y / std::max(std::abs(way.y), 1e-9));
+        const double end = std::min(space.x / std::max(std::abs(way.x), 1e-9),
+                                    space.y / std::max(std::abs(way.y), 1e-9));
         const std::array<Vec2, 2> inner{ground, ground + circle * way},
             outer{ground + circle * way, ground + end * way};
         canvas.line(inner, {.colour = ray_blue, .width = 1.2});

@@ -14,8 +14,7 @@ namespace {
 constexpr double panel_width = 440, panel_height = 400;
 constexpr double left = 64, top = 64, between_panels = 68, bottom = 62, legend_width = 250;
 constexpr double small_text = 14, title_text = 17;
-constexpr Colour ink{40, 40, 40}, grid{222, 222, 222}, faint_grid{240, 240, 240},
-    grey{130, 130, 130};
+constexpr Colour grid{222, 222, 222}, faint_grid{240, 240, 240}, grey{130, 130, 130};
 constexpr double band_opacity = 0.18;
 
 /// Where numbers are on one panel.

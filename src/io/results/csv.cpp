@@ -30,6 +30,13 @@ void append_number(std::string& line, std::uint64_t value) {
     line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
+void append_fields(std::string& line, const Vec3& v) {
+    for (int i = 0; i < 3; ++i) {
+        line += ',';
+        append_number(line, v[i]);
+    }
+}
+
 void append_text(std::string& line, std::string_view name) {
     std::string text(name);
     if (!text.empty() &&

@@ -1,6 +1,8 @@
 #pragma once
 // Fields and records of CSV (RFC 4180).
 
+#include "geometry/vector.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -12,6 +14,8 @@ namespace hemilux::csv {
 /// The shortest text that gives back the same double; `nan`, `inf`, `-inf`.
 void append_number(std::string& line, double value);
 void append_number(std::string& line, std::uint64_t value);
+/// Three times a comma and a number.
+void append_fields(std::string& line, const Vec3& v);
 /// Quoted where the text needs it. A spreadsheet takes a cell for a formula that begins with = + -
 /// or @, or with a blank of another kind before: such a name gets an apostrophe in front. Numbers
 /// are written by append_number, which adds none.

@@ -65,13 +65,6 @@ NamedPoint point_from(const std::string& path, std::size_t line, std::string_vie
     return {{x, y, z}, normal, glm::normalize(normal / largest), line};
 }
 
-void add(std::string& text, const Vec3& v) {
-    for (int i = 0; i < 3; ++i) {
-        text += ',';
-        csv::append_number(text, v[i]);
-    }
-}
-
 } // namespace
 
 std::vector<NamedPoint> read_points(const std::string& path) {
@@ -103,16 +96,17 @@ void write_points_table(const std::string& path, const Mesh& mesh,
     for (std::size_t k = 0; k < points.size(); ++k) {
         text.clear();
         csv::append_number(text, std::uint64_t{k});
-        add(text, points[k].position);
-        add(text, points[k].given_normal);
-        add(text, lights[k].irradiance);
+        csv::append_fields(text, points[k].position);
+        csv::append_fields(text, points[k].given_normal);
+        csv::append_fields(text, lights[k].irradiance);
         if (sensors[k].patch != none) {
             const Material& material = mesh.material(sensors[k].patch);
-            add(text, material.emission + material.reflectance * lights[k].irradiance);
+            csv::append_fields(text,
+                               material.emission + material.reflectance * lights[k].irradiance);
         } else {
             text += ",,,";
         }
-        add(text, lights[k].standard_error);
+        csv::append_fields(text, lights[k].standard_error);
         text += '\n';
         file.write(text);
     }

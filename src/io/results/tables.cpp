@@ -41,10 +41,6 @@ void add(std::string& line, std::uint64_t value) {
     line += ',';
     csv::append_number(line, value);
 }
-void add(std::string& line, const Vec3& v) {
-    for (int i = 0; i < 3; ++i)
-        add(line, v[i]);
-}
 void add_if_known(std::string& line, double value) {
     line += ',';
     if (!std::isnan(value))
@@ -62,8 +58,8 @@ class PatchRows {
         for (const Material& m : mesh.scene().materials) {
             csv::append_text(material_.emplace_back(","), m.name);
             std::string& text = colours_.emplace_back();
-            add(text, m.reflectance);
-            add(text, m.emission);
+            csv::append_fields(text, m.reflectance);
+            csv::append_fields(text, m.emission);
         }
         for (const std::string& name : mesh.scene().groups)
             csv::append_text(group_.emplace_back(","), name);
@@ -78,21 +74,21 @@ class PatchRows {
         text += material_[patch.material];
         text += facet.group < group_.size() ? group_[facet.group] : ",";
         add(text, frame.area_to_world(patch.area));
-        add(text, frame.to_world(patch.centre));
-        add(text, patch.normal);
+        csv::append_fields(text, frame.to_world(patch.centre));
+        csv::append_fields(text, patch.normal);
         if (patch.colours == patch.material) {
             text += colours_[patch.material];
         } else {
-            add(text, mesh_.material(patch).reflectance);
-            add(text, mesh_.material(patch).emission);
+            csv::append_fields(text, mesh_.material(patch).reflectance);
+            csv::append_fields(text, mesh_.material(patch).emission);
         }
-        add(text, radiosity_[i]);
-        add(text, standard_error_.empty() ? Vec3(0.0) : standard_error_[i]);
+        csv::append_fields(text, radiosity_[i]);
+        csv::append_fields(text, standard_error_.empty() ? Vec3(0.0) : standard_error_[i]);
         if (!slope_.empty()) {
             const Frame axes = Frame::from_normal(patch.normal);
             for (int channel = 0; channel < 3; ++channel)
-                add(text,
-                    frame.scale * (slope_[i].x[channel] * axes.x + slope_[i].y[channel] * axes.y));
+                csv::append_fields(text, frame.scale * (slope_[i].x[channel] * axes.x +
+                                                        slope_[i].y[channel] * axes.y));
         }
         if (!weight_.empty())
             add(text, weight_[i]);

@@ -20,7 +20,7 @@ namespace {
 /// summed.
 constexpr double items_of_rest = 32, least_item = 256, largest_item = 8192;
 constexpr std::uint32_t patches_per_item = 32;
-constexpr double rays_per_batch = 2e6;
+constexpr double rays_at_once = 2e6;
 /// Work items that are listed at a time: a step of 1e9 rays per patch has millions.
 constexpr std::size_t most_items = 4096;
 /// A thread that works alone takes work items of so many together: tracing likes many rays at once.
@@ -100,7 +100,7 @@ std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
 }
 
 void Bounces::shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result) {
-    const auto most = static_cast<std::size_t>(rays_per_batch / largest_item);
+    const auto most = static_cast<std::size_t>(rays_at_once / largest_item);
     batches_.resize(std::min(most, ranges_.size()));
     for (std::size_t begin = 0; begin < ranges_.size(); begin += most) {
         const std::size_t count = std::min(most, ranges_.size() - begin);
