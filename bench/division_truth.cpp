@@ -52,6 +52,7 @@ struct Settings {
 struct TruthPoint {
     Hit hit;
     SurfacePoint at;
+    double area;        ///< that it stands for, in any unit
     Vec3 first, second; ///< reflected light [W/m2] by paths, twice independently
 };
 
@@ -61,17 +62,17 @@ struct Half {
     bool second, front;
     std::array<Vec3, 3> corner;
     double area;
+    double density; ///< of points, in any unit
 };
 
 /// Of facets that count: by patch, `weight` is that in a target; empty: 1.
 std::vector<Half> halves_of(const Mesh& mesh, std::span<const double> weight) {
     std::vector<Half> halves;
-    std::vector<bool> counts(mesh.scene().facets.size(), weight.empty());
+    std::vector<double> counts(mesh.scene().facets.size(), weight.empty() ? 1 : 0);
     for (std::size_t i = 0; i < weight.size(); ++i)
-        if (weight[i] > 0)
-            counts[mesh.patches()[i].facet] = true;
+        counts[mesh.patches()[i].facet] = std::max(counts[mesh.patches()[i].facet], weight[i]);
     for (std::uint32_t f = 0; f < mesh.scene().facets.size(); ++f) {
-        if (!counts[f] ||
+        if (!(counts[f] > 0) ||
             mesh.scene().materials[mesh.scene().facets[f].material].reflectance == Vec3(0.0))
             continue;
         const auto p = mesh.whole_side(f, false).shape.corner;
@@ -82,25 +83,26 @@ std::vector<Half> halves_of(const Mesh& mesh, std::span<const double> weight) {
                 const Vec3 a = second ? p[2] : p[1], b = second ? p[3] : p[2];
                 const double area = .5 * glm::length(glm::cross(a - p[0], b - p[0]));
                 if (area > 0)
-                    halves.push_back({f, second, front, {p[0], a, b}, area});
+                    halves.push_back({f, second, front, {p[0], a, b}, area, counts[f]});
             }
     }
     return halves;
 }
 
-/// By systematic sampling over the area. The mesh is not divided yet.
+/// By systematic sampling over the area, in proportion to the weight in a target. The mesh is not
+/// divided yet.
 std::vector<TruthPoint> draw_points(const Mesh& mesh, std::span<const double> weight,
                                     std::size_t count) {
     const std::vector<Half> halves = halves_of(mesh, weight);
     double area = 0;
     for (const Half& half : halves)
-        area += half.area;
+        area += half.density * half.area;
     Rng rng(20240229);
     std::vector<TruthPoint> points;
     const double each = area / double(count);
     double next = each * rng.uniform(), end = 0;
     for (const Half& half : halves)
-        for (end += half.area; next < end; next += each) {
+        for (end += half.density * half.area; next < end; next += each) {
             double u = rng.uniform(), v = rng.uniform();
             if (u + v > 1) {
                 u = 1 - u;
@@ -114,8 +116,11 @@ std::vector<TruthPoint> draw_points(const Mesh& mesh, std::span<const double> we
             hit.second_half = half.second;
             hit.front = half.front;
             const Patch side = mesh.whole_side(half.facet, !half.front);
-            points.push_back(
-                {hit, {p + u * (a - p) + v * (b - p), side.normal, half.facet}, Vec3(0), Vec3(0)});
+            points.push_back({hit,
+                              {p + u * (a - p) + v * (b - p), side.normal, half.facet},
+                              1 / half.density,
+                              Vec3(0),
+                              Vec3(0)});
         }
     return points;
 }
@@ -202,6 +207,7 @@ class Truth {
         double sum = 0, squares = 0, size = 0;
 
         void add(double weight, const TruthPoint& point, const Vec3& light1, const Vec3& light2) {
+            weight *= point.area;
             const double product = weight * glm::dot(light1 - point.first, light2 - point.second);
             sum += product;
             squares += product * product;

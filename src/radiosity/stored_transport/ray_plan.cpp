@@ -47,7 +47,8 @@ constexpr double least_first = 1.5;
 constexpr double times_in_first = 4;
 
 /// And so large a part of the rays of a first step without a target, at the most: the others wait
-/// until it is known where they count.
+/// until it is known where they count. Where the target is nearly all of the scene, there is less
+/// to wait for.
 constexpr double most_of_first = 3.0 / 4;
 
 /// With a target, what each of the two kinds gets of the rays that are added, at least: how much
@@ -149,8 +150,9 @@ double RayPlan::first_mean(double mean) const {
         return mean;
     const double sum = std::accumulate(aim_.begin(), aim_.end(), 0.0);
     const double least = std::min(least_first, mean);
-    return std::clamp(times_in_first * mean * sum / double(aim_.size()), least,
-                      std::max(most_of_first * mean, least));
+    const double share = std::min(sum / double(aim_.size()), 1.0);
+    return std::clamp(times_in_first * share * mean, least,
+                      std::max(std::max(most_of_first, share) * mean, least));
 }
 
 void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers) {
