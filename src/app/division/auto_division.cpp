@@ -205,13 +205,15 @@ void AutoDivision::divide_once(Division& division) {
 
 void AutoDivision::divide_until_enough() {
     Division division(mesh_, input_.tracer, options_, input_.monitor);
+    const std::uint64_t most_rays =
+        settings_.stop.rays.value_or(default_max_rays(mesh_.patches().size()));
     for (unsigned attempt = 0; attempt < most_attempts; ++attempt) {
         if (divides_)
             divide_once(division);
         if (is_over())
             break;
         StopRule stop;
-        stop.rays = settings_.stop.rays.value_or(default_max_rays(mesh_.patches().size()));
+        stop.rays = most_rays;
         run_to(*divided_.sampling, stop);
         if (is_over())
             break;
@@ -220,7 +222,8 @@ void AutoDivision::divide_until_enough() {
         const std::uint64_t rays = divided_.rough.rays_energy + statistics_.rays_divide;
         measure(std::max(rays / share_of_divided, least_rays_of_error), sampling / 2,
                 division.squares());
-        const bool is_limited = !(sampling <= *divided_.sampling); // by rays or steps
+        const bool is_limited = // by rays or steps
+            !(sampling <= *divided_.sampling) || rays + statistics_.rays_division_error > most_rays;
         if (is_over() || is_enough(sampling) || is_limited)
             break;
         division.doubt();

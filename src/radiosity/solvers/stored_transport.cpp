@@ -43,6 +43,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -72,6 +73,8 @@ class StoredTransportSolver final : public Solver {
             search.go_on(traced_, !finished() && room_to_grow() >= RayPlan::least_growth);
         return *done;
     }
+
+    void aim_at(double error) override { plan_.aim_at(error); }
 
     /// Whether it was not interrupted; nothing where the rays have seen no way out for the light.
     [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
@@ -116,6 +119,7 @@ class StoredTransportSolver final : public Solver {
         state.add(traced_);
         state.add(variance_);
         state.add(direct_variance_);
+        state.add(in_dark_);
         aim_.save(state);
         plan_.save(state);
         for (const RayCounts& batch : counts_)
@@ -130,6 +134,7 @@ class StoredTransportSolver final : public Solver {
         state.get(traced_);
         state.get(variance_, bounds::non_negative);
         state.get(direct_variance_, bounds::non_negative);
+        state.get(in_dark_, bounds::non_negative);
         aim_.load(state);
         plan_.aim(aim_.importance());
         plan_.load(state);
@@ -190,8 +195,11 @@ class StoredTransportSolver final : public Solver {
             plan_.aim(aim_.importance());
         }
         ErrorSoFar known{0, variance_, direct_variance_, drained_};
-        if (solution_.steps > 0)
+        if (solution_.steps > 0) {
+            const double all = std::exchange(solution_.missed, solution_.missed - in_dark_);
             known.relative = estimated_error(input_.mesh, solution_);
+            solution_.missed = all;
+        }
         const double room = room_to_grow();
         if (room >= RayPlan::least_growth) {
             plan_.grow(known, room, workers_);
@@ -252,7 +260,8 @@ class StoredTransportSolver final : public Solver {
         TransportErrors errors = errors_of<batches>(
             {input_.mesh, system_, light_, all, rows, *direct_, input_.target}, workers_);
         direct_variance_ = spread.direct_variance + errors.missed_by_shadow_rays;
-        variance_ = std::max(errors.variance + errors.missed, direct_variance_);
+        in_dark_ = errors.missed_in_dark;
+        variance_ = std::max(errors.variance + errors.missed - in_dark_, direct_variance_);
         solution_.standard_error = std::move(errors.standard_error);
         solution_.variance = errors.variance;
         solution_.variance_of_level = errors.of_losses;
@@ -262,13 +271,13 @@ class StoredTransportSolver final : public Solver {
                                                        effective_freedom(spread.products, batches));
         solution_.unlit = 0;
         for (std::uint32_t i = 0; i < n; ++i)
-            solution_.unlit += !errors.lit[i] && input_.needs.power(i);
+            solution_.unlit += !errors.needs_rays[i] && input_.needs.power(i);
         if (aim_.has_target()) {
             aim_.step_done(errors.part, errors.lit);
             solution_.unneeded = aim_.unneeded();
             plan_.aim(aim_.importance());
         }
-        plan_.weigh(rows.variance, errors.lit);
+        plan_.weigh(rows.variance, errors.needs_rays);
         plan_.weigh_emitters(direct_variances, errors.lit);
         account();
         solution_.rays_energy = traced_;
@@ -323,7 +332,8 @@ class StoredTransportSolver final : public Solver {
     std::optional<DirectLight> direct_; ///< an estimate for each batch
     bool planned_ = false; ///< rays of the present step, which may have been traced in part
     bool drained_ = true;  ///< the rays of the last try have seen a way out for the light
-    double variance_ = 0, direct_variance_ = 0;
+    double variance_ = 0, direct_variance_ = 0; ///< without what follows
+    double in_dark_ = 0;                        ///< TransportErrors::missed_in_dark
     std::uint64_t traced_ = 0;
 };
 

@@ -26,6 +26,8 @@ void Solver::load(StateReader&) { throw std::logic_error("this method cannot loa
 bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
          const std::function<void(const StepRecord&, const Solution&)>& after_step,
          const Before& before) {
+    if (stop.error)
+        solver.aim_at(*stop.error);
     const auto start = std::chrono::steady_clock::now();
     const auto elapsed = [&] {
         const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start;

@@ -130,6 +130,8 @@ class Solver {
     /// Improves the solution. False when interrupted: the solution is then that of the steps
     /// before.
     virtual bool step() = 0;
+    /// From now on steps are planned for this error, in place of SolveOptions::aim.
+    virtual void aim_at(double /*error*/) {}
     [[nodiscard]] virtual const Solution& solution() const = 0;
     /// The next ones that are worked out already: they cost no time.
     [[nodiscard]] virtual std::uint32_t steps_ready() const { return 0; }

@@ -10,7 +10,7 @@
 namespace hemilux {
 namespace {
 
-constexpr double least_share = 1.0 / 8, most_share = 8;
+constexpr double least_share = 1.0 / 8;
 
 /// The least where patches are not of the same importance. With an eighth, patches with many rays
 /// inherit too much of what those with few are off by (docs/decisions.md, D57).
@@ -55,7 +55,8 @@ std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double m
     if (!(largest > 0))
         return rays;
     const std::vector<double> weights = rounded(given, largest);
-    const double most = most_share * (expected.empty() ? 1 : *std::ranges::max_element(expected));
+    const double most =
+        most_share_of_rays * (expected.empty() ? 1 : *std::ranges::max_element(expected));
     const auto least = [&](std::uint32_t i) {
         return expected.empty() ? least_share : least_of_expected * expected[i];
     };

@@ -59,11 +59,11 @@ constexpr double least_of_kind = 1.0 / 4;
 constexpr double least_reflectance = .1;
 
 /// Throws StateError for rays that cannot have been allocated with this mean (ray_allocation.h): a
-/// patch has at most about eleven times what is expected for it, and all have more than a small
-/// part of the mean.
+/// patch has at most sqrt(2) times `most_share_of_rays` of what is expected for it, and all have
+/// more than a small part of the mean.
 void check_allocated(std::span<const std::uint32_t> rays, double mean, double most_expected) {
     constexpr double least_share = 1.0 / 64;
-    const double most_share = 12 * most_expected;
+    const double most_share = 1.5 * most_share_of_rays * most_expected;
     double sum = 0, count = 0;
     for (const std::uint32_t of_patch : rays) {
         if (of_patch > std::max(1.0, most_share * mean))
@@ -85,10 +85,15 @@ RayPlan::RayPlan(const Mesh& mesh, const Needs& needs, double random, double to_
     first_.to_emitters = to_emitters > 0 ? first_.random : 0;
     now_.rays.random.resize(patches.size());
     now_.rays.to_emitters.resize(patches.size());
+    double largest = 0; // hardly a ray from the huge surface of a sky meets the scene
+    for (const Patch& patch : patches)
+        if (!mesh.material(patch).is_far)
+            largest = std::max(largest, patch.area);
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
         reflectance_.push_back(mesh.material(i).reflectance);
         const double reflectance = glm::length(reflectance_[i]);
-        const double area = needs.power(i) ? std::pow(patches[i].area, area_exponent) : 0;
+        const double counted = std::min(patches[i].area, largest);
+        const double area = needs.power(i) ? std::pow(counted, area_exponent) : 0;
         prior_emitter_weights_.push_back(area * reflectance);
         prior_weights_.push_back(area * std::max(reflectance, least_reflectance));
     }

@@ -54,6 +54,9 @@ class RayPlan {
     /// 0: no more rays. A plan does not save it.
     void aim(std::span<const double> importance);
 
+    /// From now on steps that grow are to reach this error, as RayGoal::aim.
+    void aim_at(double error) { goal_.aim = error; }
+
     /// Plans more rays than before, at most `room` times as many random ones; `known` is not used
     /// for the first step.
     void grow(const ErrorSoFar& known, double room, const Workers& workers);

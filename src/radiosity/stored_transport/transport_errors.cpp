@@ -18,6 +18,10 @@
 namespace hemilux {
 namespace {
 
+/// What may be missed in a dark part counts where it is this share of the variance: more rays lower
+/// the one and not the other.
+constexpr double share_of_dark = .01;
+
 bool any(const Vec3& v) { return v != Vec3(0.0); }
 
 /// The weight of the squared error of a patch.
@@ -84,10 +88,15 @@ class Account {
             errors.missed_by_shadow_rays +=
                 rule_of_three * share * counts * glm::dot(sample, sample);
         }
-        if (!dark.empty())
-            errors.missed += std::ranges::max(dark);
+        const double in_dark = dark.empty() ? 0 : std::ranges::max(dark);
+        const double least = share_of_dark * errors.variance;
+        errors.missed += in_dark;
+        errors.missed_in_dark = in_dark > least ? in_dark : 0;
         errors.part = parts_.of;
-        errors.lit = lit_;
+        errors.lit = errors.needs_rays = lit_;
+        for (std::uint32_t i = 0; i < area_.size(); ++i)
+            if (dark[parts_.of[i]] > least)
+                errors.needs_rays[i] = true;
     }
 
   private:

@@ -31,8 +31,12 @@ struct TransportErrors {
     double of_losses = 0; ///< the part of it that comes from how many rays were lost, by counting
     /// The same, of light that no random ray and that no shadow ray may have found.
     double missed = 0, missed_by_shadow_rays = 0;
+    double missed_in_dark = 0; ///< the part of `missed` that more rays of `needs_rays` take away
     std::vector<std::uint32_t> part; ///< of each patch, see linked_parts.h
     std::vector<bool> lit; ///< by patch: whether light reaches it on any stored path, or it emits
+    /// Those that are lit, and those of dark parts whose few rays leave so much uncertain that it
+    /// counts beside `variance`.
+    std::vector<bool> needs_rays;
 };
 
 /// What is known of a solution; all of it outlives the call.
