@@ -3,12 +3,16 @@
 // area.
 //
 //     hemilux_division_truth --scene examples/scenes/room_1002.obj --error 0.1,0.05,0.02 --seeds 10
+//
+// With --for or --camera both errors are those of a target.
 
+#include "app/command_line/option_groups.h"
 #include "app/command_line/option_kinds.h"
 #include "app/division/auto_division.h"
 #include "app/division/whole_error.h"
 #include "app/loading/load.h"
 #include "app/loading/sides.h"
+#include "app/running/target_weights.h"
 #include "division_families.h"
 #include "path_reference.h"
 #include "radiosity/division/adaptive_division.h"
@@ -35,8 +39,11 @@ namespace {
 struct Settings {
     std::vector<std::string> scenes, families, asked{"0.05"};
     std::size_t seeds = 10, points = 10000, paths = 256;
-    double max_edge = 0;   ///< 0: --divide auto
-    bool gathered = false; ///< light gathered from the patches, in place of theirs
+    double max_edge = 0;             ///< 0: --divide auto
+    bool gathered = false;           ///< light gathered from the patches, in place of theirs
+    std::vector<std::string> groups; ///< that are the target
+    ViewSettings view;               ///< whose picture is the target too, where it has a camera
+    bool for_all = false;            ///< runs know of no target
     unsigned threads = 0;
     bool every_run = false;
 };
@@ -45,6 +52,7 @@ struct Settings {
 struct TruthPoint {
     Hit hit;
     SurfacePoint at;
+    double area;        ///< that it stands for, in any unit
     Vec3 first, second; ///< reflected light [W/m2] by paths, twice independently
 };
 
@@ -54,12 +62,18 @@ struct Half {
     bool second, front;
     std::array<Vec3, 3> corner;
     double area;
+    double density; ///< of points, in any unit
 };
 
-std::vector<Half> halves_of(const Mesh& mesh) {
+/// Of facets that count: by patch, `weight` is that in a target; empty: 1.
+std::vector<Half> halves_of(const Mesh& mesh, std::span<const double> weight) {
     std::vector<Half> halves;
+    std::vector<double> counts(mesh.scene().facets.size(), weight.empty() ? 1 : 0);
+    for (std::size_t i = 0; i < weight.size(); ++i)
+        counts[mesh.patches()[i].facet] = std::max(counts[mesh.patches()[i].facet], weight[i]);
     for (std::uint32_t f = 0; f < mesh.scene().facets.size(); ++f) {
-        if (mesh.scene().materials[mesh.scene().facets[f].material].reflectance == Vec3(0.0))
+        if (!(counts[f] > 0) ||
+            mesh.scene().materials[mesh.scene().facets[f].material].reflectance == Vec3(0.0))
             continue;
         const auto p = mesh.whole_side(f, false).shape.corner;
         for (const bool front : {true, false})
@@ -69,24 +83,26 @@ std::vector<Half> halves_of(const Mesh& mesh) {
                 const Vec3 a = second ? p[2] : p[1], b = second ? p[3] : p[2];
                 const double area = .5 * glm::length(glm::cross(a - p[0], b - p[0]));
                 if (area > 0)
-                    halves.push_back({f, second, front, {p[0], a, b}, area});
+                    halves.push_back({f, second, front, {p[0], a, b}, area, counts[f]});
             }
     }
     return halves;
 }
 
-/// By systematic sampling over the area. The mesh is not divided yet.
-std::vector<TruthPoint> draw_points(const Mesh& mesh, std::size_t count) {
-    const std::vector<Half> halves = halves_of(mesh);
+/// By systematic sampling over the area, in proportion to the weight in a target. The mesh is not
+/// divided yet.
+std::vector<TruthPoint> draw_points(const Mesh& mesh, std::span<const double> weight,
+                                    std::size_t count) {
+    const std::vector<Half> halves = halves_of(mesh, weight);
     double area = 0;
     for (const Half& half : halves)
-        area += half.area;
+        area += half.density * half.area;
     Rng rng(20240229);
     std::vector<TruthPoint> points;
     const double each = area / double(count);
     double next = each * rng.uniform(), end = 0;
     for (const Half& half : halves)
-        for (end += half.area; next < end; next += each) {
+        for (end += half.density * half.area; next < end; next += each) {
             double u = rng.uniform(), v = rng.uniform();
             if (u + v > 1) {
                 u = 1 - u;
@@ -100,10 +116,26 @@ std::vector<TruthPoint> draw_points(const Mesh& mesh, std::size_t count) {
             hit.second_half = half.second;
             hit.front = half.front;
             const Patch side = mesh.whole_side(half.facet, !half.front);
-            points.push_back(
-                {hit, {p + u * (a - p) + v * (b - p), side.normal, half.facet}, Vec3(0), Vec3(0)});
+            points.push_back({hit,
+                              {p + u * (a - p) + v * (b - p), side.normal, half.facet},
+                              1 / half.density,
+                              Vec3(0),
+                              Vec3(0)});
         }
     return points;
+}
+
+/// What --divide auto is asked for.
+SolveSettings solve_settings(const Settings& settings) {
+    SolveSettings solve;
+    solve.method = &method_of(Role::standard);
+    solve.divide_auto = settings.max_edge == 0;
+    solve.options.threads = settings.threads;
+    solve.verbosity = Verbosity::quiet;
+    solve.target.groups = settings.groups;
+    solve.view = settings.view;
+    solve.target.camera = settings.view.camera.has_value();
+    return solve;
 }
 
 /// An error with one sigma of it.
@@ -117,8 +149,9 @@ class Truth {
     Truth(const Scene& scene, const MeshOptions& options, const Settings& settings)
         : scene_(scene), options_(options) {
         const Mesh mesh(scene, options);
-        points_ = draw_points(mesh, settings.points);
         const MadeTracer made = make_tracer(mesh, true, settings.threads);
+        points_ = draw_points(mesh, target_weights(solve_settings(settings), mesh, *made.tracer),
+                              settings.points);
         const PathReference reference(mesh, *made.tracer);
         constexpr std::size_t points_per_chunk = 16;
         Workers(settings.threads)
@@ -135,7 +168,7 @@ class Truth {
             const std::uint32_t patch = mesh.patch_at(point.hit);
             const Vec3 light = radiosity_at(mesh, solution, patch, point.at.position) -
                                mesh.material(patch).emission;
-            sums.add(point, light, light);
+            sums.add(solution.weight_of(patch), point, light, light);
         }
         return sums.error();
     }
@@ -155,8 +188,10 @@ class Truth {
         const std::vector<Vec3> light = gather.irradiance(at, streams, 2, Workers(threads), never);
         Sums sums;
         for (std::size_t k = 0; k < points_.size(); ++k) {
-            const Vec3& rho = mesh.material(mesh.patch_at(points_[k].hit)).reflectance;
-            sums.add(points_[k], rho * light[2 * k], rho * light[2 * k + 1]);
+            const std::uint32_t patch = mesh.patch_at(points_[k].hit);
+            const Vec3& rho = mesh.material(patch).reflectance;
+            sums.add(solution.weight_of(patch), points_[k], rho * light[2 * k],
+                     rho * light[2 * k + 1]);
         }
         return sums.error();
     }
@@ -171,11 +206,12 @@ class Truth {
     struct Sums {
         double sum = 0, squares = 0, size = 0;
 
-        void add(const TruthPoint& point, const Vec3& light1, const Vec3& light2) {
-            const double product = glm::dot(light1 - point.first, light2 - point.second);
+        void add(double weight, const TruthPoint& point, const Vec3& light1, const Vec3& light2) {
+            weight *= point.area;
+            const double product = weight * glm::dot(light1 - point.first, light2 - point.second);
             sum += product;
             squares += product * product;
-            size += glm::dot(point.first, point.second);
+            size += weight * glm::dot(point.first, point.second);
         }
         [[nodiscard]] TrueError error() const {
             const double value = std::sqrt(std::max(sum / size, 0.0));
@@ -205,13 +241,9 @@ struct Run {
 Run run_once(const Truth& truth, const Settings& settings, double error, std::uint64_t seed) {
     const std::clock_t start = std::clock();
     Mesh mesh = truth.mesh(settings.max_edge);
-    SolveSettings solve;
-    solve.method = &method_of(Role::standard);
-    solve.divide_auto = settings.max_edge == 0;
+    SolveSettings solve = solve_settings(settings);
     solve.options.seed = seed;
-    solve.options.threads = settings.threads;
     solve.stop.error = error;
-    solve.verbosity = Verbosity::quiet;
     if (settings.gathered)
         solve.points.path = "points";
     const MadeTracer made = make_tracer(mesh, find_needs(mesh).tree, settings.threads);
@@ -219,10 +251,18 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     Statistics statistics;
     SolveOptions options = solve.options;
     options.aim = share_of_sampling * error;
-    Needs needs = find_needs(mesh);
-    const SolverInput input{mesh, *made.tracer, options, monitor, needs};
+    Needs needs;
+    std::vector<double> target;
+    if (settings.for_all)
+        solve.target = {};
+    SolverInput input{mesh, *made.tracer, options, monitor, needs};
+    const auto mesh_changed = [&] {
+        needs = find_needs(mesh);
+        input.target = target = target_weights(solve, mesh, *made.tracer);
+    };
+    mesh_changed();
     const auto begin = [&] { return solve.method->make(input); };
-    Divided divided = divide_as_asked(solve, mesh, needs, input, begin, statistics);
+    Divided divided = divide_as_asked(solve, mesh, input, begin, mesh_changed, statistics);
     const auto solver = divided.begun ? std::move(divided.begun) : begin();
     run(*solver, input,
         {.steps = {},
@@ -230,7 +270,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
          .error = divided.sampling.value_or(options.aim),
          .rays = 2'000'000'000},
         {}, divided.before);
-    const Solution solution = with_slopes(solver->solution(), divided);
+    Solution solution = with_slopes(solver->solution(), divided);
     statistics.estimated_error = estimated_error(mesh, solution);
     solve.divide_auto = true;
     add_division_error(statistics, solve, mesh, *made.tracer, solution, divided,
@@ -241,6 +281,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     done.sampling = statistics.error_sampling;
     done.division = statistics.error_division;
     done.patches = mesh.patches().size();
+    solution.weight = target_weights(solve_settings(settings), mesh, *made.tracer);
     const TrueError off =
         settings.gathered ? truth.error_of_gathered(mesh, *made.tracer, solution, settings.threads)
                           : truth.error_of(mesh, solution);
@@ -313,6 +354,11 @@ void add_options(Command command, Settings& settings) {
     add_number(command, "--divide", "LENGTH", settings.max_edge, positive,
                "patches of one size instead of --divide auto");
     add_whole<unsigned>(command, "--threads", settings.threads, 0, 1024, "0: all cores");
+    command.add_texts("--for", "GROUP,...", settings.groups, "groups that are the target")
+        .separated_by(',');
+    add_camera_options(command, settings.view);
+    command.add_flag("--for-all", settings.for_all,
+                     "runs are for all alike, and the true error is still that of the target");
     command.add_flag("--gathered", settings.gathered,
                      "the light that is gathered from the patches, in place of theirs");
     command.add_flag("--every-run", settings.every_run, "a line for each run too");

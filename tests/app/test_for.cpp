@@ -102,6 +102,34 @@ TEST_CASE("A run with --for goes on from its checkpoint, and from no other") {
     test::check_fails(place, 2, run + "--steps 4 -o x.csv --resume saved", "what the run was for");
 }
 
+TEST_CASE(
+    "With --divide auto patches of the target are divided, and all of its error is reported") {
+    const Workplace place;
+    place.write_room();
+    const std::string run = "solve room.obj --divide auto --for group:detail_floor --seed 3 ";
+    const auto outcome = place.hemilux(run + "--error .05 -t 1 -o 1.csv --stats s.json");
+    REQUIRE(outcome.code == 0);
+    REQUIRE(place.hemilux(run + "--error .05 -t 2 -o 2.csv -q").code == 0);
+    CHECK(place.read("1.csv") == place.read("2.csv"));
+    CHECK_THAT(outcome.err, Contains("of the light on group:detail_floor: sampling "));
+    const std::string json = place.read("s.json");
+    CHECK_THAT(json, Contains("\"estimated_error_of\": \"target\""));
+    const double whole = test::statistic(json, "estimated_error");
+    CHECK(whole == Approx(std::hypot(test::statistic(json, "error_sampling"),
+                                     test::statistic(json, "error_division"))));
+    CHECK(whole <= .05);
+    REQUIRE(place.hemilux("solve room.obj --divide auto --seed 3 --error .05 -o all.csv -q").code ==
+            0);
+    const auto patches_elsewhere = [](const std::string& table) {
+        std::istringstream rows(table);
+        std::ptrdiff_t count = 0;
+        for (std::string row; std::getline(rows, row);)
+            count += row.find(",detail_floor,") == std::string::npos;
+        return count;
+    };
+    CHECK(2 * patches_elsewhere(place.read("1.csv")) < patches_elsewhere(place.read("all.csv")));
+}
+
 TEST_CASE("A target that cannot be is refused") {
     const Workplace place;
     place.write_room();
@@ -123,7 +151,6 @@ TEST_CASE("A target that cannot be is refused") {
     refused(2, "--for points:words.txt", "words.txt:2: expected six numbers");
     refused(2, "--for group:lamp", "nothing that --for names reflects light");
     refused(2, "--for group:walls --method matrix", "these take a target: hemisphere, ");
-    refused(2, "--for group:walls --divide auto", "--divide auto divides by the light of all");
     refused(2, "--for group:walls --method hemisphere --literal", "with --literal each patch");
     refused(2, "--for group:walls --plain", "--plain solves for all patches alike");
     place.write("p.txt", ".6 .6 0 0 0 1\n");

@@ -7,6 +7,7 @@
 #include "support/closed_forms.h"
 #include "support/scenes.h"
 #include "support/solve.h"
+#include "support/targets.h"
 
 #include "support/catch.h"
 
@@ -59,8 +60,8 @@ double true_error_on_ground(const Mesh& mesh, const Solution& solution) {
                                    point_to_polygon(x, patch.normal, lamp) *
                                    Vec3(lamp_emission, .5 * lamp_emission, 0);
                 const Vec3 off = radiosity_at(mesh, solution, i, x) - light;
-                error += patch.area * glm::dot(off, off);
-                size += patch.area * glm::dot(light, light);
+                error += solution.weight_of(i) * patch.area * glm::dot(off, off);
+                size += solution.weight_of(i) * patch.area * glm::dot(light, light);
             }
     }
     return std::sqrt(error / size);
@@ -88,21 +89,28 @@ TEST_CASE("the error of a division is that against light in closed form") {
     const double width = GENERATE(.02, .3);
     const double max_edge = GENERATE(1.0, .5, .2);
     const Model model(lamp_over_ground(width), {.max_edge = max_edge});
-    const Solution solution = test::solve(model, *find_method("stored-transport"), {},
-                                          {.steps = {}, .seconds = {}, .error = .002});
+    const bool has_target = GENERATE(false, true);
+    std::vector<double> target; // what lies far from the lamp
+    if (has_target)
+        for (const Patch& patch : model.mesh.patches())
+            target.push_back(
+                std::max(glm::length(patch.centre - lamp_of(model.mesh).corner[0]) - .5, 0.0));
+    const Solution solution = test::solve_for(model, *find_method("stored-transport"), target, {},
+                                              {.steps = {}, .seconds = {}, .error = .002});
     const double truth = true_error_on_ground(model.mesh, solution);
     double mean_square = 0, mean_uncertainty = 0;
     constexpr int seeds = 8;
     for (int seed = 0; seed < seeds; ++seed) {
         const DivisionError found =
             division_error_of(model, solution, static_cast<std::uint64_t>(seed) + 1);
-        CAPTURE(width, max_edge, seed, truth, found.error, found.uncertainty, found.points);
+        CAPTURE(width, max_edge, has_target, seed, truth, found.error, found.uncertainty,
+                found.points);
         CHECK(std::abs(found.error - truth) < 5 * found.uncertainty);
         CHECK(found.uncertainty < .2 * truth);
         mean_square += found.error * found.error / seeds;
         mean_uncertainty += found.uncertainty / seeds;
     }
-    CAPTURE(width, max_edge, truth, mean_square, mean_uncertainty);
+    CAPTURE(width, max_edge, has_target, truth, mean_square, mean_uncertainty);
     CHECK(std::abs(std::sqrt(mean_square) - truth) < 4 * mean_uncertainty / std::sqrt(seeds));
 }
 

@@ -153,7 +153,7 @@ TEST_CASE("A picture's weights are what it shows and what lights that") {
         others += weight[i] * patches[i].area / patches[0].area;
         CHECK((weight[i] > 0) == (patches[i].normal != patches[0].normal));
     }
-    CHECK(others == Approx(.5)); // what it reflects
+    CHECK(others == Approx(.5 * .5)); // the square of what it reflects
 }
 
 TEST_CASE("With a target the result does not depend on threads, nor on an interruption") {

@@ -1,5 +1,6 @@
 // Patches that are divided further: nothing is lost, and rays find the pieces.
 #include "radiosity/division/adaptive_division.h"
+#include "radiosity/division/division_weights.h"
 #include "radiosity/division/inherited.h"
 #include "radiosity/division/patch_levels.h"
 #include "radiosity/sampling/rng.h"
@@ -184,4 +185,22 @@ TEST_CASE("division goes where the light changes, and ends at the error asked fo
     Solution furnace = rough_solution(even.mesh, even.bvh, hundredth, monitor);
     CHECK_FALSE(Division(even.mesh, even.bvh, hundredth, monitor).divide(furnace, .01));
     CHECK(even.mesh.patches().size() == 24);
+}
+
+TEST_CASE("what varies on a patch counts for a target as the patch lights it from near") {
+    const Model model(test::cube_with_lit_floor(1, .5));
+    const auto patches = model.mesh.patches();
+    std::vector<double> target(patches.size());
+    target[0] = 2;
+    const std::vector<double> counts =
+        division_weights(model.mesh, model.bvh, target, 1, Workers(2));
+    CHECK(counts == division_weights(model.mesh, model.bvh, target, 1, Workers(1)));
+    CHECK(counts[0] == 2);
+    constexpr double one_side = 2 * .5 * .5 * .2; // weight, reflectance squared, about the factor
+    for (std::size_t i = 1; i < patches.size(); ++i) {
+        const bool is_opposite = glm::dot(patches[i].normal, patches[0].normal) < -.5;
+        CAPTURE(i, is_opposite);
+        CHECK(counts[i] < (is_opposite ? .9 : 1.02) * one_side);
+        CHECK(counts[i] > (is_opposite ? .5 : .8) * one_side);
+    }
 }

@@ -24,6 +24,7 @@
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
 #include "radiosity/sampling/workers.h"
+#include "radiosity/scene/needs.h"
 #include "radiosity/solving/left_out.h"
 
 #include <algorithm>
@@ -84,6 +85,7 @@ class SolveRun {
     }
     [[nodiscard]] double bytes_of_outputs() const;
     [[nodiscard]] std::unique_ptr<Solver> begin();
+    void mesh_changed();
 
     SolveSettings settings_; ///< with the camera of the scene, where none was given
     const Stopwatch started_;
@@ -166,11 +168,18 @@ std::unique_ptr<Solver> SolveRun::begin() {
     return make_solver(settings_, *input_, loaded_->face_lines);
 }
 
+void SolveRun::mesh_changed() {
+    if (!settings_.options.keep_all)
+        prepared_->needs = find_needs(mesh());
+    target_ = target_weights(settings_, mesh(), tracer());
+    input_->target = target_;
+}
+
 /// Where --divide auto asks for it.
 void SolveRun::divide() {
     try {
         divided_ = divide_as_asked(
-            settings_, loaded_->mesh, prepared_->needs, *input_, [&] { return begin(); },
+            settings_, loaded_->mesh, *input_, [&] { return begin(); }, [&] { mesh_changed(); },
             statistics_);
     } catch (const SolveError& error) {
         throw as_input_error(error);

@@ -63,11 +63,12 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
 /// Divides the mesh for a run to come.
 class AutoDivision {
   public:
-    AutoDivision(const SolveSettings& settings, Mesh& mesh, Needs& needs, const SolverInput& input,
-                 const BeginSolver& begin, Statistics& statistics)
-        : settings_(settings), mesh_(mesh), needs_(needs), input_(input), begin_(begin),
-          statistics_(statistics), options_(division_of(settings, mesh.patches().size())),
-          whole_(whole_error(settings)), is_gathered_(gives_gathered_light(settings)),
+    AutoDivision(const SolveSettings& settings, Mesh& mesh, const SolverInput& input,
+                 const BeginSolver& begin, const MeshChanged& mesh_changed, Statistics& statistics)
+        : settings_(settings), mesh_(mesh), input_(input), begin_(begin),
+          mesh_changed_(mesh_changed), statistics_(statistics),
+          options_(division_of(settings, mesh.patches().size())), whole_(whole_error(settings)),
+          is_gathered_(gives_gathered_light(settings)),
           is_own_(settings.method == &method_of(Role::standard) && !settings.plain) {}
 
     [[nodiscard]] Divided divide();
@@ -91,9 +92,9 @@ class AutoDivision {
 
     const SolveSettings& settings_;
     Mesh& mesh_;
-    Needs& needs_; ///< of its patches as they are
     const SolverInput& input_;
     const BeginSolver& begin_;
+    const MeshChanged& mesh_changed_;
     Statistics& statistics_;
     AdaptiveDivision options_;
     double whole_;
@@ -198,9 +199,8 @@ void AutoDivision::divide_once(Division& division) {
         }))
         return;
     divided_.patches = true;
-    if (!settings_.options.keep_all)
-        needs_ = find_needs(mesh_);
-    forget_run();
+    forget_run(); // which refers to what changes
+    mesh_changed_();
 }
 
 void AutoDivision::divide_until_enough() {
@@ -289,8 +289,8 @@ std::uint64_t default_max_rays(std::size_t patches) {
     return least + each * patches;
 }
 
-Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, Needs& needs,
-                        const SolverInput& input, const BeginSolver& begin,
+Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, const SolverInput& input,
+                        const BeginSolver& begin, const MeshChanged& mesh_changed,
                         Statistics& statistics) {
     if (!settings.divide_auto)
         return {};
@@ -298,7 +298,7 @@ Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, Needs& needs,
     if (settings.stop.seconds)
         seconds = share_of_time * *settings.stop.seconds;
     const TimeLimit limit(input.monitor.interrupted, seconds);
-    return AutoDivision(settings, mesh, needs, input, begin, statistics).divide();
+    return AutoDivision(settings, mesh, input, begin, mesh_changed, statistics).divide();
 }
 
 Solution with_slopes(Solution solution, const Divided& divided) {

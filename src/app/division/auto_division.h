@@ -46,14 +46,16 @@ struct Divided {
 };
 
 using BeginSolver = std::function<std::unique_ptr<Solver>()>;
+/// Finds out what belongs to the patches as they are now.
+using MeshChanged = std::function<void()>;
 
-/// Divides the mesh until the whole error is as asked for, as estimated from a run to a share of
-/// it. Nothing where it is not asked for. `input`: of the run to come, whose solver `begin` makes;
-/// it refers to `mesh` and `needs`, which are divided and found anew together. A signal ends it,
-/// and where there is a time limit half of the time.
-[[nodiscard]] Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, Needs& needs,
+/// Divides the mesh until the whole error is as asked for, with --for that of the target, as
+/// estimated from a run to a share of it. Nothing where it is not asked for. `input`: of the run to
+/// come, whose solver `begin` makes; it refers to `mesh` and to its needs and target, which
+/// `mesh_changed` finds anew. A signal ends it, and where there is a time limit half of the time.
+[[nodiscard]] Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh,
                                       const SolverInput& input, const BeginSolver& begin,
-                                      Statistics& statistics);
+                                      const MeshChanged& mesh_changed, Statistics& statistics);
 
 /// The solution that is given out, with the slopes of its patches.
 [[nodiscard]] Solution with_slopes(Solution solution, const Divided& divided);

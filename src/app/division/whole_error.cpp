@@ -67,7 +67,7 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
                         const Tracer& tracer, const Solution& solution, const Divided& divided,
                         const StopFlag& interrupted) {
     statistics.error_sampling = statistics.estimated_error;
-    if (!solution.weight.empty()) // all that was not asked for is too rough to tell
+    if (!solution.weight.empty() && !settings.divide_auto) // rays are for the target's own patches
         return;
     const bool is_gathered = settings.divide_auto && gives_gathered_light(settings);
     std::optional<DivisionError> of_patches, gathered;
@@ -75,7 +75,7 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
         of_patches = divided.error;
         gathered = divided.gathered;
     }
-    if (settings.divide_auto)
+    if (settings.divide_auto && solution.weight.empty())
         statistics.estimated_error_of = is_gathered ? ErrorOf::gathered : ErrorOf::surfaces;
     if (!of_patches && !gathered && (solution.steps == 0 || interrupted)) {
         if (settings.divide_auto) // the whole error is not known

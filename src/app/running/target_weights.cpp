@@ -79,9 +79,6 @@ void check_target(const SolveSettings& settings) {
     if (settings.options.literal)
         throw InputError("--for", "with --literal each patch shoots as many rays as any other; "
                                   "leave one of them out");
-    if (settings.divide_auto)
-        throw InputError("--for", "--divide auto divides by the light of all patches; take "
-                                  "--divide none or a length");
     if (target.camera && !settings.view.camera)
         throw UsageError("--for camera needs the view of --camera, as the program chooses one by "
                          "the light");

@@ -46,6 +46,10 @@ std::string errors_text(const Statistics& s) {
         for (std::size_t i = 0; i < s.target.size(); ++i)
             error +=
                 (i > 0 ? " and " : "") + (s.target[i] == "camera" ? "the picture" : s.target[i]);
+        if (std::isfinite(s.error_division))
+            error += ": sampling " + percent(s.error_sampling) + ", division " +
+                     percent(s.error_division) + ", give or take " +
+                     percent(s.error_division_uncertainty);
         return error + "; elsewhere it is rough: " + percent(s.estimated_error_elsewhere);
     }
     if (!std::isfinite(s.error_division))

@@ -1,5 +1,6 @@
 #include "radiosity/division/adaptive_division.h"
 
+#include "radiosity/division/division_weights.h"
 #include "radiosity/division/inherited.h"
 #include "radiosity/division/patch_levels.h"
 #include "radiosity/final_gather/division_error.h"
@@ -63,7 +64,7 @@ StopRule rough_stop(const AdaptiveDivision& options, std::size_t patches) {
 }
 
 Solution rough_solution(const Mesh& mesh, const Tracer& tracer, const AdaptiveDivision& options,
-                        Monitor& monitor) {
+                        Monitor& monitor, std::span<const double> target) {
     const Needs needs = find_needs(mesh);
     SolveOptions solve;
     solve.seed = options.seed;
@@ -71,8 +72,9 @@ Solution rough_solution(const Mesh& mesh, const Tracer& tracer, const AdaptiveDi
     const StopRule stop = rough_stop(options, mesh.patches().size());
     solve.aim = stop.error.value_or(0);
     solve.memory = options.memory;
-    const auto solver = method_of(Role::standard).make({mesh, tracer, solve, monitor, needs});
-    run(*solver, {mesh, tracer, solve, monitor, needs}, stop);
+    const SolverInput input{mesh, tracer, solve, monitor, needs, target};
+    const auto solver = method_of(Role::standard).make(input);
+    run(*solver, input, stop);
     return solver->solution();
 }
 
@@ -94,6 +96,7 @@ bool Division::divide(Solution& light, double error,
             break;
         monitor_.phase = "dividing";
         ++round_;
+        weigh(light);
         measure(light, goal);
         if (monitor_.interrupted)
             break;
@@ -110,7 +113,7 @@ bool Division::solve_if_due(Solution& light) {
     const std::size_t patches = mesh_.patches().size();
     if (double(patches) < solved_at_growth * double(solved_))
         return true;
-    Solution solution = rough_solution(mesh_, tracer_, options_, monitor_);
+    Solution solution = rough_solution(mesh_, tracer_, options_, monitor_, light.weight);
     if (solution.steps == 0)
         return false;
     rays_ += solution.rays_energy;
@@ -119,11 +122,18 @@ bool Division::solve_if_due(Solution& light) {
     return true;
 }
 
+/// For a target, also what lights it counts.
+void Division::weigh(const Solution& light) {
+    if (!light.weight.empty())
+        weight_ = division_weights(mesh_, tracer_, light.weight,
+                                   hash_words({options_.seed, 7, measured_}), workers_);
+}
+
 void Division::measure(const Solution& light, double goal) {
     const auto most = [&](std::uint32_t i) {
         const Vec3 reflected = light.radiosity[i] - mesh_.material(i).emission;
         const double all = mesh_.patches()[i].area * glm::dot(reflected, reflected);
-        return std::max(all, square_[i]); // inherited
+        return counts(i) * std::max(all, square_[i]); // inherited
     };
     std::vector<std::uint32_t> due;
     for (std::uint32_t i = 0; i < is_due_.size(); ++i)
@@ -134,6 +144,7 @@ void Division::measure(const Solution& light, double goal) {
     const auto first = std::ranges::find_if(
         due, [&](std::uint32_t i) { return (left_out += most(i)) > negligible_share * goal; });
     due.erase(due.begin(), first);
+    std::erase_if(due, [&](std::uint32_t i) { return !(counts(i) > 0); });
     std::ranges::sort(due);
     const auto known = std::stable_partition(due.begin(), due.end(),
                                              [&](std::uint32_t i) { return times_[i] == 0; });
@@ -143,7 +154,7 @@ void Division::measure(const Solution& light, double goal) {
     // Those that were chosen for what was measured there are not a fair sample of all; these are.
     std::vector<std::uint32_t> some;
     for (std::uint32_t i = 0; i < is_due_.size(); ++i)
-        if (times_[i] > 0 && measured_at_[i] < round_ &&
+        if (counts(i) > 0 && times_[i] > 0 && measured_at_[i] < round_ &&
             hash_words({options_.seed, measured_, i}) % one_again_in == 0)
             some.push_back(i);
     measure(light, some, 1, rows_again, one_again_in);
@@ -164,16 +175,17 @@ void Division::measure(const Solution& light, std::span<const std::uint32_t> som
         return;
     for (std::size_t k = 0; k < some.size(); ++k) {
         const std::uint32_t i = some[k];
-        fresh_ += stand_for * found.square[k];
-        fresh_squares_ += stand_for * found.square[k] * found.square[k];
-        const double weight = double(estimates), of_new = weight / (times_[i] + weight);
+        const double square = counts(i) * found.square[k];
+        fresh_ += stand_for * square;
+        fresh_squares_ += stand_for * square * square;
+        const double more = double(estimates), of_new = more / (times_[i] + more);
         square_[i] = std::lerp(square_[i], found.square[k], of_new);
         for (std::size_t e = 0; e < 2; ++e) {
             Slope& slope = slopes_[i][e];
             slope.x = glm::mix(slope.x, found.slopes[k][e].x, of_new);
             slope.y = glm::mix(slope.y, found.slopes[k][e].y, of_new);
         }
-        times_[i] += weight;
+        times_[i] += more;
         measured_at_[i] = round_;
         is_due_[i] = 0;
     }
@@ -192,10 +204,14 @@ bool Division::cut(Solution& light, double goal) {
     const auto times = [&](double growth) {
         return static_cast<std::size_t>(growth * double(before));
     };
+    std::vector<double> that_count;
+    for (std::size_t i = 0; i < before; ++i)
+        that_count.push_back(counts(i) * square_[i]);
     const std::vector<std::uint8_t> levels = levels_of_division(
-        square_, {.goal = goal,
-                  .least_pieces = times(least_growth),
-                  .most_pieces = std::min(options_.most_patches, times(most_growth) + least_room)});
+        that_count,
+        {.goal = goal,
+         .least_pieces = times(least_growth),
+         .most_pieces = std::min(options_.most_patches, times(most_growth) + least_room)});
     if (std::ranges::none_of(levels, [](std::uint8_t level) { return level > 0; }))
         return false;
     const std::vector<std::uint32_t> parents = mesh_.refine(levels);
@@ -219,12 +235,13 @@ bool Division::cut(Solution& light, double goal) {
 
 std::uint64_t Division::add_slopes(Solution& light, double error) {
     rays_ = 0;
+    weigh(light);
     const auto patches = mesh_.patches();
     const double allowed = share_of_noise * error * error * reflected_square(mesh_, light);
     double noise = 0;
     std::vector<std::uint32_t> noisy;
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
-        const double own = agreed_slope(patches[i], slopes_[i]).noise;
+        const double own = counts(i) * agreed_slope(patches[i], slopes_[i]).noise;
         noise += own;
         if (own * double(patches.size()) > allowed)
             noisy.push_back(i);

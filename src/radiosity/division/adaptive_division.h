@@ -4,7 +4,8 @@
 // Rounds: the light of a rough solution is gathered at points of the patches that are new, and the
 // patches on which it varies most are divided. Pieces send on what their patch sent, until there
 // are so many of them that the light is solved anew. The rounds end when what varies within patches
-// is as small as it is asked to be.
+// is as small as it is asked to be. Where the solution is for a target (Solution::weight), patches
+// count as division_weights() has it, and others are neither measured nor divided.
 
 #include "bvh/tracer.h"
 #include "radiosity/sampling/workers.h"
@@ -40,9 +41,11 @@ struct DivisionRound {
 /// When a solution is good enough to divide by, or cannot be made so.
 [[nodiscard]] StopRule rough_stop(const AdaptiveDivision& options, std::size_t patches);
 
-/// A solution that is good enough to divide by, of the mesh as it is. No steps: none was found.
+/// A solution that is good enough to divide by, of the mesh as it is; `target`:
+/// SolverInput::target. No steps: none was found.
 [[nodiscard]] Solution rough_solution(const Mesh& mesh, const Tracer& tracer,
-                                      const AdaptiveDivision& options, Monitor& monitor);
+                                      const AdaptiveDivision& options, Monitor& monitor,
+                                      std::span<const double> target = {});
 
 /// What is known of how the light varies within patches. The tracer, which is of the mesh, remains
 /// right when patches are divided.
@@ -70,6 +73,10 @@ class Division {
 
   private:
     [[nodiscard]] bool solve_if_due(Solution& light);
+    void weigh(const Solution& light);
+    [[nodiscard]] double counts(std::size_t patch) const {
+        return weight_.empty() ? 1 : weight_[patch];
+    }
     void measure(const Solution& light, double goal);
     void measure(const Solution& light, std::span<const std::uint32_t> some, std::size_t estimates,
                  unsigned most_rows, double stand_for = 1);
@@ -87,6 +94,7 @@ class Division {
     // In this round:
     std::uint64_t rays_ = 0;
     double fresh_ = 0, fresh_squares_ = 0; ///< sums of what was measured, and of its squares
+    std::vector<double> weight_; ///< by patch, of its square (division_weights.h); empty: 1
     // By patch, the means of what was measured there, as of light_within_patches():
     std::vector<double> square_, times_;
     std::vector<std::array<Slope, 2>> slopes_;

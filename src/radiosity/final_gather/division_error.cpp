@@ -68,9 +68,9 @@ struct Products {
 /// By how much B is off at a point, from one gather there [W/m2].
 using OffAt = std::function<Vec3(const PatchPoint& point, const Vec3& gathered)>;
 
-Products products_over_surface(const Mesh& mesh, const OffAt& off_at, FinalGather& gather,
-                               const PointsOverSurface& surface, std::size_t count,
-                               std::uint64_t seed, const Workers& workers,
+Products products_over_surface(const Mesh& mesh, const Solution& solution, const OffAt& off_at,
+                               FinalGather& gather, const PointsOverSurface& surface,
+                               std::size_t count, std::uint64_t seed, const Workers& workers,
                                const StopFlag& interrupted) {
     const auto [points, irradiance] =
         gather_twice(surface, gather, count, seed, workers, interrupted);
@@ -79,22 +79,36 @@ Products products_over_surface(const Mesh& mesh, const OffAt& off_at, FinalGathe
         const Vec3& rho = mesh.material(points[k].patch).reflectance;
         const Vec3 off1 = off_at(points[k], rho * irradiance[2 * k]);
         const Vec3 off2 = off_at(points[k], rho * irradiance[2 * k + 1]);
-        sums.error += points[k].area * glm::dot(off1, off2);
-        sums.noise += points[k].area * .5 * glm::dot(off1 - off2, off1 - off2);
+        const double counts = solution.weight_of(points[k].patch) * points[k].area;
+        sums.error += counts * glm::dot(off1, off2);
+        sums.noise += counts * .5 * glm::dot(off1 - off2, off1 - off2);
     }
     return sums;
 }
 
-/// Half of the points by area, half by the squared error.
-std::vector<double> density_of_points(const Mesh& mesh, std::span<const double> square) {
-    double area = 0, sum = 0;
-    for (std::size_t i = 0; i < square.size(); ++i) {
+/// Points lie where the light counts; half of them by the squared error there, where it is known.
+std::vector<double> density_of_points(const Mesh& mesh, const Solution& solution,
+                                      std::span<const double> square) {
+    const auto counts = [&](std::size_t i) {
+        return solution.weight_of(i) * mesh.patches()[i].area;
+    };
+    const auto error = [&](std::size_t i) {
+        return square.empty() ? 0 : solution.weight_of(i) * std::max(square[i], 0.0);
+    };
+    double area = 0, sum_of_counts = 0, sum_of_errors = 0;
+    for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
         area += mesh.patches()[i].area;
-        sum += std::max(square[i], 0.0);
+        sum_of_counts += counts(i);
+        sum_of_errors += error(i);
     }
+    const double by_error = sum_of_errors > 0 ? .5 : 0;
     std::vector<double> density;
-    for (std::size_t i = 0; i < square.size() && sum > 0; ++i)
-        density.push_back(.5 + .5 * std::max(square[i], 0.0) / sum * area / mesh.patches()[i].area);
+    for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
+        double each = (1 - by_error) * solution.weight_of(i) * (area / sum_of_counts);
+        if (by_error > 0)
+            each += by_error * error(i) / sum_of_errors * area / mesh.patches()[i].area;
+        density.push_back(each);
+    }
     return density;
 }
 
@@ -109,7 +123,7 @@ KnownVariance known_variance(const Mesh& mesh, const Solution& solution, double 
     double sum = 0;
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
         const Vec3& sigma = solution.standard_error[i];
-        sum += mesh.patches()[i].area * glm::dot(sigma, sigma);
+        sum += solution.weight_of(i) * mesh.patches()[i].area * glm::dot(sigma, sigma);
     }
     const double all = solution.variance.value_or(std::isfinite(sum) ? sum : 0) / size;
     const double freedom = std::max(error_spread(mesh, solution).freedom, 1.0);
@@ -143,21 +157,21 @@ double uncertainty_by_noise(double noise_square, std::size_t points) {
 /// Gathers are short at first. The variance of a product is about (error^2 + noise^2)^2, so where
 /// noise leaves too much uncertainty longer gathers know the error sooner than more points would.
 /// They begin anew, as a sum that ends by its own spread is biased.
-DivisionError error_at_points(const Mesh& mesh, double size, const OffAt& off_at,
-                              FinalGather& gather, const OtherError& other, const Manner& manner,
-                              const DivisionErrorOptions& options, const Workers& workers,
-                              const StopFlag& interrupted) {
+DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double size,
+                              const OffAt& off_at, FinalGather& gather, const OtherError& other,
+                              const Manner& manner, const DivisionErrorOptions& options,
+                              const Workers& workers, const StopFlag& interrupted) {
     constexpr double least_growth = 2, most_growth = 4;
     DivisionError result;
     const double negligible = options.negligible * options.negligible;
-    const PointsOverSurface surface(mesh, density_of_points(mesh, options.square));
+    const PointsOverSurface surface(mesh, density_of_points(mesh, solution, options.square));
     const auto longest = double(longest_round / manner.least_points);
     double length = 1;
     std::size_t points = manner.points_per_round;
     Rounds rounds, noise;
     for (std::uint64_t number = 0;; ++number) {
         const Products sums =
-            products_over_surface(mesh, off_at, gather, surface, points,
+            products_over_surface(mesh, solution, off_at, gather, surface, points,
                                   hash_words({options.seed, number}), workers, interrupted);
         if (interrupted)
             return result;
@@ -197,8 +211,8 @@ DivisionError missing_error(const Mesh& mesh, const Tracer& tracer, const Soluti
     FinalGather gather(mesh, tracer, solution);
     gather.find_missing(reads_near);
     options.square = {};
-    return error_at_points(mesh, size, missing_at, gather, other, of_gathered, options, workers,
-                           interrupted);
+    return error_at_points(mesh, solution, size, missing_at, gather, other, of_gathered, options,
+                           workers, interrupted);
 }
 
 DivisionError without(const DivisionError& all, const OtherError& other) {
@@ -222,7 +236,7 @@ double reflected_square(const Mesh& mesh, const Solution& solution) {
     double sum = 0;
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
         const Vec3 reflected = solution.radiosity[i] - mesh.material(i).emission;
-        sum += mesh.patches()[i].area * glm::dot(reflected, reflected);
+        sum += solution.weight_of(i) * mesh.patches()[i].area * glm::dot(reflected, reflected);
     }
     return sum;
 }
@@ -251,9 +265,9 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
         return light - (radiosity_at(mesh, solution, point.patch, point.at.position) -
                         mesh.material(point.patch).emission);
     };
-    DivisionError found = error_at_points(mesh, size, off_at, gather, {seen, seen * scatter},
-                                          options.square.empty() ? of_patches : of_divided, options,
-                                          workers, interrupted);
+    DivisionError found = error_at_points(
+        mesh, solution, size, off_at, gather, {seen, seen * scatter},
+        options.square.empty() ? of_patches : of_divided, options, workers, interrupted);
     const double reflected = known.common * rho * rho;
     const OtherError of_sampling{reflected, reflected * scatter};
     const double least = std::max(found.error, std::sqrt(known.own + known.common));
@@ -283,8 +297,8 @@ std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,
     if (!(size > 0))
         return levels;
     double area = 0;
-    for (const Patch& patch : mesh.patches())
-        area += patch.area;
+    for (std::uint32_t i = 0; i < levels.size(); ++i)
+        area += solution.weight_of(i) * mesh.patches()[i].area;
     for (std::uint32_t i = 0; i < levels.size(); ++i) {
         const Vec3& sigma = solution.standard_error[i];
         const double sampling = glm::dot(sigma, sigma) * area / size;

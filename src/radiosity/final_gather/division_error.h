@@ -24,8 +24,8 @@ class StopFlag;
 class Workers;
 struct Solution;
 
-/// Relative to the reflected light, as estimated_error(); RMS over area and channels. NaN where it
-/// is not known.
+/// Relative to the reflected light, as estimated_error(); RMS over area and channels, with the
+/// weights of the solution, if it has any. NaN where it is not known.
 struct DivisionError {
     double error = std::numeric_limits<double>::quiet_NaN();
     double uncertainty = std::numeric_limits<double>::quiet_NaN(); ///< one sigma of `error`
@@ -39,8 +39,8 @@ struct DivisionErrorOptions {
     /// `negligible`, or so many rays were traced; but a thousand points there are always.
     std::uint64_t most_rays = 1'000'000;
     double negligible = 0;
-    /// Squared errors by patch, as far as they are known: where they are large more points are
-    /// drawn. Or empty.
+    /// Squared errors by patch [local area x (W/m2)^2], as far as they are known: where they are
+    /// large and count more points are drawn. Or empty.
     std::span<const double> square = {};
 };
 
@@ -55,7 +55,8 @@ struct DivisionErrorOptions {
                                            const DivisionErrorOptions& options,
                                            const Workers& workers, const StopFlag& interrupted);
 
-/// The sum over patches of area times reflected radiosity squared, to which errors are relative.
+/// The sum over patches of weight, area and reflected radiosity squared, to which errors are
+/// relative.
 [[nodiscard]] double reflected_square(const Mesh& mesh, const Solution& solution);
 
 /// Estimates the error of a solution with a step at least. Where it was interrupted the error is
@@ -69,8 +70,8 @@ struct DivisionErrorOptions {
 
 /// Of each patch the root mean square of what its light is off: within the patch, as far as
 /// light_within_patches() finds it, and by its standard error. Relative to that of the reflected
-/// light over the whole surface. Empty where it was interrupted; 0 where nothing is known or
-/// reflected.
+/// light over the whole surface, or over the target of the solution. Empty where it was
+/// interrupted; 0 where nothing is known or reflected.
 [[nodiscard]] std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,
                                                      const Solution& solution, std::uint64_t seed,
                                                      const Workers& workers,

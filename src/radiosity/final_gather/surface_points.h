@@ -32,7 +32,7 @@ struct PatchPoint {
 /// Draws points over the area of the patches that reflect.
 class PointsOverSurface {
   public:
-    /// Uniform, or with a density relative to that, by patch, which is above 0.
+    /// Uniform, or with a density relative to that, by patch; where it is 0 no point is drawn.
     explicit PointsOverSurface(const Mesh& mesh, std::span<const double> density = {});
 
     /// Each stands for as much as it is drawn from. Systematic: what is drawn from is laid end to

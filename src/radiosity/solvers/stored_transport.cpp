@@ -190,6 +190,10 @@ class StoredTransportSolver final : public Solver {
     void plan() {
         if (planned_)
             return;
+        if (aim_.is_outdated()) {
+            aim_.renew(factors_so_far(), workers_);
+            plan_.aim(aim_.importance());
+        }
         ErrorSoFar known{0, variance_, direct_variance_, drained_};
         if (solution_.steps > 0) {
             const double all = std::exchange(solution_.missed, solution_.missed - in_dark_);
@@ -269,7 +273,7 @@ class StoredTransportSolver final : public Solver {
         for (std::uint32_t i = 0; i < n; ++i)
             solution_.unlit += !errors.needs_rays[i] && input_.needs.power(i);
         if (aim_.has_target()) {
-            aim_.step_done(all, errors.part, errors.lit, workers_);
+            aim_.step_done(errors.part, errors.lit);
             solution_.unneeded = aim_.unneeded();
             plan_.aim(aim_.importance());
         }

@@ -29,8 +29,7 @@ constexpr double most_freedom = 16;
 double freedom_by_patch(const Mesh& mesh, const Solution& solution) {
     const auto variance = [&](std::size_t i) {
         const Vec3& sigma = solution.standard_error[i];
-        const double weight = solution.weight.empty() ? 1 : solution.weight[i];
-        return weight * mesh.patches()[i].area * glm::dot(sigma, sigma);
+        return solution.weight_of(i) * mesh.patches()[i].area * glm::dot(sigma, sigma);
     };
     std::vector<double> of_patch;
     for (std::size_t i = 0; i < solution.standard_error.size(); ++i)

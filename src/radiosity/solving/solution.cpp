@@ -65,7 +65,7 @@ RelativeError true_error(const Mesh& mesh, std::span<const Vec3> radiosity,
 double estimated_error(const Mesh& mesh, const Solution& solution) {
     Ratio all;
     for (std::uint32_t i = 0; i < solution.radiosity.size(); ++i)
-        all.add(mesh, solution, i, solution.weight.empty() ? 1 : solution.weight[i]);
+        all.add(mesh, solution, i, solution.weight_of(i));
     if (solution.variance)
         all.error = *solution.variance;
     all.value -= all.error; // the square of an estimate is too large by its variance

@@ -43,6 +43,9 @@ struct Solution {
     /// By patch: what its squared error and its light count in the error of the whole (target.h).
     /// Empty: 1 everywhere.
     std::vector<double> weight = {};
+    [[nodiscard]] double weight_of(std::size_t patch) const {
+        return weight.empty() ? 1 : weight[patch];
+    }
     /// Sum over patches and channels of weight, area and variance of B, where that is known better
     /// than from standard_error, which is on the safe side where few rays arrive.
     std::optional<double> variance;

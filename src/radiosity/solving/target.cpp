@@ -56,7 +56,8 @@ std::vector<double> weights_of_points(const Mesh& mesh, const Tracer& tracer,
     std::vector<double> weights(mesh.patches().size());
     for (std::size_t k = 0; k < points.size(); ++k) {
         const std::uint32_t on = points[k].patch;
-        const double reflected = mean_of_channels(mesh.material(on).reflectance);
+        const Vec3 rho = mesh.material(on).reflectance;
+        const double reflected = mean_of_channels(rho * rho);
         weights[on] += 1;
         for (unsigned r = 0; r < rays; ++r) {
             const std::uint32_t patch = met[k / points_per_chunk][k % points_per_chunk * rays + r];

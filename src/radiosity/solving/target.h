@@ -31,10 +31,12 @@ struct VisiblePoint {
 };
 
 /// Of a picture that shows these points, one for each pixel: each counts at the patch that it lies
-/// on, and as much as that reflects at those that `rays` cosine-distributed rays from it meet, as a
-/// gathered picture reads them (Smits, Arvo and Salesin 1992 start importance at what the eye
-/// sees; the second part is theirs after one step of transport). A patch has what it gets over its
-/// area; the largest weight is 1. The same for any number of threads.
+/// on, and by the square of what that reflects at those that `rays` cosine-distributed rays from it
+/// meet, as a gathered picture reads them (Smits, Arvo and Salesin 1992 start importance at what
+/// the eye sees; the second part is theirs after one step of transport). The square, as these are
+/// weights of squared errors: the light gathered at a point is off by rho sum_k F_k e_k, whose
+/// square is at most rho^2 sum_k F_k e_k^2 (Jensen). A patch has what it gets over its area; the
+/// largest weight is 1. The same for any number of threads.
 [[nodiscard]] std::vector<double> weights_of_points(const Mesh& mesh, const Tracer& tracer,
                                                     std::span<const VisiblePoint> points,
                                                     unsigned rays, const Workers& workers);

@@ -90,8 +90,7 @@ void TargetAim::begin(const ExchangeMatrix& factors, const Workers& workers) {
     of_rays_ = learned_;
 }
 
-void TargetAim::step_done(const ExchangeMatrix& factors, std::span<const std::uint32_t> part,
-                          const std::vector<bool>& lit, const Workers& workers) {
+void TargetAim::step_done(std::span<const std::uint32_t> part, const std::vector<bool>& lit) {
     std::vector<bool> holds_target(part.size()), needed(part.size(), true);
     bool target_is_lit = false;
     for (std::size_t i = 0; i < part.size(); ++i)
@@ -99,17 +98,25 @@ void TargetAim::step_done(const ExchangeMatrix& factors, std::span<const std::ui
             holds_target[part[i]] = true;
             target_is_lit = target_is_lit || lit[i];
         }
-    bool more_needed = needed_.empty();
+    is_outdated_ = is_outdated_ || needed_.empty();
     unneeded_ = 0;
     for (std::size_t i = 0; i < part.size(); ++i) {
         needed[i] = !target_is_lit || holds_target[part[i]];
         unneeded_ += lit[i] && !needed[i];
-        more_needed = more_needed || (needed[i] && !needed_[i]);
+        is_outdated_ = is_outdated_ || (needed[i] && !needed_[i]);
     }
     needed_ = std::move(needed);
-    if (more_needed)
-        learn(factors, workers);
-    for (std::size_t i = 0; i < part.size(); ++i)
+    leave_out_unneeded();
+}
+
+void TargetAim::renew(const ExchangeMatrix& factors, const Workers& workers) {
+    learn(factors, workers);
+    is_outdated_ = false;
+    leave_out_unneeded();
+}
+
+void TargetAim::leave_out_unneeded() {
+    for (std::size_t i = 0; i < needed_.size(); ++i)
         of_rays_[i] = needed_[i] ? learned_[i] : 0;
 }
 
@@ -127,6 +134,7 @@ void TargetAim::save(StateWriter& state) const {
     for (const bool each : needed_)
         state.add(std::uint64_t{each});
     state.add(std::uint64_t{unneeded_});
+    state.add(std::uint64_t{is_outdated_});
 }
 
 void TargetAim::load(StateReader& state) {
@@ -136,11 +144,12 @@ void TargetAim::load(StateReader& state) {
         throw StateError("what the run was for is not what it is for this time");
     state.get(std::span(learned_), bounds::non_negative);
     needed_.resize(state.flag() ? learned_.size() : 0);
-    of_rays_ = learned_;
     for (std::size_t i = 0; i < needed_.size(); ++i)
-        if (!(needed_[i] = state.flag()))
-            of_rays_[i] = 0;
+        needed_[i] = state.flag();
+    of_rays_ = learned_;
+    leave_out_unneeded();
     unneeded_ = state.whole_up_to(learned_.size());
+    is_outdated_ = state.flag();
 }
 
 } // namespace hemilux

@@ -64,10 +64,13 @@ class TargetAim {
     /// Starts from the first few rays, of which nothing is concluded but what is important.
     void begin(const ExchangeMatrix& factors, const Workers& workers);
     /// After a step: parts of the scene (linked_parts.h) without a patch of the target are not
-    /// needed, as far as the target is lit. What is important is found out once more, and later
-    /// only where a part turns out to be needed.
-    void step_done(const ExchangeMatrix& factors, std::span<const std::uint32_t> part,
-                   const std::vector<bool>& lit, const Workers& workers);
+    /// needed, as far as the target is lit.
+    void step_done(std::span<const std::uint32_t> part, const std::vector<bool>& lit);
+    /// Whether what is important is to be found out once more before further rays: after the first
+    /// step, and later only where a part has turned out to be needed.
+    [[nodiscard]] bool is_outdated() const { return is_outdated_; }
+    /// From the rays so far.
+    void renew(const ExchangeMatrix& factors, const Workers& workers);
 
     /// The importance of the rays of each patch (importance_of_rays); 0: it needs no more rays.
     [[nodiscard]] std::span<const double> importance() const { return of_rays_; }
@@ -83,6 +86,7 @@ class TargetAim {
 
   private:
     void learn(const ExchangeMatrix& factors, const Workers& workers);
+    void leave_out_unneeded();
 
     const Mesh& mesh_;
     const TransportSystem& system_;
@@ -91,6 +95,7 @@ class TargetAim {
     std::vector<double> learned_; ///< of rays, were all patches needed
     std::vector<double> of_rays_;
     std::vector<bool> needed_; ///< empty: not known yet
+    bool is_outdated_ = false;
     std::size_t unneeded_ = 0;
 };
 

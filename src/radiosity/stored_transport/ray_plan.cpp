@@ -46,6 +46,11 @@ constexpr double least_first = 1.5;
 /// step, and each step solves for all patches however few its rays are.
 constexpr double times_in_first = 4;
 
+/// And so large a part of the rays of a first step without a target, at the most: the others wait
+/// until it is known where they count. Where the target is nearly all of the scene, there is less
+/// to wait for.
+constexpr double most_of_first = 3.0 / 4;
+
 /// With a target, what each of the two kinds gets of the rays that are added, at least: how much
 /// of the error comes from which kind is known of the target's own rays, and less of others'.
 constexpr double least_of_kind = 1.0 / 4;
@@ -144,13 +149,15 @@ std::vector<std::uint32_t> RayPlan::allocate(std::span<const double> weights, do
     return allocate_rays(aimed, mean, already, expected_rays(weights));
 }
 
-/// Of one kind; not more than without a target.
+/// Of one kind; less than without a target.
 double RayPlan::first_mean(double mean) const {
     if (!has_target() || !goal_.growing)
         return mean;
     const double sum = std::accumulate(aim_.begin(), aim_.end(), 0.0);
-    return std::clamp(times_in_first * mean * sum / double(aim_.size()),
-                      std::min(least_first, mean), mean);
+    const double least = std::min(least_first, mean);
+    const double share = std::min(sum / double(aim_.size()), 1.0);
+    return std::clamp(times_in_first * share * mean, least,
+                      std::max(std::max(most_of_first, share) * mean, least));
 }
 
 void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers) {
