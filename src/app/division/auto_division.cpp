@@ -226,8 +226,9 @@ void AutoDivision::divide_until_enough() {
                     division.squares());
             return is_over() || is_enough(sampling);
         };
-        // The first of several errors to be small enough errs low, so another one confirms it.
-        const bool is_confirmed = is_enough_now() && is_enough_now();
+        // The first of several errors to be small enough errs low, so another one confirms it. That
+        // of gathered light varies less.
+        const bool is_confirmed = is_enough_now() && (is_gathered_ || is_enough_now());
         if (is_over() || is_confirmed || !is_aimed_at ||
             rays + statistics_.rays_division_error > most_rays)
             break;
