@@ -193,7 +193,7 @@ TEST_CASE("an error of division is the same, and known better, by points where i
     }
 }
 
-TEST_CASE("light that does not change within patches has no error of division") {
+TEST_CASE("light that does not change within patches has no error of division", "[slow]") {
     const Model model(test::furnace_box(3, .7));
     const Solution solution =
         test::solve(model, *find_method("stored-transport"), {}, test::steps(1));
@@ -299,7 +299,8 @@ TEST_CASE("where gathered light is right, its error is said to be no less than i
     }
 }
 
-TEST_CASE("gathered light holds more of what varies within patches the coarser they are") {
+TEST_CASE("gathered light holds more of what varies within patches the coarser they are",
+          "[slow]") {
     const Model coarse(test::room_with_block(), {}),
         fine(test::room_with_block(), {.max_edge = .15});
     const auto error = [](const Model& model) {

@@ -86,7 +86,7 @@ void try_state(const Method& method, const SolverInput& input, const std::string
 
 } // namespace
 
-TEST_CASE("changed states are refused, or go on to finite numbers", "[state]") {
+TEST_CASE("changed states are refused, or go on to finite numbers", "[slow][state]") {
     const test::Model model(test::open_scene());
     for (const Method* const method : methods()) {
         if (!method->can_resume())

@@ -99,6 +99,11 @@ TEST_CASE("Sections 3.2, 3.3 and 4 on a page have the engine's bits") {
                    literal ? 1 : 5);
         check_same(Model(test::open_scene()), of_1997, with_rays(20, literal), 4);
     }
+}
+
+TEST_CASE("Section 4 on a page has the engine's bits for other numbers of parts and steps",
+          "[slow]") {
+    const Method& of_1997 = method("hemisphere-1997");
     for (const Subdivision1997Options& numbers :
          {Subdivision1997Options{1, 2, 1}, {3, 0, 4}, {0, 2, 16}, {0, 0, 64}, {1, 1, 64}})
         for (const bool literal : {false, true}) {

@@ -220,11 +220,17 @@ void AutoDivision::divide_until_enough() {
         statistics_.rays_divide += division.add_slopes(divided_.rough, options_.error);
         const double sampling = estimated_error(mesh_, divided_.rough);
         const std::uint64_t rays = divided_.rough.rays_energy + statistics_.rays_divide;
-        measure(std::max(rays / share_of_divided, least_rays_of_error), sampling / 2,
-                division.squares());
-        const bool is_limited = // by rays or steps
-            !(sampling <= *divided_.sampling) || rays + statistics_.rays_division_error > most_rays;
-        if (is_over() || is_enough(sampling) || is_limited)
+        const bool is_aimed_at = sampling <= *divided_.sampling; // else by rays or steps
+        const auto is_enough_now = [&] {
+            measure(std::max(rays / share_of_divided, least_rays_of_error), sampling / 2,
+                    division.squares());
+            return is_over() || is_enough(sampling);
+        };
+        // The first of several errors to be small enough errs low, so another one confirms it. That
+        // of gathered light varies less.
+        const bool is_confirmed = is_enough_now() && (is_gathered_ || is_enough_now());
+        if (is_over() || is_confirmed || !is_aimed_at ||
+            rays + statistics_.rays_division_error > most_rays)
             break;
         division.doubt();
     }

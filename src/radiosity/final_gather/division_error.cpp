@@ -23,15 +23,17 @@ namespace {
 /// Rounds of points: many, since the spread of a few would end them when it happens to be small.
 constexpr std::size_t least_rounds = 16;
 
-/// What depends on how the error varies over the surfaces: of patches few hold most of it, that of
-/// gathered light is much the same everywhere.
+/// What depends on how the error varies over the surfaces: of patches few hold most of it, of those
+/// that were divided very few, where nothing was seen of it; that of gathered light is much the
+/// same everywhere.
 struct Manner {
-    std::size_t points_per_round;
+    /// At first; where gathers are longer, fewer by their length, but so many at least.
+    std::size_t points_per_round, least_points;
     /// Relative uncertainty of the squared error at which it is known well enough: where few places
     /// hold it, what is known of its spread is uncertain itself.
     double well_known;
 };
-constexpr Manner of_patches{64, .15}, of_gathered{16, .25};
+constexpr Manner of_patches{64, 64, .15}, of_divided{640, 64, .15}, of_gathered{16, 16, .25};
 
 /// So many points times the length of gathers at the most, in a round.
 constexpr std::size_t longest_round = 4096;
@@ -163,12 +165,13 @@ DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double
     DivisionError result;
     const double negligible = options.negligible * options.negligible;
     const PointsOverSurface surface(mesh, density_of_points(mesh, solution, options.square));
-    const auto longest = double(longest_round / manner.points_per_round);
+    const auto longest = double(longest_round / manner.least_points);
     double length = 1;
+    std::size_t points = manner.points_per_round;
     Rounds rounds, noise;
     for (std::uint64_t number = 0;; ++number) {
         const Products sums =
-            products_over_surface(mesh, solution, off_at, gather, surface, manner.points_per_round,
+            products_over_surface(mesh, solution, off_at, gather, surface, points,
                                   hash_words({options.seed, number}), workers, interrupted);
         if (interrupted)
             return result;
@@ -180,19 +183,20 @@ DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double
             std::max(manner.well_known * (rounds.mean() - other.square), negligible);
         if (rounds.uncertainty() <= enough)
             break;
-        const double by_noise =
-            uncertainty_by_noise(noise.mean(), rounds.count * manner.points_per_round);
+        const double by_noise = uncertainty_by_noise(noise.mean(), rounds.count * points);
         if (by_noise > enough && length < longest) {
             const double growth = std::clamp(by_noise / enough, least_growth, most_growth);
             length = std::min(std::round(growth * length), longest);
             gather.set_rounds(static_cast<unsigned>(length));
+            points = std::max(manner.least_points,
+                              manner.points_per_round / static_cast<std::size_t>(length));
             rounds = noise = {};
         } else if (gather.rays() >= options.most_rays) {
             break;
         }
     }
     set_error(result, rounds, other);
-    result.points = rounds.count * manner.points_per_round;
+    result.points = rounds.count * points;
     result.rays = gather.rays();
     return result;
 }
@@ -261,9 +265,9 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
         return light - (radiosity_at(mesh, solution, point.patch, point.at.position) -
                         mesh.material(point.patch).emission);
     };
-    DivisionError found =
-        error_at_points(mesh, solution, size, off_at, gather, {seen, seen * scatter}, of_patches,
-                        options, workers, interrupted);
+    DivisionError found = error_at_points(
+        mesh, solution, size, off_at, gather, {seen, seen * scatter},
+        options.square.empty() ? of_patches : of_divided, options, workers, interrupted);
     const double reflected = known.common * rho * rho;
     const OtherError of_sampling{reflected, reflected * scatter};
     const double least = std::max(found.error, std::sqrt(known.own + known.common));
