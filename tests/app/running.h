@@ -73,12 +73,17 @@ class Running {
         return waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
                info.si_pid == child_;
     }
-    /// Whether the program has a handler of its own for the signal.
+    /// Whether the program has a handler of its own for the signal. Before the process becomes
+    /// hemilux it has the handlers of these tests, which take SIGABRT too, and then the shell's.
+    /// One reading tells them apart: between two readings one program may follow another.
     [[nodiscard]] bool handles(int signal) const {
+        const auto has = [](std::uint64_t set, int member) {
+            return (set >> (member - 1) & 1) != 0;
+        };
         std::ifstream status("/proc/" + std::to_string(child_) + "/status");
         for (std::string word; status >> word;)
             if (std::uint64_t handled = 0; word == "SigCgt:" && status >> std::hex >> handled)
-                return (handled >> (signal - 1) & 1) != 0;
+                return has(handled, signal) && !has(handled, SIGABRT);
         return false;
     }
     /// Time that processors have worked for it, which other programs do not lengthen: so far, or
