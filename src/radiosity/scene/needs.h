@@ -45,7 +45,7 @@ inline const Needs everything_needed;
 [[nodiscard]] bool needs_tree(const Mesh& mesh);
 
 /// Up to so many triangles are one leaf of the tree, tested at once. With more of them boxes pay
-/// (measured in docs/results-speed.md).
+/// (measured in docs/results.md).
 inline constexpr std::size_t most_triangles_without_tree = 8;
 
 } // namespace hemilux
