@@ -250,7 +250,10 @@ DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer, const Solut
                              const Workers& workers, const StopFlag& interrupted) {
     DivisionError found = missing_error(mesh, tracer, solution, reads_near, {}, of_gathered,
                                         options, workers, interrupted);
-    found.error = std::max(found.error, found.uncertainty); // which it may be
+    // Where it is hardly known it is reported nearly as large as it may be.
+    constexpr double share = .8;
+    found.error =
+        std::max({found.error, found.uncertainty, share * (found.error + found.uncertainty)});
     return found;
 }
 
