@@ -19,6 +19,14 @@ double signed_volume(const std::array<Vec3, 4>& c) {
     return std::abs(volume) > rounding * reach * glm::length(across) ? volume : 0.0;
 }
 
+/// On the horizon, if rounding may have moved it from there: which corners are cut off, and with it
+/// where samples lie, must not be decided by that.
+Vec3 off_rounding(const Vec3& corner) {
+    constexpr double rounding = 1e-6; // an area of rounding^2 at most
+    const bool is_level = std::abs(corner.z) <= rounding * glm::length(corner);
+    return {corner.x, corner.y, is_level ? 0.0 : corner.z};
+}
+
 Vec3 horizon_crossing(const Vec3& above, const Vec3& below) {
     const Vec3 point = above + (below - above) * (above.z / (above.z - below.z));
     return {point.x, point.y, 0.0};
@@ -26,11 +34,13 @@ Vec3 horizon_crossing(const Vec3& above, const Vec3& below) {
 
 } // namespace
 
-ClippedPolygon clip_to_horizon(const std::array<Vec3, 4>& corners) {
+ClippedPolygon clip_to_horizon(const std::array<Vec3, 4>& seen) {
     ClippedPolygon result;
-    const double volume = signed_volume(corners);
+    const double volume = signed_volume(seen);
     if (!(std::abs(volume) > 0))
         return result;
+    std::array<Vec3, 4> corners;
+    std::ranges::transform(seen, corners.begin(), off_rounding);
     const auto add = [&](const Vec3& v) {
         if (result.size < 5)
             result.vertex[static_cast<std::size_t>(result.size++)] = v;
