@@ -19,6 +19,14 @@ double signed_volume(const std::array<Vec3, 4>& c) {
     return std::abs(volume) > rounding * reach * glm::length(across) ? volume : 0.0;
 }
 
+/// The corner on the horizon itself if it is seen within 1e-6 rad of it. Rounding may have moved it
+/// off, and must not decide which corners are cut off, because samples go by these.
+Vec3 off_rounding(const Vec3& corner) {
+    constexpr double rounding = 1e-6;
+    const bool is_level = std::abs(corner.z) <= rounding * glm::length(corner);
+    return {corner.x, corner.y, is_level ? 0.0 : corner.z};
+}
+
 Vec3 horizon_crossing(const Vec3& above, const Vec3& below) {
     const Vec3 point = above + (below - above) * (above.z / (above.z - below.z));
     return {point.x, point.y, 0.0};
@@ -31,13 +39,15 @@ ClippedPolygon clip_to_horizon(const std::array<Vec3, 4>& corners) {
     const double volume = signed_volume(corners);
     if (!(std::abs(volume) > 0))
         return result;
+    std::array<Vec3, 4> clean;
+    std::ranges::transform(corners, clean.begin(), off_rounding);
     const auto add = [&](const Vec3& v) {
         if (result.size < 5)
             result.vertex[static_cast<std::size_t>(result.size++)] = v;
     };
     for (std::size_t i = 0; i < 4; ++i) {
-        const Vec3& a = corners[volume > 0 ? i : 3 - i];
-        const Vec3& b = corners[volume > 0 ? (i + 1) % 4 : (6 - i) % 4];
+        const Vec3& a = clean[volume > 0 ? i : 3 - i];
+        const Vec3& b = clean[volume > 0 ? (i + 1) % 4 : (6 - i) % 4];
         if (a == b)
             continue; // a triangle's last corner stands there twice
         if (a.z >= 0)

@@ -4,6 +4,7 @@
 #include "geometry/box.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,17 +13,25 @@
 namespace hemilux {
 
 /// Sorts the lower half of the numbers before the upper half, by their centres along the axis on
-/// which these extend most; equal ones by number. Returns how many the lower half has.
+/// which these extend most; those that are equal but for rounding by number. Returns how many the
+/// lower half has.
 template <class CentreOf>
 std::size_t halve_at_median(std::span<std::uint32_t> numbers, const CentreOf& centre_of) {
     Box centres;
     for (const std::uint32_t number : numbers)
         centres.include(centre_of(number));
     const int axis = largest_axis(centres.extent());
+    const double low = centres.low[axis], extent = centres.extent()[axis];
+    // The steps' offset keeps the rows of a grid away from where steps begin.
+    constexpr double steps = 1 << 16, offset = .3183;
+    const auto place = [&](std::uint32_t number) {
+        const double along = (centre_of(number)[axis] - low) / extent;
+        return extent > 0 ? std::floor(steps * along + offset) : 0;
+    };
     const std::size_t half = numbers.size() / 2;
     std::ranges::nth_element(
         numbers, numbers.begin() + static_cast<std::ptrdiff_t>(half), {},
-        [&](std::uint32_t number) { return std::pair(centre_of(number)[axis], number); });
+        [&](std::uint32_t number) { return std::pair(place(number), number); });
     return half;
 }
 

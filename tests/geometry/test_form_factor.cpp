@@ -220,6 +220,23 @@ TEST_CASE("directions towards a polygon: factor, aim and horizon") {
     CHECK(seen > 1000);
 }
 
+TEST_CASE("rounding at the horizon does not move directions towards a polygon") {
+    const Frame frame = Frame::from_normal({0, 0, 1});
+    const auto standing = [&](double foot) {
+        return ProjectedPolygon(
+            Vec3(0.0), frame,
+            {{Vec3(1, -.3, foot), Vec3(1, .4, -foot), Vec3(1, .4, .8), Vec3(1, -.3, .8)}});
+    };
+    const ProjectedPolygon exact = standing(0);
+    for (const double foot : {1e-16, -1e-16, 1e-9, -1e-9}) {
+        const ProjectedPolygon rounded = standing(foot);
+        CAPTURE(foot);
+        CHECK(rounded.factor() == Approx(exact.factor()).epsilon(1e-12));
+        for (const double u : {.01, .3, .7, .99})
+            CHECK(glm::distance(rounded.sample({u, .6}), exact.sample({u, .6})) < 1e-7);
+    }
+}
+
 TEST_CASE("directions towards a polygon follow Lambert's law") {
     // Cells: 3 x 3 pieces of the polygon, unequally cut; the expected share of each is its own
     // factor.

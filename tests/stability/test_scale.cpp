@@ -72,12 +72,9 @@ double error_in_its_own_measure(const Solution& a, const Solution& b) {
 
 constexpr double room_size = 4.7; ///< the diagonal
 
-/// `progressive` asks its estimates whether they agree, and goes on if they do not; `hierarchical`
-/// halves surfaces by the places of their patches, and links by their sizes: there a rounding error
-/// can decide about other rays.
-bool same_rays_everywhere(const Method& method) {
-    return method.name != "progressive" && method.name != "hierarchical";
-}
+/// `progressive` asks its estimates whether they agree, and goes on if they do not: there a
+/// rounding error can decide about other rays.
+bool same_rays_everywhere(const Method& method) { return method.name != "progressive"; }
 
 /// The program's result without the folder's name.
 std::string told(const std::string& obj, std::size_t* facets = nullptr) {

@@ -28,6 +28,9 @@ constexpr std::size_t most_links = 4'000'000;
 /// one patch sees another alone, and the mean over its node sees it hardly.
 constexpr double most_factor = .1;
 
+/// An area that is larger than another by less than this factor is as large.
+constexpr double rounding = 1 + 1e-6;
+
 /// How far `other` may rise above the plane of `plane`.
 double height_over(const Node& plane, const Node& other) {
     const double cosine = glm::dot(plane.normal, other.normal);
@@ -99,7 +102,7 @@ Refinement Links::refine(std::span<const double> light, std::span<const double> 
             if (fine.size() + open.size() > most_links)
                 return Refinement::too_many_links;
             divided = true;
-            if (from.is_patch() || (!to.is_patch() && to.area > from.area)) {
+            if (from.is_patch() || (!to.is_patch() && to.area > rounding * from.area)) {
                 open.push_back({to.child + 1, link.from});
                 open.push_back({to.child, link.from});
             } else {

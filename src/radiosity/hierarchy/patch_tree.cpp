@@ -12,13 +12,14 @@
 namespace hemilux {
 namespace {
 
-/// Material, side and normal. What rounding keeps apart makes two roots of one, and no error.
+/// Material, side and normal, in steps that hardly any direction of a model lies between. What
+/// rounding keeps apart makes two roots of one, and no error.
 using SideKey = std::array<std::int64_t, 5>;
 
 SideKey side_of(const Patch& patch) {
-    constexpr double steps = 1e6;
+    constexpr double steps = 1e4, offset = .3183;
     const auto rounded = [](double x) {
-        return static_cast<std::int64_t>(std::llround(x * steps));
+        return static_cast<std::int64_t>(std::llround(x * steps + offset));
     };
     const Vec3& n = patch.normal;
     return {patch.material, patch.back, rounded(n.x), rounded(n.y), rounded(n.z)};
