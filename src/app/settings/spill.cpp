@@ -39,6 +39,14 @@ void* allocate(std::size_t bytes) {
     return block;
 }
 
+void* allocate_or_null(std::size_t bytes) noexcept {
+    try {
+        return allocate(bytes);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
 void release(void* block) noexcept {
     SpillFile* const spill = file;
     if (spill && spill->holds(block))
@@ -66,7 +74,17 @@ std::uint64_t bytes_spilled() {
 
 } // namespace hemilux
 
-// new[], delete[] and those that do not throw call these.
+// All but those of aligned types, of which there are no large arrays. Sanitizers have their own of
+// each, so none may be left out.
 void* operator new(std::size_t bytes) { return hemilux::allocate(bytes); }
+void* operator new[](std::size_t bytes) { return hemilux::allocate(bytes); }
+void* operator new(std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept {
+    return hemilux::allocate_or_null(bytes);
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept {
+    return hemilux::allocate_or_null(bytes);
+}
 void operator delete(void* block) noexcept { hemilux::release(block); }
+void operator delete[](void* block) noexcept { hemilux::release(block); }
 void operator delete(void* block, std::size_t /*bytes*/) noexcept { hemilux::release(block); }
+void operator delete[](void* block, std::size_t /*bytes*/) noexcept { hemilux::release(block); }

@@ -116,7 +116,7 @@ std::string memory_text(const Statistics& s) {
                 " per patch; a byte per triangle of the full tree would be " +
                 byte_size(s.bytes_density_paper) + ")";
     if (s.bytes_spilled > 0)
-        text += ", with what is in memory of " + byte_size(s.bytes_spilled) + " in a file";
+        text += "; the file of --spill has " + byte_size(s.bytes_spilled);
     return text;
 }
 

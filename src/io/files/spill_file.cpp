@@ -16,8 +16,8 @@
 namespace hemilux {
 namespace {
 
-/// The file grows by so much at a time, or by one block that is larger.
-constexpr std::size_t least_growth = std::size_t{1} << 26;
+/// The file grows by multiples of so much, which is one of the page's size.
+constexpr std::size_t growth = std::size_t{1} << 26;
 
 /// Sizes of blocks: four between two powers of two, so a quarter of a block may be left empty.
 constexpr std::size_t size_class(std::size_t bytes) {
@@ -29,6 +29,8 @@ constexpr std::size_t size_of_class(std::size_t index) {
 }
 static_assert(size_of_class(size_class(1025)) == 1280 && size_of_class(size_class(1281)) == 1536);
 
+/// All sizes above it are multiples of the alignment.
+constexpr std::size_t least_size = 4 * alignof(std::max_align_t) + 1;
 constexpr std::size_t classes = size_class(std::size_t{1} << 42) + 1;
 
 std::string text_of(int error) { return std::system_category().message(error); }
@@ -63,7 +65,9 @@ SpillFile::~SpillFile() {
 }
 
 void* SpillFile::allocate(std::size_t bytes) {
-    const std::size_t index = size_class(std::max(bytes, alignof(Block)) + sizeof(Block));
+    const std::size_t index = size_class(std::max(bytes + sizeof(Block), least_size));
+    if (index >= classes)
+        throw std::bad_alloc();
     const std::lock_guard lock(mutex_);
     Block* block = free_[index];
     if (block)
@@ -71,7 +75,7 @@ void* SpillFile::allocate(std::size_t bytes) {
     else {
         const std::size_t end = used_ + size_of_class(index);
         if (end > size_)
-            grow_to(std::max(end, size_ + least_growth));
+            grow_to((end + growth - 1) / growth * growth);
         block = new (begin_ + std::exchange(used_, end)) Block{index, nullptr};
     }
     return block + 1;
@@ -90,10 +94,10 @@ std::uint64_t SpillFile::bytes() const {
 
 /// The disk gives its room now, not when a page is written: there is no way to report that then.
 void SpillFile::grow_to(std::size_t end) {
-    const auto at = static_cast<off_t>(size_), growth = static_cast<off_t>(end - size_);
+    const auto at = static_cast<off_t>(size_), more = static_cast<off_t>(end - size_);
     int error = EFBIG;
     if (end <= address_space)
-        while ((error = posix_fallocate(descriptor_, at, growth)) == EINTR) {
+        while ((error = posix_fallocate(descriptor_, at, more)) == EINTR) {
         }
     if (error == 0 && mmap(begin_ + at, end - size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED,
                            descriptor_, at) == MAP_FAILED)
