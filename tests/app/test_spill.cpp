@@ -40,9 +40,9 @@ TEST_CASE("--spill changes no byte of any output") {
 TEST_CASE("--spill keeps rays that --memory alone would forget") {
     const Workplace place;
     place.write_room();
-    const std::string run = "solve room.obj --divide .2 --steps 6 --rays 100 ";
+    const std::string run = "solve room.obj --divide .07 --steps 5 --rays 100 ";
     REQUIRE(place.hemilux(run + "-o one.csv").code == 0);
-    REQUIRE(place.hemilux(run + "--memory 13M -o short.csv").code == 0);
+    REQUIRE(place.hemilux(run + "--memory 55M -o short.csv").code == 0);
     CHECK((place.read("short.csv") != place.read("one.csv")));
     REQUIRE(place.hemilux(run + "--memory 1M --spill . -o some.csv").code == 0);
     CHECK((place.read("some.csv") == place.read("one.csv")));
