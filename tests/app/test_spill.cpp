@@ -16,7 +16,7 @@ const std::string solve = "solve room.obj --divide .1 --steps 3 --size 40x30 ";
 
 } // namespace
 
-TEST_CASE("--spill changes no byte of any output") {
+TEST_CASE("With --spill no byte of any output changes") {
     const Workplace place;
     place.write_room();
     std::filesystem::create_directory(place.path("disk"));
@@ -45,7 +45,7 @@ TEST_CASE("With --spill no rays are forgotten for want of memory") {
     CHECK(hemilux::with_memory({}, scene).memory == 0); // no limit
 }
 
-TEST_CASE("--spill needs a folder that can be written to, and --memory") {
+TEST_CASE("Without a folder to write to, or --memory, there is no --spill") {
     const Workplace place;
     place.write_room();
     const auto no_folder = place.hemilux(solve + "--memory 200k --spill none -o a.csv");
