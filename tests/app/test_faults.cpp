@@ -161,6 +161,21 @@ TEST_CASE("a full disk leaves nothing half-written") {
     CHECK(shell(place, "\"$H\" formfactors room.obj -o full.csv") == 3);
 }
 
+TEST_CASE("a disk without room for --spill is one message and exit code 3") {
+    for (const char* const threads : {"-t 1", "-t 3"}) {
+        const Workplace place;
+        place.write_room();
+        CAPTURE(threads);
+        CHECK(shell(place, std::string("ulimit -f 4 && \"$H\" solve room.obj --max-edge .05 "
+                                       "--steps 1 --memory 200k --spill . -q -o a.csv ") +
+                               threads) == 3);
+        const std::string text = place.read("stderr.txt");
+        CHECK_THAT(text, Contains("no room for more than 0 MiB of --spill: File too large"));
+        CHECK(lines_of_message(text) == 1);
+        CHECK_FALSE(place.has("a.csv"));
+    }
+}
+
 TEST_CASE("folders that cannot be written to or are files are told before any work") {
     const Workplace place;
     place.write("slow.obj", "not even read");

@@ -112,15 +112,29 @@ TEST_CASE("What is wrong for all ranks is said once, with the program's exit cod
     CHECK(output.code == 3);
 }
 
-TEST_CASE("Where a rank dies all end, and no output is half written") {
+TEST_CASE("Where a rank dies all end with one message and exit code 3, and no half output") {
     if (!can_start_ranks())
         return;
     const Workplace place;
     place.write_room();
+    // mpirun's children watch over the ranks, which are theirs.
     const auto outcome =
         place.hemilux_on(3, "solve room.obj --max-edge .05 --error 1e-5 -o out.csv & "
-                            "until pgrep -P $! >/dev/null; do sleep .1; done; sleep .5; "
-                            "kill -9 $(pgrep -P $! | tail -1); wait $!");
-    CHECK(outcome.code != 0);
+                            "last_child() { [ $1 ] && pgrep -P $1 | tail -1; }; "
+                            "until rank=$(last_child $(last_child $!)) && [ \"$rank\" ]; "
+                            "do sleep .1; done; sleep .5; kill -9 $rank; wait $!");
+    CHECK(outcome.code == 3);
+    CHECK(outcome.err == "hemilux: a rank was killed by signal 9 (Killed)\n");
     CHECK_FALSE(place.has("out.csv"));
+}
+
+TEST_CASE("Ranks that spill write the bytes of one process that does not") {
+    if (!can_start_ranks())
+        return;
+    const Workplace place;
+    place.write_room();
+    const std::string solve = "solve room.obj --divide .1 --steps 3 -t 1 -o ";
+    REQUIRE(place.hemilux(solve + "one.csv").code == 0);
+    REQUIRE(place.hemilux_on(2, solve + "two.csv --memory 200k --spill .").code == 0);
+    CHECK((place.read("two.csv") == place.read("one.csv")));
 }

@@ -124,6 +124,8 @@ void add_memory_option(Command command, SceneSettings& scene) {
         "a number of bytes such as 800M or 1.5G",
         [](const std::string& text) { return parse_bytes(text); },
         [&scene](std::uint64_t bytes) { scene.memory = bytes; });
+    command.add_text("--spill", "FOLDER", scene.spill,
+                     "keep what is beyond --memory in a file there, which nobody sees");
 }
 
 void add_division_options(Command command, SolveOptions& options) {

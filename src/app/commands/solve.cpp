@@ -17,6 +17,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/memory.h"
 #include "app/settings/method_options.h"
+#include "app/settings/spill.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
 #include "app/terminal/log.h"
@@ -259,6 +260,7 @@ void SolveRun::estimate_errors() {
     if (!settings_.plain) // which leaves out nothing
         statistics_.left_out = left_out(prepared_->needs, settings_.work(), *solution_);
     statistics_.bytes_peak = peak_memory_bytes();
+    statistics_.bytes_spilled = bytes_spilled();
     if (settings_.ranks->are_several())
         statistics_.ranks =
             settings_.ranks->of_each(RankFigures{settings_.ranks->work(), statistics_.bytes_peak});

@@ -5,13 +5,19 @@
 #include "mpi/ranks_by_mpi.h"
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <filesystem>
 #include <string_view>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 
@@ -35,6 +41,28 @@ int count_of_started() {
     return 1;
 }
 
+/// From here on the rank is a child of this process, which waits for it and ends as it does; where
+/// a signal killed it, with an exit code: of a signal mpirun would make one of its own.
+void be_watched() {
+    const pid_t rank = fork();
+    if (rank < 0)
+        return; // and nobody watches
+    if (rank == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        return;
+    }
+    for (const int of_both : {SIGINT, SIGTERM}) // mpirun sends them to the group
+        std::signal(of_both, SIG_IGN);
+    int status = 0;
+    while (waitpid(rank, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (!WIFSIGNALED(status))
+        _exit(WEXITSTATUS(status));
+    (void)std::fprintf(stderr, "hemilux: a rank was killed by signal %d (%s)\n", WTERMSIG(status),
+                       strsignal(WTERMSIG(status)));
+    _exit(exit_output);
+}
+
 /// Beside the program where it was built, or where it is installed.
 void* open_module() {
     std::error_code error;
@@ -55,6 +83,7 @@ Function function_of(void* module, const char* name) {
 StartedRanks::StartedRanks() {
     if (count_of_started() < 2)
         return;
+    be_watched();
     load();
     if (!ranks_->is_first())
         be_silent();

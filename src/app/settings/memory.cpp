@@ -176,7 +176,8 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
 }
 
 SolveOptions with_memory(SolveOptions options, const SceneSettings& scene) {
-    options.memory = scene.memory ? *scene.memory / 2 : default_transport;
+    const std::uint64_t usual = scene.spill.empty() ? default_transport : 0; // 0: no limit
+    options.memory = scene.memory ? *scene.memory / 2 : usual;
     return options;
 }
 

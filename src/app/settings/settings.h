@@ -36,6 +36,7 @@ struct SceneSettings {
     bool textures = true;                ///< they are read
     MeshOptions mesh;                    ///< two-sided with Sides::both
     std::optional<std::uint64_t> memory; ///< bytes that a run may need
+    std::string spill; ///< a folder for what memory has no room for (spill.h); empty: none
 };
 
 /// The values of --guide, in the order of Guide.

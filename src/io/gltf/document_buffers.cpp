@@ -8,8 +8,6 @@
 namespace hemilux::gltf {
 namespace {
 
-constexpr std::size_t no_limit = std::size_t{1} << 53;
-
 /// Accessors without data are all zeros but for sparse elements. No model has many of these, and a
 /// few characters could ask for any number.
 constexpr std::size_t most_zeros = std::size_t{1} << 20;

@@ -7,8 +7,6 @@
 namespace hemilux::gltf {
 namespace {
 
-constexpr std::size_t no_limit = std::size_t{1} << 53;
-
 std::optional<TextureInfo> read_texture(const JsonValue& owner, std::string_view key,
                                         const Document& document) {
     const std::optional<JsonValue> value = owner.find(key);

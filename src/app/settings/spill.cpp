@@ -1,0 +1,90 @@
+#include "app/settings/spill.h"
+
+#include "app/settings/exit_code.h"
+#include "io/files/spill_file.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <malloc.h>
+#include <new>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+/// Smaller ones stay in memory: together they are small.
+constexpr std::size_t least_bytes = 1024;
+
+/// It lives until the process ends, as may what lies in it.
+constinit std::atomic<SpillFile*> file{nullptr};
+constinit std::atomic<std::int64_t> in_memory{0}; ///< bytes of large arrays
+constinit std::int64_t most_in_memory = 0;
+
+std::int64_t large_size(void* block) {
+    const std::size_t size = malloc_usable_size(block);
+    return size < least_bytes ? 0 : static_cast<std::int64_t>(size);
+}
+
+void* allocate(std::size_t bytes) {
+    SpillFile* const spill = file;
+    if (spill && bytes >= least_bytes &&
+        in_memory + static_cast<std::int64_t>(bytes) > most_in_memory)
+        return spill->allocate(bytes);
+    void* const block = std::malloc(std::max<std::size_t>(bytes, 1));
+    if (!block)
+        throw std::bad_alloc();
+    if (spill)
+        in_memory += large_size(block);
+    return block;
+}
+
+void* allocate_or_null(std::size_t bytes) noexcept {
+    try {
+        return allocate(bytes);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
+void release(void* block) noexcept {
+    SpillFile* const spill = file;
+    if (spill && spill->holds(block))
+        return spill->free(block);
+    if (spill && block)
+        in_memory -= large_size(block);
+    std::free(block);
+}
+
+} // namespace
+
+void begin_spilling(SceneSettings& scene) {
+    if (scene.spill.empty())
+        return;
+    if (!scene.memory)
+        throw UsageError("--spill: --memory is to say how much may stay in memory");
+    most_in_memory = static_cast<std::int64_t>(*std::exchange(scene.memory, std::nullopt));
+    file = new SpillFile(scene.spill);
+}
+
+std::uint64_t bytes_spilled() {
+    const SpillFile* const spill = file;
+    return spill ? spill->bytes() : 0;
+}
+
+} // namespace hemilux
+
+// All but those of aligned types, of which there are no large arrays. Sanitizers have their own of
+// each, so none may be left out.
+void* operator new(std::size_t bytes) { return hemilux::allocate(bytes); }
+void* operator new[](std::size_t bytes) { return hemilux::allocate(bytes); }
+void* operator new(std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept {
+    return hemilux::allocate_or_null(bytes);
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept {
+    return hemilux::allocate_or_null(bytes);
+}
+void operator delete(void* block) noexcept { hemilux::release(block); }
+void operator delete[](void* block) noexcept { hemilux::release(block); }
+void operator delete(void* block, std::size_t /*bytes*/) noexcept { hemilux::release(block); }
+void operator delete[](void* block, std::size_t /*bytes*/) noexcept { hemilux::release(block); }
