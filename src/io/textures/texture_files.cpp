@@ -82,9 +82,13 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
         stbi_load_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,
                               &size.height, &channels, rgb),
         &std::free);
-    if (!pixels)
-        throw InputError(place, std::string("expected a whole PNG or JPEG picture: ") +
-                                    stbi_failure_reason());
+    if (!pixels) {
+        const std::string reason = stbi_failure_reason();
+        throw InputError(
+            place,
+            "expected a whole PNG or JPEG picture: " +
+                (reason == "outofmem" ? "its data unpack to more than its pixels take" : reason));
+    }
     const auto width = static_cast<std::uint32_t>(size.width),
                height = static_cast<std::uint32_t>(size.height);
     const std::size_t count = std::size_t{rgb} * width * height;
