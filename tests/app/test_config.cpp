@@ -56,6 +56,7 @@ TEST_CASE("a bad file of options ends with its line") {
     refused("\nstepz = 2\n", "bad.toml:2: unknown option 'stepz'; did you mean 'steps'?");
     refused("steps = 2\nerror = \"much\"\n", "bad.toml:2: error: expected an error above 0");
     refused("steps = 0\n", "bad.toml:1: steps: expected a whole number from 1");
+    refused("steps = 1\nthreads = -1\n", "bad.toml:2: threads: expected a whole number from 0");
     refused("steps = two\n", "bad.toml:1: expected a number, true, false or a text in quotes");
     refused("steps = 2 3\n", "bad.toml:1: expected the end of the line, found \"3\"");
     refused("steps 2\n", "bad.toml:1: expected '=' after the name of an option");

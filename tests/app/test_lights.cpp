@@ -44,15 +44,39 @@ TEST_CASE("What suns and skies emit is said apart, with what the scene reflects"
     const std::string statistics = place.read("s.json");
     CHECK(test::statistic(statistics, "reflected") == Approx(4 * 3 * 1.5).epsilon(.01));
     CHECK(test::statistic(statistics, "emitted_far") > 100);
-    CHECK_THAT(
-        place.hemilux("solve ground.obj -o a.csv --sky 3").err,
-        Contains("W of suns and skies, most of which passes the scene by; its surfaces reflect"));
+    CHECK_THAT(place.hemilux("solve ground.obj -o a.csv --sky 3").err,
+               Contains("energy: surfaces reflect 1") && Contains("W under suns and skies"));
     CHECK_THAT(
         place
             .hemilux("solve ground.obj -o a.csv --light 'disc at 0,2,0 towards 0,-1,0 radius "
                      ".2 watts 6'")
             .err,
         Contains("energy: 18 W emitted, "));
+}
+
+TEST_CASE("The camera of a glTF file says which axis is upwards where it is level only so") {
+    const Workplace place;
+    const auto scene = [](const std::string& rotation) {
+        // The triangle (0, 0, 0), (1, 0, 0), (0, 1, 0), which shines.
+        return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],)"
+               R"("nodes":[{"mesh":0},{"camera":0,"rotation":)" +
+               rotation +
+               R"(}],"cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}],)"
+               R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],)"
+               R"("materials":[{"emissiveFactor":[1,1,1]}],"accessors":[{"bufferView":0,)"
+               R"("componentType":5126,"count":3,"type":"VEC3"}],)"
+               R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,)"
+               R"("uri":"data:application/octet-stream;base64,)"
+               "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+    };
+    const auto camera_chosen = [&](const std::string& rotation) {
+        place.write("s.gltf", scene(rotation));
+        return place.hemilux("solve s.gltf --camera auto --divide none --size 8x6 -o a.png").err;
+    };
+    const std::string blender = "[0.483536,0.2087036,0.3368716,0.7804827]";
+    CHECK_THAT(camera_chosen(blender), Contains("40,0,0,1"));
+    CHECK_THAT(camera_chosen("[0,0,0,1]"), !Contains("40,0,0,1") && Contains(",40"));
+    CHECK_THAT(camera_chosen("[-0.7071068,0,0,0.7071068]"), !Contains("40,0,0,1"));
 }
 
 TEST_CASE("A sun brings its irradiance times the cosine") {

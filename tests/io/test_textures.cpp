@@ -3,6 +3,7 @@
 #include "io/files/error.h"
 #include "io/pictures/image.h"
 #include "io/pictures/render.h"
+#include "io/pictures/zlib.h"
 #include "io/scene_files/obj.h"
 #include "io/textures/texture_files.h"
 #include "radiosity/rays/make_tracer.h"
@@ -96,6 +97,14 @@ TEST_CASE("broken pictures are refused, other kinds are reported", "[textures]")
           // a Huffman table with 4080 codes, which stb_image writes beyond its own
           "\xff\xd8\xff\xc4\xff\xff" + std::string(1, '\0') + std::string(600, '\xff')})
         CHECK_THROWS_AS(decode_texture(bytes, "t.png"), InputError);
+    // Two texels, and megabytes that they unpack to. stb_image checks no checksums.
+    const std::string data = zlib_compressed(std::vector<unsigned char>(std::size_t{1} << 22));
+    const auto length = static_cast<char>(data.size() >> 8);
+    CHECK_THROWS_AS(decode_texture(png.substr(0, 33) + std::string("\0\0", 2) + length +
+                                       static_cast<char>(data.size() & 255) + "IDAT" + data +
+                                       "crc." + png.substr(png.size() - 12),
+                                   "t.png"),
+                    InputError);
     (void)folder.write("t.tga", "no picture that is read");
     (void)folder.write("m.mtl", "newmtl m\nmap_Kd t.tga\n");
     const ReadResult result = read_obj(folder.write("s.obj", square + "f 1/1 2/2 3/3\n"));
@@ -103,4 +112,14 @@ TEST_CASE("broken pictures are refused, other kinds are reported", "[textures]")
     CHECK(result.warnings[0].find("1 texture is not found, or neither PNG nor JPEG") !=
           std::string::npos);
     CHECK(Mesh(result.scene).material(0u).reflectance == Vec3(.5));
+}
+
+TEST_CASE("texture coordinates that are no numbers are reported", "[textures]") {
+    const TemporaryFolder folder;
+    (void)folder.write("m.mtl", "newmtl m\n");
+    const ReadResult result =
+        read_obj(folder.write("s.obj", square + "vt nan 0\nvt 1 1e7\nf 1/1 2/5 3/6\n"));
+    REQUIRE(result.warnings.size() == 1);
+    CHECK(result.warnings[0].find("2 texture coordinates are no numbers within 1e6") !=
+          std::string::npos);
 }

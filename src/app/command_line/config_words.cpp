@@ -93,9 +93,12 @@ ConfigWords::ConfigWords(std::vector<std::string> words, const std::vector<Comma
 }
 
 void ConfigWords::explain(const std::string& refused) const {
-    for (const ConfigEntry& entry : added_)
-        if (refused.starts_with("--" + entry.key + ":"))
-            throw InputError(path_, entry.line, refused.substr(2));
+    for (const ConfigEntry& entry : added_) {
+        const std::string name = "--" + entry.key + ":";
+        const std::size_t at = refused.find(name); // -t,--threads: has a short name before it
+        if (at == 0 || (at < refused.find(' ') && refused[at - 1] == ','))
+            throw InputError(path_, entry.line, refused.substr(at + 2));
+    }
 }
 
 } // namespace hemilux

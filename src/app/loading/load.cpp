@@ -18,6 +18,7 @@
 #include "radiosity/scene/convex_enclosure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace hemilux {
@@ -25,9 +26,11 @@ namespace hemilux {
 namespace {
 
 void check_reflectances(const ReadResult& read, const std::string& path) {
-    const std::vector<std::string> bad = find_bad_reflectances(read);
+    std::vector<std::string> bad = find_bad_reflectances(read);
     if (bad.empty())
         return;
+    if (bad.front().starts_with(path + ": ")) // of a glTF file
+        bad.front().erase(0, path.size() + 2);
     const std::string more =
         bad.size() > 1 ? " (and " + std::to_string(bad.size() - 1) + " more)" : "";
     throw InputError(path, bad.front() + more +
@@ -101,9 +104,19 @@ Mesh divide_scene(Scene scene, const SceneSettings& settings) {
     }
 }
 
-std::optional<int> up_of(const std::string& path) {
+/// A camera is held level; z is upwards where it is level only so, as where Blender exported
+/// without its option +Y Up.
+bool is_level_by_z(const Camera& camera) {
+    const Vec3 right = glm::normalize(glm::cross(camera.target - camera.eye, camera.up));
+    constexpr double level = 1e-3, tilted = .1;
+    return std::abs(right.z) < level && std::abs(right.y) > tilted;
+}
+
+std::optional<int> up_of(const std::string& path, const std::optional<Camera>& camera) {
     const std::string extension = extension_of(path);
-    return extension == ".gltf" || extension == ".glb" ? std::optional(1) : std::nullopt;
+    return extension == ".gltf" || extension == ".glb"
+               ? std::optional(camera && is_level_by_z(*camera) ? 2 : 1)
+               : std::nullopt;
 }
 
 ViewSettings view_of(const ViewSettings& asked, const LoadedMesh& loaded, Verbosity verbosity) {
@@ -156,7 +169,7 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
     LoadedMesh loaded{std::move(sided.mesh),       std::move(sided.made),      seconds,
                       dividing.seconds(),          std::move(read.face_lines), read.camera,
                       std::move(read.camera_name), std::move(read.warnings)};
-    loaded.up = up_of(settings.path);
+    loaded.up = up_of(settings.path, loaded.camera);
     if (!loaded.mesh.all_layers_are_offset()) {
         loaded.warnings.push_back(
             settings.path +

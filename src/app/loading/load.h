@@ -35,10 +35,12 @@ struct LoadedMesh {
     std::optional<Camera> camera;          ///< the same
     std::string camera_name;
     std::vector<std::string> warnings; ///< that were logged
-    std::optional<int> up = {};        ///< axis, where the file's format says it
+    std::optional<int> up = {};        ///< axis, where the file says it
 };
-/// The axis that is upwards, as the format of a scene says it: 1 for glTF; empty for others.
-[[nodiscard]] std::optional<int> up_of(const std::string& path);
+/// The axis that is upwards, as the format of a scene says it: 1 for glTF, 2 where only so the
+/// file's camera is held level; empty for other formats.
+[[nodiscard]] std::optional<int> up_of(const std::string& path,
+                                       const std::optional<Camera>& camera = {});
 /// The view asked for; with the camera of the file, which is reported, where none was asked for.
 [[nodiscard]] ViewSettings view_of(const ViewSettings& asked, const LoadedMesh& loaded,
                                    Verbosity verbosity);

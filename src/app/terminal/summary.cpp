@@ -10,24 +10,18 @@ namespace {
 
 double sum(const Vec3& v) { return v.r + v.g + v.b; }
 
-/// Percentages of what is emitted say little where nearly all of it meets nothing of the scene.
-std::string far_text(const Statistics& s) {
-    return s.emitted_far > 0
-               ? formatted(" (%g W of suns and skies, most of which passes the scene by; ",
-                           s.emitted_far) +
-                     formatted("its surfaces reflect %g W)", s.reflected)
-               : "";
-}
-
 std::string energy_text(const Statistics& s) {
     const EnergyBalance& energy = s.energy;
+    // Nearly all that suns and skies emit meets nothing of the scene: shares of it say nothing.
+    if (s.emitted_far > 0)
+        return formatted("energy: surfaces reflect %g W under suns and skies", s.reflected) +
+               formatted("; balance closed to %.0e", energy.imbalance());
     const double emitted = sum(energy.emitted);
     const double absorbed = sum(energy.absorbed) / emitted;
     const double escaped = sum(energy.escaped) / emitted;
     const double unshot = sum(energy.unshot) / emitted;
-    return formatted("energy: %g W emitted", emitted) + far_text(s) + ", " + percent(absorbed) +
-           " absorbed, " + percent(escaped) + " escaped, " +
-           formatted("%.3f %% unshot", 100 * unshot) +
+    return formatted("energy: %g W emitted, ", emitted) + percent(absorbed) + " absorbed, " +
+           percent(escaped) + " escaped, " + formatted("%.3f %% unshot", 100 * unshot) +
            formatted("; balance closed to %.0e", energy.imbalance());
 }
 

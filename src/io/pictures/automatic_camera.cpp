@@ -66,6 +66,7 @@ std::vector<Camera> candidates(const Box& box, int up_axis, double aspect) {
             cameras.push_back(
                 outside_camera(box, up, direction(up_axis, azimuth, elevation), aspect));
     const Vec3 extent = glm::max(box.extent(), Vec3(0.01));
+    const double ahead = .5 * glm::length(box.extent()); // the target is a place to read and change
     const Vec3 n =
         glm::clamp(glm::round(extent / std::cbrt(extent.x * extent.y * extent.z / 500)), 1.0, 64.0);
     for (double x = 0.5; x < n.x; ++x)
@@ -74,7 +75,7 @@ std::vector<Camera> candidates(const Box& box, int up_axis, double aspect) {
                 for (double azimuth = 22.5; azimuth < 360; azimuth += 45) {
                     const Vec3 eye = box.low + box.extent() * Vec3(x, y, z) / n;
                     cameras.push_back(
-                        {eye, eye + direction(up_axis, azimuth, -10), up, inside_fov});
+                        {eye, eye + ahead * direction(up_axis, azimuth, -10), up, inside_fov});
                 }
     return cameras;
 }

@@ -406,7 +406,7 @@ std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Plac
         if (around)
             slow = around->light;
         else
-            alone.add(k, place.at, samples_of(x, y, options_.rays));
+            alone.add(k, place.at, samples_of(x, y, 4 * options_.rays));
         if (around && (around->shadow == none_blocked || around->shadow == all_blocked)) {
             direct.unshadowed = slow.unshadowed;
             direct.arriving = around->shadow == none_blocked ? slow.unshadowed : Vec3(0.0);

@@ -96,7 +96,8 @@ class ObjReader {
 
     PolygonDivision division_;
     std::vector<Vec3> shape_;
-    Tally few_corners_, no_area_, crossing_, unchecked_, free_form_, lines_and_points_, capitals_;
+    Tally few_corners_, no_area_, crossing_, unchecked_, free_form_, lines_and_points_, capitals_,
+        odd_texcoords_;
 };
 
 ReadResult ObjReader::read() {
@@ -200,11 +201,16 @@ void ObjReader::read_corner(std::string_view word, std::size_t line) {
 void ObjReader::read_texcoord(const Statement& statement) {
     std::string_view rest = statement.rest;
     glm::vec2 place(0.0f);
+    bool is_odd = false;
     for (int axis = 0; axis < 2; ++axis) {
         const std::optional<double> number = parse_decimal(take_word(rest));
         constexpr double most = 1e6;
-        place[axis] = number && std::abs(*number) <= most ? static_cast<float>(*number) : 0.0f;
+        const bool is_place = number && std::abs(*number) <= most;
+        place[axis] = is_place ? static_cast<float>(*number) : 0.0f;
+        is_odd = is_odd || !is_place;
     }
+    if (is_odd)
+        odd_texcoords_.add(statement.line);
     texcoords_.push_back(place);
 }
 
@@ -386,6 +392,8 @@ void ObjReader::collect_warnings() {
     warn(lines_and_points_, "a line or point is left out", "lines and points are left out");
     warn(capitals_, "a statement whose keyword has capitals is left out",
          "statements whose keywords have capitals are left out");
+    warn(odd_texcoords_, "a texture coordinate is no number within 1e6; it is 0 here",
+         "texture coordinates are no numbers within 1e6; they are 0 here");
     warn(free_form_, "a statement of a free-form curve or surface is left out",
          "statements of free-form curves and surfaces are left out");
 }

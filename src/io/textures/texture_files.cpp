@@ -7,6 +7,21 @@
 #include <cstdlib>
 #include <limits>
 
+namespace {
+
+/// No picture of the size that its header states takes more bytes while it is unpacked: a small
+/// file may hold gigabytes of zeros.
+thread_local std::size_t most_bytes_unpacked = 0;
+
+void* bounded_realloc(void* bytes, std::size_t size) {
+    return size <= most_bytes_unpacked ? std::realloc(bytes, size) : nullptr;
+}
+
+} // namespace
+
+#define STBI_MALLOC(size) std::malloc(size)
+#define STBI_REALLOC(bytes, size) bounded_realloc(bytes, size)
+#define STBI_FREE(bytes) std::free(bytes)
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_JPEG
@@ -22,6 +37,8 @@ namespace {
 constexpr double most_texels = 1 << 26;
 /// While it is decoded: the file's samples, and three bytes each.
 constexpr double bytes_per_texel = 12;
+/// Of a buffer, for the largest samples.
+constexpr double bytes_unpacked_per_texel = 32;
 
 struct Size {
     int width = 0, height = 0;
@@ -58,13 +75,20 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
     Size size = size_of(bytes, place);
     int channels = 0;
     constexpr int rgb = 3;
+    // Eight bytes a texel at the most, and one a row; buffers grow by doubling.
+    most_bytes_unpacked =
+        static_cast<std::size_t>(bytes_unpacked_per_texel * size.texels()) + (std::size_t{1} << 16);
     const std::unique_ptr<stbi_uc, decltype(&std::free)> pixels(
         stbi_load_from_memory(data_of(bytes), static_cast<int>(bytes.size()), &size.width,
                               &size.height, &channels, rgb),
         &std::free);
-    if (!pixels)
-        throw InputError(place, std::string("expected a whole PNG or JPEG picture: ") +
-                                    stbi_failure_reason());
+    if (!pixels) {
+        const std::string reason = stbi_failure_reason();
+        throw InputError(
+            place,
+            "expected a whole PNG or JPEG picture: " +
+                (reason == "outofmem" ? "its data unpack to more than its pixels take" : reason));
+    }
     const auto width = static_cast<std::uint32_t>(size.width),
                height = static_cast<std::uint32_t>(size.height);
     const std::size_t count = std::size_t{rgb} * width * height;
