@@ -5,7 +5,7 @@
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
 #include "io/files/error.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/solving/target.h"
 
 #include <algorithm>

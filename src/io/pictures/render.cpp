@@ -6,7 +6,7 @@
 #include "io/pictures/pixel_colours.h"
 #include "io/pictures/visible_facets.h"
 #include "io/results/smooth.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solution.h"
 

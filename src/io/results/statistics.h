@@ -1,7 +1,7 @@
 #pragma once
 // The figures of a run, as the JSON object that other tools read (docs: the program's outputs).
 
-#include "geometry/ranks.h"
+#include "parallel/ranks.h"
 #include "radiosity/solving/left_out.h"
 #include "radiosity/solving/solution.h"
 

@@ -3,7 +3,7 @@
 // the log of the steps. Columns are a contract that other tools read; numbers are the shortest text
 // that gives back the same double.
 
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/solving/solution.h"
 #include "radiosity/solving/solver.h"
 
