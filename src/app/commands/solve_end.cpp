@@ -9,7 +9,7 @@
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/sides/light_paths.h"
-#include "radiosity/solving/error_spread.h"
+#include "radiosity/solution/error_spread.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "app/settings/names.h"
 #include "io/files/error.h"
 #include "parallel/workers.h"
-#include "radiosity/solving/target.h"
+#include "radiosity/solution/target.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <algorithm>
 #include <optional>

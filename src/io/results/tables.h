@@ -4,7 +4,7 @@
 // that gives back the same double.
 
 #include "parallel/workers.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 #include "radiosity/solving/solver.h"
 
 #include <cstdint>

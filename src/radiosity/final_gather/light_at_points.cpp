@@ -5,8 +5,8 @@
 #include "radiosity/rays/receivers.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/error_spread.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/error_spread.h"
+#include "radiosity/solution/solution.h"
 #include "radiosity/solving/stop_flag.h"
 
 #include <algorithm>

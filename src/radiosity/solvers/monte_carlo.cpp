@@ -24,7 +24,7 @@
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/largest_first.h"
 #include "radiosity/shooting/stepwise.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include "bvh/tracer.h"
 #include "parallel/ranks.h"
 #include "radiosity/scene/needs.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 #include "radiosity/solving/stop_flag.h"
 
 #include <atomic>

@@ -6,7 +6,7 @@
 #include "parallel/workers.h"
 #include "radiosity/form_factors/hemicube.h"
 #include "radiosity/form_factors/pair_factor.h"
-#include "radiosity/shooting/shot_balance.h"
+#include "radiosity/progressive/shot_balance.h"
 #include "radiosity/solving/solver.h"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "radiosity/solving/target.h"
+#include "radiosity/solution/target.h"
 
 #include "geometry/frame.h"
 #include "parallel/workers.h"
