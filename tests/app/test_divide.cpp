@@ -28,8 +28,8 @@ TEST_CASE("a run on fixed patches reports what sampling and what the division le
     CHECK(statistic(json, "rays_divide") == 0);
 }
 
-TEST_CASE(
-    "--divide auto ends near the whole error asked for, with the same bytes for any threads") {
+TEST_CASE("--divide auto ends near the whole error asked for, with the same bytes for any threads",
+          "[slow]") {
     const Workplace place;
     place.write_room();
     const std::string command = "solve room.obj --divide auto --error .1 --seed 3 ";
@@ -48,7 +48,7 @@ TEST_CASE(
     CHECK(statistic(json, "rays_divide") > 0);
 }
 
-TEST_CASE("patches get their rays as they are divided, where some faces need none") {
+TEST_CASE("patches get their rays as they are divided, where some faces need none", "[slow]") {
     const Workplace place;
     place.write_room();
     // A bright block whose lower side lies on the floor: no light reaches that.
@@ -88,7 +88,8 @@ TEST_CASE("--divide auto leaves alone what is even: it costs a thousand points")
     CHECK(place.read("a.csv").find("gradient") == std::string::npos);
 }
 
-TEST_CASE("--divide auto goes on until the whole error is as asked for, or says what ended it") {
+TEST_CASE("--divide auto goes on until the whole error is as asked for, or says what ended it",
+          "[slow]") {
     const Workplace place;
     place.write_room();
     for (const std::string seed : {"1", "2", "3", "4"}) {
@@ -107,7 +108,7 @@ TEST_CASE("--divide auto goes on until the whole error is as asked for, or says 
     CHECK_THAT(outcome.err, Contains("the run ended before the whole error of 1 % was reached"));
 }
 
-TEST_CASE("a run that divides patches can be resumed to the same bytes") {
+TEST_CASE("a run that divides patches can be resumed to the same bytes", "[slow]") {
     const Workplace place;
     place.write_room();
     const std::string command = "solve room.obj --divide auto --error .1 --method hemisphere ";
@@ -117,7 +118,7 @@ TEST_CASE("a run that divides patches can be resumed to the same bytes") {
     CHECK(place.read("whole.csv") == place.read("resumed.csv"));
 }
 
-TEST_CASE("a plain solve divides, but for runs that are about patches or single steps") {
+TEST_CASE("a plain solve divides, but for runs that are about patches or single steps", "[slow]") {
     const Workplace place;
     place.write_room();
     const auto table = [&](const std::string& options) {
@@ -133,7 +134,7 @@ TEST_CASE("a plain solve divides, but for runs that are about patches or single 
         CHECK(table(options) == table(options + " --divide none"));
 }
 
-TEST_CASE("where all light is gathered the reported error is that of gathered light") {
+TEST_CASE("where all light is gathered the reported error is that of gathered light", "[slow]") {
     const Workplace place;
     place.write_room();
     place.write("points.txt", "1,0,1,0,1,0\n");
@@ -157,7 +158,8 @@ TEST_CASE("where all light is gathered the reported error is that of gathered li
                Contains("\"estimated_error_of\": \"patches\""));
 }
 
-TEST_CASE("gathered light is the same for any number of threads, and so is what it asks for") {
+TEST_CASE("gathered light is the same for any number of threads, and so is what it asks for",
+          "[slow]") {
     const Workplace place;
     place.write_room();
     const std::string command = "solve room.obj --size 64x48 --seed 3 ";

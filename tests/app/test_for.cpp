@@ -102,8 +102,8 @@ TEST_CASE("A run with --for goes on from its checkpoint, and from no other") {
     test::check_fails(place, 2, run + "--steps 4 -o x.csv --resume saved", "what the run was for");
 }
 
-TEST_CASE(
-    "With --divide auto patches of the target are divided, and all of its error is reported") {
+TEST_CASE("With --divide auto patches of the target are divided, and all of its error is reported",
+          "[slow]") {
     const Workplace place;
     place.write_room();
     const std::string run = "solve room.obj --divide auto --for group:detail_floor --seed 3 ";

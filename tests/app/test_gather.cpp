@@ -51,7 +51,7 @@ TEST_CASE("a signal ends a gathered picture") {
     CHECK_FALSE(place.has("a.png"));
 }
 
-TEST_CASE("the seconds of the stages are all of a run") {
+TEST_CASE("the seconds of the stages are all of a run", "[slow]") {
     const Workplace place;
     place.write_room();
     place.write("p.txt", ".5 .5 .5 0 1 0\n");

@@ -36,7 +36,7 @@ std::string without_seconds(const std::string& log) {
 
 } // namespace
 
-TEST_CASE("mpirun starts ranks that write the bytes of one process") {
+TEST_CASE("mpirun starts ranks that write the bytes of one process", "[slow]") {
     if (!can_start_ranks())
         return;
     const Workplace place;

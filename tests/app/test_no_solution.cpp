@@ -5,7 +5,7 @@
 using Catch::Contains;
 using test::Workplace;
 
-TEST_CASE("a closed scene of reflectance 1 names the faces that enclose a lamp") {
+TEST_CASE("a closed scene of reflectance 1 names the faces that enclose a lamp", "[slow]") {
     const Workplace place;
     place.write_room();
     for (const char* command : {"solve room.obj -o a.csv", "compare room.obj -o a"}) {

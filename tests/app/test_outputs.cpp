@@ -56,8 +56,9 @@ TEST_CASE("an error of 1 asks whether 1 % was meant") {
     place.write_room();
     check_fails(place, 1, "solve room.obj -o a.png --error 1", "was 1 % meant? Write 1%");
     check_fails(place, 1, "compare room.obj -o a --reference-error 2", "was 2 % meant?");
-    REQUIRE(place.hemilux("solve room.obj -q -o a.csv --error 3%").code == 0);
-    REQUIRE(place.hemilux("solve room.obj -q -o b.csv --error .03 --time 2m").code == 0);
+    REQUIRE(place.hemilux("solve room.obj -q -o a.csv --divide none --error 3%").code == 0);
+    REQUIRE(place.hemilux("solve room.obj -q -o b.csv --divide none --error .03 --time 2m").code ==
+            0);
     CHECK(place.read("a.csv") == place.read("b.csv"));
 }
 

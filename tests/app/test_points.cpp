@@ -30,7 +30,7 @@ std::vector<std::vector<std::string>> rows_of(const std::string& text) {
 
 } // namespace
 
-TEST_CASE("a table of points has irradiance, and radiosity where a face is") {
+TEST_CASE("a table of points has irradiance, and radiosity where a face is", "[slow]") {
     const Workplace place;
     place.write_room();
     REQUIRE(place.hemilux("solve room.obj --divide none -q --error .002 -o patches.csv").code == 0);

@@ -203,7 +203,7 @@ TEST_CASE("in a furnace every gathered pixel is the same") {
         REQUIRE(glm::distance(pixel, glm::vec3(2)) < 1e-5f);
 }
 
-TEST_CASE("more rays make a gathered picture less noisy") {
+TEST_CASE("more rays make a gathered picture less noisy", "[slow]") {
     const Model model(test::room_with_block());
     const Solution solution =
         test::solve(model, *find_method("stored-transport"), {}, test::steps(4));

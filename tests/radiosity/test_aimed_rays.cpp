@@ -241,12 +241,13 @@ void check_light(const Model& model, std::span<const double> target,
     }
 }
 
-TEST_CASE("With a target light is that of matrix, on it and elsewhere, within the errors") {
+TEST_CASE("With a target light is that of matrix, on it and elsewhere, within the errors",
+          "[slow]") {
     const Model model(test::room_with_block());
     check_light(model, first_patches(model.mesh, 16), shooting_methods(), 8);
 }
 
-TEST_CASE("With rays to balls light is that of matrix, on the target and elsewhere") {
+TEST_CASE("With rays to balls light is that of matrix, on the target and elsewhere", "[slow]") {
     const auto [model, target] = small_target();
     std::vector<const Method*> methods = shooting_methods();
     std::erase_if(methods, [](const Method* method) { return !method->strategy; });

@@ -85,7 +85,7 @@ DivisionError gathered_error_of(const Model& model, const Solution& solution, st
 
 } // namespace
 
-TEST_CASE("the error of a division is that against light in closed form") {
+TEST_CASE("the error of a division is that against light in closed form", "[slow]") {
     const double width = GENERATE(.02, .3);
     const double max_edge = GENERATE(1.0, .5, .2);
     const Model model(lamp_over_ground(width), {.max_edge = max_edge});

@@ -211,7 +211,8 @@ TEST_CASE("Rows of a closed room sum to 1, those of an open one with what is los
     }
 }
 
-TEST_CASE("More pixels bring factors nearer to the exact ones, until the centre is left") {
+TEST_CASE("More pixels bring factors nearer to the exact ones, until the centre is left",
+          "[slow]") {
     const test::Model model(test::cube_with_lit_floor(3, .5));
     const Workers workers(2);
     Monitor monitor;
@@ -244,7 +245,7 @@ TEST_CASE("More pixels bring factors nearer to the exact ones, until the centre 
     CHECK(error[3] > .9 * error[2]);
 }
 
-TEST_CASE("What is smaller than a pixel is missed or counts too much") {
+TEST_CASE("What is smaller than a pixel is missed or counts too much", "[slow]") {
     // Strips across the view of a small patch, a tenth of a pixel of the coarse cube wide.
     constexpr std::uint32_t coarse = 16, fine = 1024;
     Rng rng(3);
@@ -284,7 +285,7 @@ TEST_CASE("Both methods with hemicubes solve a furnace, and do not claim an erro
     }
 }
 
-TEST_CASE("Progressive shots by hemicubes lose no light, and agree with the matrix") {
+TEST_CASE("Progressive shots by hemicubes lose no light, and agree with the matrix", "[slow]") {
     const test::Model model(test::room_with_block());
     const Solution truth = test::reference(model, .02);
     for (const char* name : {"matrix", "progressive"}) {

@@ -161,7 +161,7 @@ TEST_CASE("directions of every triangle of levels 0 to 2 follow the cosine densi
     }
 }
 
-TEST_CASE("directions uniform in solid angle fail in every triangle of levels 0 and 1") {
+TEST_CASE("directions uniform in solid angle fail in every triangle of levels 0 and 1", "[slow]") {
     const Hemisphere hemisphere(1);
     Rng rng(53);
     for (const Hemisphere::Cell& cell : hemisphere.cells()) {

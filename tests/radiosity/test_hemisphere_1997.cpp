@@ -293,7 +293,7 @@ std::vector<test::StepRays> rays_of_step(const Model& model, const SolveOptions&
 
 } // namespace
 
-TEST_CASE("End to end, every private cell gets its equal number of rays") {
+TEST_CASE("End to end, every private cell gets its equal number of rays", "[slow]") {
     const Model model(test::black(test::room_with_block()));
     for (const auto& numbers : {Subdivision1997Options{}, {1, 2, 1}, {3, 0, 4}}) {
         SolveOptions options;

@@ -221,7 +221,8 @@ TEST_CASE("Factors of links are right on average") {
           Approx(1).margin(.01));
 }
 
-TEST_CASE("Hierarchical radiosity comes to the solution of the matrix, within its errors") {
+TEST_CASE("Hierarchical radiosity comes to the solution of the matrix, within its errors",
+          "[slow]") {
     for (const bool open : {false, true}) {
         const test::Model model(open ? test::open_scene() : test::room_with_block());
         const Solution exact = test::reference(model, .005);
@@ -237,7 +238,7 @@ TEST_CASE("Hierarchical radiosity comes to the solution of the matrix, within it
     }
 }
 
-TEST_CASE("Hierarchical radiosity gives the same bytes whatever the threads") {
+TEST_CASE("Hierarchical radiosity gives the same bytes whatever the threads", "[slow]") {
     const test::Model model(test::room_with_block());
     const auto radiosity = [&](unsigned threads) {
         SolveOptions options;

@@ -40,7 +40,7 @@ TEST_CASE("In a furnace the light is that of the patches, and what is added to i
     CHECK(light.error(scaled(model, accurate, 0)) == Approx(1).epsilon(.02));
 }
 
-TEST_CASE("Against the light itself a solution is off by its noise and by its division") {
+TEST_CASE("Against the light itself a solution is off by its noise and by its division", "[slow]") {
     const Model model(test::room_with_block());
     const Solution accurate = test::reference(model, .001);
     const StopFlag never;

@@ -84,7 +84,7 @@ TEST_CASE("Facets in one place make no more pairs than the few that are kept") {
           }) == 30'000 - 2 * int(kept_alike));
 }
 
-TEST_CASE("Of many facets in one place the first is lit as if it were alone") {
+TEST_CASE("Of many facets in one place the first is lit as if it were alone", "[slow]") {
     const Method& method = *find_method("monte-carlo");
     const auto solved = [&](std::uint32_t n) {
         const Model model(pile(n));
@@ -104,7 +104,7 @@ TEST_CASE("The brightest of many facets in one place is never buried") {
     CHECK(std::ranges::none_of(buried, [](const Buried& b) { return b.facet == 200; }));
 }
 
-TEST_CASE("Pairs of facets over each other end at their limit, which is reported") {
+TEST_CASE("Pairs of facets over each other end at their limit, which is reported", "[slow]") {
     const Scene scene = heap(1500);
     const OverlapLimits limits = OverlapLimits::of(scene);
     const Overlaps overlaps = find_overlaps(scene, local(scene));
@@ -114,7 +114,7 @@ TEST_CASE("Pairs of facets over each other end at their limit, which is reported
     CHECK(find_overlaps(heap(500), local(heap(500))).complete);
 }
 
-TEST_CASE("Rays of a step are listed in parts, however many there are") {
+TEST_CASE("Rays of a step are listed in parts, however many there are", "[slow]") {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     const Model model(test::room_with_block());
     for (const char* name : {"stratified", "hemisphere", "monte-carlo", "hemisphere-1997"})

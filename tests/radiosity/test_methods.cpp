@@ -52,7 +52,7 @@ Solution solve(const Model& model, const Method& method, SolveOptions options, s
 
 // Four standard errors: some 1400 patch values in all; with 256 steps each lies outside by chance
 // with probability 8e-5, so about one seed in ten would see one outside.
-TEST_CASE("White furnace: every patch within 4 standard errors of E / (1 - rho)") {
+TEST_CASE("White furnace: every patch within 4 standard errors of E / (1 - rho)", "[slow]") {
     for (const Method* method : methods())
         for (const double rho : {.5, .8})
             for (const bool convex : {true, false}) {

@@ -127,7 +127,8 @@ TEST_CASE("Wrong runs are counted by the binomial distribution") {
     CHECK(count.too_many_wrong(1e-3));
 }
 
-TEST_CASE("Stored transport reports an error in which one can trust: one scene of each kind") {
+TEST_CASE("Stored transport reports an error in which one can trust: one scene of each kind",
+          "[slow]") {
     check_scenes("stored-transport", scenes_named(one_of_each_kind), 3,
                  {.seconds = 2, .rays = 1'000'000});
 }

@@ -118,7 +118,8 @@ TEST_CASE("Through a pinhole opposite walls exchange what one of them sees of it
     CHECK(exchange_in_the_open(left_wall, hole) == Approx(edge * edge * .23945647).epsilon(1e-6));
 }
 
-TEST_CASE("Rows of form factors have the sums that they must have, and references are physical") {
+TEST_CASE("Rows of form factors have the sums that they must have, and references are physical",
+          "[slow]") {
     for (const HardSceneEntry& e : hard_scenes()) {
         if (is_control(e))
             continue;
@@ -178,7 +179,7 @@ TEST_CASE("Through the roof comes the sunlight that falls on the opening") {
     CHECK(normal_p_value((walks.mean - right) / walks.standard_error) > significance);
 }
 
-TEST_CASE("Walks find the mean radiosity of rooms with windows, stars, slits, doors") {
+TEST_CASE("Walks find the mean radiosity of rooms with windows, stars, slits, doors", "[slow]") {
     struct Case {
         const char *family, *name;
         std::size_t part;

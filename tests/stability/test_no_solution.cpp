@@ -139,7 +139,7 @@ TEST_CASE("A step that overflows leaves the solution of the steps before") {
     }
 }
 
-TEST_CASE("A closed room of reflectance 1 has no solution: it is named") {
+TEST_CASE("A closed room of reflectance 1 has no solution: it is named", "[slow]") {
     check_refused(test::furnace_box(1, 1),
                   {"no finite solution: 6 patches", "'wall'", "'default'", "(face 0", "rays"});
     for (const Scene& scene : {test::furnace_l_shape(1), test::sphere(1, 3, 1, 1)}) {
@@ -199,7 +199,7 @@ TEST_CASE("Rooms of reflectance 1 with a way out are solved") {
     }
 }
 
-TEST_CASE("Under the open sky reflectance 1 is as good as any other") {
+TEST_CASE("Under the open sky reflectance 1 is as good as any other", "[slow]") {
     Scene scene = test::open_scene();
     for (Material& material : scene.materials)
         material.reflectance = Vec3(1, 1, .3);

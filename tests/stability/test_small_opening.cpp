@@ -52,7 +52,8 @@ std::optional<double> brightness(const Model& model, const Method& method, std::
 
 } // namespace
 
-TEST_CASE("a glowing room of reflectance 1 is solved however small its opening is", "[slit]") {
+TEST_CASE("a glowing room of reflectance 1 is solved however small its opening is",
+          "[slow][slit]") {
     const Method& stored = *find_method("stored-transport");
     for (const double share : {1e-2, 1e-3, 1.0 / 6000, 1e-4, 1e-5}) {
         const Model model(room_with_slit(share));

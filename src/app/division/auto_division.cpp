@@ -40,6 +40,10 @@ constexpr unsigned most_attempts = 8;
 /// most one in so many; but so many are always worth it.
 constexpr std::uint64_t share_of_divided = 5, least_rays_of_error = 400'000;
 
+std::uint64_t rays_of_error(std::uint64_t before) {
+    return std::max(before / share_of_divided, least_rays_of_error);
+}
+
 std::string round_text(const DivisionRound& round) {
     return "division: " + counted(round.patches, "patch", "patches") + ", within them the light " +
            "differs by about " + percent(round.error);
@@ -76,15 +80,24 @@ class AutoDivision {
   private:
     /// The light of the mesh as it is: by the run to come, where that is of the standard method.
     void run_to(double error, const StopRule& most);
-    /// How far the light that is given out is off: of the division alone, or all that is off in
-    /// light that is gathered.
-    void measure(std::uint64_t most_rays, double negligible, std::span<const double> square);
+    /// Of an error that is found out now, at points of its own.
+    [[nodiscard]] DivisionErrorOptions error_options(std::uint64_t most_rays, double negligible);
+    /// How far gathered light is off, by all that is off.
+    void measure_gathered(const DivisionErrorOptions& options);
+    /// How far the light within patches is off; and what has spread of it, which takes more rays.
+    void measure_within(const DivisionErrorOptions& options);
+    void add_spread(const DivisionErrorOptions& options);
+    template <class Measure>
+    DivisionError timed(const Measure& measure);
     void begin_gathered();
     void lower_goals();
     void divide_once(Division& division);
     void divide_until_enough();
-    /// Whether the whole error is as asked for; else less is left to what has the larger part.
+    /// Whether the whole error, as far as it is known, is as asked for; else less is left to what
+    /// has the larger part.
     [[nodiscard]] bool is_enough(double sampling);
+    [[nodiscard]] bool is_confirmed(std::uint64_t most_rays, double sampling,
+                                    std::span<const double> square);
     [[nodiscard]] bool is_over() const {
         return input_.monitor.interrupted || divided_.rough.steps == 0;
     }
@@ -101,7 +114,8 @@ class AutoDivision {
     bool is_gathered_, is_own_;
     std::uint64_t gathers_ = 0;
     double seconds_of_errors_ = 0;
-    bool divides_ = true; ///< in the next attempt
+    bool divides_ = true;  ///< in the next attempt
+    DivisionError within_; ///< of the light within patches, what has spread left out
     Divided divided_;
 };
 
@@ -131,23 +145,42 @@ void AutoDivision::forget_run() {
     divided_.before = {};
 }
 
-void AutoDivision::measure(std::uint64_t most_rays, double negligible,
-                           std::span<const double> square) {
+DivisionErrorOptions AutoDivision::error_options(std::uint64_t most_rays, double negligible) {
+    return {.seed = hash_words({settings_.options.seed, 4, gathers_++}),
+            .most_rays = most_rays,
+            .negligible = is_gathered_ ? resolved_gathered_error(settings_) : negligible};
+}
+
+template <class Measure>
+DivisionError AutoDivision::timed(const Measure& measure) {
     const Stopwatch watch;
-    const DivisionErrorOptions options{
-        .seed = hash_words({settings_.options.seed, 4, gathers_++}),
-        .most_rays = most_rays,
-        .negligible = is_gathered_ ? resolved_gathered_error(settings_) : negligible,
-        .square = is_gathered_ ? std::span<const double>() : square};
-    const Workers workers(settings_.options.threads);
-    const DivisionError found =
-        is_gathered_ ? gathered_error(mesh_, input_.tracer, divided_.rough, gathers_near(settings_),
-                                      options, workers, input_.monitor.interrupted)
-                     : division_error(mesh_, input_.tracer, divided_.rough, options, workers,
-                                      input_.monitor.interrupted);
-    (is_gathered_ ? divided_.gathered : divided_.error) = found;
+    const DivisionError found = measure(Workers(settings_.options.threads));
     statistics_.rays_division_error += found.rays;
     seconds_of_errors_ += watch.seconds();
+    return found;
+}
+
+void AutoDivision::measure_gathered(const DivisionErrorOptions& options) {
+    divided_.gathered = timed([&](const Workers& workers) {
+        return gathered_error(mesh_, input_.tracer, divided_.rough, gathers_near(settings_),
+                              options, workers, input_.monitor.interrupted);
+    });
+}
+
+void AutoDivision::measure_within(const DivisionErrorOptions& options) {
+    divided_.error.reset();
+    within_ = timed([&](const Workers& workers) {
+        return error_within_patches(mesh_, input_.tracer, divided_.rough, options, workers,
+                                    input_.monitor.interrupted);
+    });
+    within_.rays = 0; // which are counted
+}
+
+void AutoDivision::add_spread(const DivisionErrorOptions& options) {
+    divided_.error = timed([&](const Workers& workers) {
+        return with_spread(within_, mesh_, input_.tracer, divided_.rough, options, workers,
+                           input_.monitor.interrupted);
+    });
 }
 
 /// Light on patches may vary so much as it does on those that there are, but for what gathered
@@ -178,7 +211,7 @@ bool AutoDivision::is_enough(double sampling) {
         lower_goals();
         return false;
     }
-    const double division = divided_.error->error;
+    const double division = divided_.error.value_or(within_).error;
     if (std::hypot(division, sampling) <= whole_)
         return true;
     const auto left = [&](double other) {
@@ -190,6 +223,26 @@ bool AutoDivision::is_enough(double sampling) {
     else
         divided_.sampling = std::min(left(division), most_step * *divided_.sampling);
     return false;
+}
+
+/// The first of several errors to be small enough errs low, so another one confirms it. That of
+/// gathered light varies less. What has spread is found out where nothing else speaks against it.
+bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
+                                std::span<const double> square) {
+    const auto options = [&] { return error_options(most_rays, sampling / 2); };
+    if (is_gathered_) {
+        measure_gathered(options());
+        return !is_over() && is_enough(sampling);
+    }
+    for (unsigned time = 0; time < 2; ++time) {
+        DivisionErrorOptions where_it_is_large = options();
+        where_it_is_large.square = square;
+        measure_within(where_it_is_large);
+        if (is_over() || !is_enough(sampling))
+            return false;
+    }
+    add_spread(options());
+    return !is_over() && is_enough(sampling);
 }
 
 void AutoDivision::divide_once(Division& division) {
@@ -221,19 +274,14 @@ void AutoDivision::divide_until_enough() {
         const double sampling = estimated_error(mesh_, divided_.rough);
         const std::uint64_t rays = divided_.rough.rays_energy + statistics_.rays_divide;
         const bool is_aimed_at = sampling <= *divided_.sampling; // else by rays or steps
-        const auto is_enough_now = [&] {
-            measure(std::max(rays / share_of_divided, least_rays_of_error), sampling / 2,
-                    division.squares());
-            return is_over() || is_enough(sampling);
-        };
-        // The first of several errors to be small enough errs low, so another one confirms it. That
-        // of gathered light varies less.
-        const bool is_confirmed = is_enough_now() && (is_gathered_ || is_enough_now());
-        if (is_over() || is_confirmed || !is_aimed_at ||
-            rays + statistics_.rays_division_error > most_rays)
+        const bool done =
+            is_confirmed(rays_of_error(rays), sampling, division.squares()) || !is_aimed_at;
+        if (is_over() || done || rays + statistics_.rays_division_error > most_rays)
             break;
         division.doubt();
     }
+    if (!is_gathered_ && !divided_.error && !is_over())
+        add_spread(error_options(rays_of_error(divided_.rough.rays_energy), 0));
     divided_.slope = division.slopes();
 }
 
@@ -246,10 +294,14 @@ Divided AutoDivision::divide() {
             std::max(first_sampling_of_gathered, sampling_of_gathered * whole_);
     run_to(*rough.error, rough);
     if (!is_over()) {
-        const double most = share_of_division * whole_;
-        measure(0, most, {});
-        divided_.linear =
-            is_gathered_ ? divided_.gathered->error > whole_ : divided_.error->error > most;
+        const double most = is_gathered_ ? whole_ : share_of_division * whole_;
+        const DivisionErrorOptions options = error_options(0, most);
+        is_gathered_ ? measure_gathered(options) : measure_within(options);
+        divided_.linear = divided_.gathered.value_or(within_).error > most;
+        if (!is_gathered_ && !divided_.linear) {
+            add_spread(options);
+            divided_.linear = divided_.error->error > most;
+        }
     }
     if (is_gathered_ && mesh_.patches().size() >= options_.most_patches) {
         // Less than half of what is off is not worth its rays.

@@ -49,9 +49,9 @@ unsigned rays_of_estimate(double error) {
 /// they leave would be this share of what is allowed.
 constexpr double negligible_share = .05;
 
-/// Of what is allowed, what the noise of slopes may be; and gathers in one place for it.
+/// Of what is allowed, what the noise of slopes may be; and rounds of rays for it.
 constexpr double share_of_noise = .1;
-constexpr double most_estimates = 8;
+constexpr double most_rounds_of_slopes = 8;
 
 } // namespace
 
@@ -161,11 +161,11 @@ void Division::measure(const Solution& light, double goal) {
 }
 
 /// By new points each time.
-void Division::measure(const Solution& light, std::span<const std::uint32_t> some,
-                       std::size_t estimates, unsigned most_rows, double stand_for) {
+void Division::measure(const Solution& light, std::span<const std::uint32_t> some, unsigned rounds,
+                       unsigned most_rows, double stand_for) {
     const LightWithinPatches found =
         light_within_patches({mesh_, tracer_, light}, some,
-                             {.estimates = estimates,
+                             {.rounds = rounds,
                               .rays = rays_of_estimate(options_.error),
                               .most_rows = most_rows,
                               .seed = hash_words({options_.seed, 2, measured_++})},
@@ -178,7 +178,7 @@ void Division::measure(const Solution& light, std::span<const std::uint32_t> som
         const double square = counts(i) * found.square[k];
         fresh_ += stand_for * square;
         fresh_squares_ += stand_for * square * square;
-        const double more = double(estimates), of_new = more / (times_[i] + more);
+        const double more = double(rounds), of_new = more / (times_[i] + more);
         square_[i] = std::lerp(square_[i], found.square[k], of_new);
         for (std::size_t e = 0; e < 2; ++e) {
             Slope& slope = slopes_[i][e];
@@ -247,9 +247,9 @@ std::uint64_t Division::add_slopes(Solution& light, double error) {
             noisy.push_back(i);
     }
     if (noise > allowed && !monitor_.interrupted) {
-        const auto estimates =
-            static_cast<std::size_t>(std::min(std::round(noise / allowed), most_estimates));
-        measure(light, noisy, estimates, rows_again);
+        const auto rounds =
+            static_cast<unsigned>(std::min(std::round(noise / allowed), most_rounds_of_slopes));
+        measure(light, noisy, rounds, rows_again);
     }
     light.slope = slopes();
     return rays_;

@@ -78,7 +78,7 @@ class Division {
         return weight_.empty() ? 1 : weight_[patch];
     }
     void measure(const Solution& light, double goal);
-    void measure(const Solution& light, std::span<const std::uint32_t> some, std::size_t estimates,
+    void measure(const Solution& light, std::span<const std::uint32_t> some, unsigned rounds,
                  unsigned most_rows, double stand_for = 1);
     [[nodiscard]] bool is_done(double goal) const;
     [[nodiscard]] bool cut(Solution& light, double goal);

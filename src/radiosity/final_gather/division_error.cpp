@@ -33,7 +33,8 @@ struct Manner {
     /// hold it, what is known of its spread is uncertain itself.
     double well_known;
 };
-constexpr Manner of_patches{64, 64, .15}, of_divided{640, 64, .15}, of_gathered{16, 16, .25};
+constexpr Manner of_patches{64, 64, .15}, of_divided{640, 64, .15}, of_gathered{16, 16, .25},
+    of_spread{16, 4, .25};
 
 /// So many points times the length of gathers at the most, in a round.
 constexpr std::size_t longest_round = 4096;
@@ -117,6 +118,9 @@ struct KnownVariance {
     double own = 0;     ///< of what patches err each for itself
     double common = 0;  ///< of what they err together
     double freedom = 1; ///< effective degrees of freedom
+
+    /// One error is not as large as errors are on average: by how much its square scatters [-].
+    [[nodiscard]] double scatter() const { return std::sqrt(2 / freedom); }
 };
 
 KnownVariance known_variance(const Mesh& mesh, const Solution& solution, double size) {
@@ -130,8 +134,7 @@ KnownVariance known_variance(const Mesh& mesh, const Solution& solution, double 
     return {all * (1 - 1 / freedom), all / freedom, freedom};
 }
 
-/// What is not of the division, relative to the square of the patches' values as all else. One
-/// error is not as large as errors are on average: its square scatters by 2 / parts.
+/// What is not of the division, relative to the square of the patches' values as all else.
 struct OtherError {
     double square = 0, scatter = 0;
 };
@@ -203,15 +206,16 @@ DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double
 
 /// Of light that is gathered from the solution, but for `other`.
 DivisionError missing_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                            bool reads_near, const OtherError& other, DivisionErrorOptions options,
-                            const Workers& workers, const StopFlag& interrupted) {
+                            bool reads_near, const OtherError& other, const Manner& manner,
+                            DivisionErrorOptions options, const Workers& workers,
+                            const StopFlag& interrupted) {
     const double size = reflected_square(mesh, solution);
     if (!(size > 0))
         return {};
     FinalGather gather(mesh, tracer, solution);
     gather.find_missing(reads_near);
     options.square = {};
-    return error_at_points(mesh, solution, size, missing_at, gather, other, of_gathered, options,
+    return error_at_points(mesh, solution, size, missing_at, gather, other, manner, options,
                            workers, interrupted);
 }
 
@@ -244,43 +248,60 @@ double reflected_square(const Mesh& mesh, const Solution& solution) {
 DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
                              bool reads_near, const DivisionErrorOptions& options,
                              const Workers& workers, const StopFlag& interrupted) {
-    DivisionError found =
-        missing_error(mesh, tracer, solution, reads_near, {}, options, workers, interrupted);
+    DivisionError found = missing_error(mesh, tracer, solution, reads_near, {}, of_gathered,
+                                        options, workers, interrupted);
     found.error = std::max(found.error, found.uncertainty); // which it may be
     return found;
 }
 
-DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                             const DivisionErrorOptions& options, const Workers& workers,
-                             const StopFlag& interrupted, const DivisionError* gathered) {
+DivisionError error_within_patches(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                                   const DivisionErrorOptions& options, const Workers& workers,
+                                   const StopFlag& interrupted) {
     const double size = reflected_square(mesh, solution);
     if (!(size > 0))
         return {};
     const KnownVariance known = known_variance(mesh, solution, size);
-    const double scatter = std::sqrt(2 / known.freedom), rho = mean_reflectance(mesh);
     // Of what patches err together a gather errs with them, but for what a reflection takes away.
+    const double rho = mean_reflectance(mesh);
     const double seen = known.own + known.common * (1 - rho) * (1 - rho);
     FinalGather gather(mesh, tracer, solution);
     const OffAt off_at = [&](const PatchPoint& point, const Vec3& light) {
         return light - (radiosity_at(mesh, solution, point.patch, point.at.position) -
                         mesh.material(point.patch).emission);
     };
-    DivisionError found = error_at_points(
-        mesh, solution, size, off_at, gather, {seen, seen * scatter},
-        options.square.empty() ? of_patches : of_divided, options, workers, interrupted);
-    const double reflected = known.common * rho * rho;
-    const OtherError of_sampling{reflected, reflected * scatter};
-    const double least = std::max(found.error, std::sqrt(known.own + known.common));
+    return error_at_points(mesh, solution, size, off_at, gather, {seen, seen * known.scatter()},
+                           options.square.empty() ? of_patches : of_divided, options, workers,
+                           interrupted);
+}
+
+DivisionError with_spread(DivisionError within, const Mesh& mesh, const Tracer& tracer,
+                          const Solution& solution, const DivisionErrorOptions& options,
+                          const Workers& workers, const StopFlag& interrupted,
+                          const DivisionError* gathered) {
+    const double size = reflected_square(mesh, solution);
+    if (!(size > 0))
+        return within;
+    const KnownVariance known = known_variance(mesh, solution, size);
+    const double rho = mean_reflectance(mesh), reflected = known.common * rho * rho;
+    const OtherError of_sampling{reflected, reflected * known.scatter()};
+    const double least = std::max(within.error, std::sqrt(known.own + known.common));
     if (gathered) {
-        add(found, without(*gathered, of_sampling));
+        add(within, without(*gathered, of_sampling));
     } else if (least > 0) {
-        DivisionErrorOptions of_spread = options;
-        of_spread.seed = hash_words({options.seed, 1});
-        of_spread.negligible = std::max(share_of_spread * least, options.negligible);
-        add(found, missing_error(mesh, tracer, solution, false, of_sampling, of_spread, workers,
-                                 interrupted));
+        DivisionErrorOptions options_of_spread = options;
+        options_of_spread.seed = hash_words({options.seed, 1});
+        options_of_spread.negligible = std::max(share_of_spread * least, options.negligible);
+        add(within, missing_error(mesh, tracer, solution, false, of_sampling, of_spread,
+                                  options_of_spread, workers, interrupted));
     }
-    return found;
+    return within;
+}
+
+DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                             const DivisionErrorOptions& options, const Workers& workers,
+                             const StopFlag& interrupted, const DivisionError* gathered) {
+    return with_spread(error_within_patches(mesh, tracer, solution, options, workers, interrupted),
+                       mesh, tracer, solution, options, workers, interrupted, gathered);
 }
 
 std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,

@@ -59,9 +59,25 @@ struct DivisionErrorOptions {
 /// relative.
 [[nodiscard]] double reflected_square(const Mesh& mesh, const Solution& solution);
 
-/// Estimates the error of a solution with a step at least. Where it was interrupted the error is
-/// not known. `gathered`: the error of light gathered from this solution, where it is known; it
-/// holds what has spread, which is measured otherwise.
+/// Of the light within patches: how far a solution, with a step at least, is from the light that is
+/// gathered from it, but for the known variance of its values. Where it was interrupted the error
+/// is not known.
+[[nodiscard]] DivisionError error_within_patches(const Mesh& mesh, const Tracer& tracer,
+                                                 const Solution& solution,
+                                                 const DivisionErrorOptions& options,
+                                                 const Workers& workers,
+                                                 const StopFlag& interrupted);
+
+/// What has spread: `within` and the error of light that is gathered from the solution, but for
+/// that of its values, which do not depend on each other. `gathered`: the latter, where it is
+/// known.
+[[nodiscard]] DivisionError with_spread(DivisionError within, const Mesh& mesh,
+                                        const Tracer& tracer, const Solution& solution,
+                                        const DivisionErrorOptions& options, const Workers& workers,
+                                        const StopFlag& interrupted,
+                                        const DivisionError* gathered = nullptr);
+
+/// Both, one after the other.
 [[nodiscard]] DivisionError division_error(const Mesh& mesh, const Tracer& tracer,
                                            const Solution& solution,
                                            const DivisionErrorOptions& options,

@@ -85,35 +85,36 @@ void FinalGather::gather(const SurfacePoint& point, std::uint64_t seed, std::siz
         weigh(point, batch);
     const bool by_shadow_rays = any && !batch.cut.dark() && batch.cut.pays();
     const Frame frame = Frame::from_normal(point.normal);
+    const std::uint32_t random_rays = random_rays_ * rounds_, shadow_rays = shadow_rays_ * rounds_;
+    const bool by_paths = find_ != Find::light;
     for (std::size_t e = 0; e < estimates; ++e, ++place) {
         SobolBlocks<5> numbers(hash_words({seed, e}));
-        for (std::uint32_t round = 0; round < rounds_; ++round) {
-            numbers.move_to(round * random_rays_);
-            for (std::uint32_t k = 0; k < random_rays_; ++k) {
-                const auto u = numbers.point(k);
-                Ray ray{point.position, frame.to_world(cosine_direction({u[0], u[1]}))};
-                ray.from = point.facet;
-                batch.random.push_back(ray);
-                batch.from_patch.push_back({place, Vec3(1.0 / (random_rays_ * rounds_))});
-                batch.sees_emission.push_back(any && !by_shadow_rays);
-                batch.seeds.push_back(hash_words({seed, e, round * random_rays_ + k}));
-                batch.in_gather.push_back(find_ != Find::light);
-            }
-            if (by_shadow_rays && find_ == Find::light)
-                add_shadow_rays(point, numbers, 0, shadow_rays_, shadow_rays_ * rounds_, place,
-                                batch);
+        for (std::uint32_t k = 0; k < random_rays; ++k) {
+            const auto u = numbers.at(k);
+            Ray ray{point.position, frame.to_world(cosine_direction({u[0], u[1]}))};
+            ray.from = point.facet;
+            batch.random.push_back(ray);
+            batch.from_patch.push_back({place, Vec3(1.0 / random_rays)});
+            batch.sees_emission.push_back(any && !by_shadow_rays);
+            batch.seeds.push_back(hash_words({seed, e, k}));
+            batch.in_gather.push_back(by_paths);
         }
+        if (by_shadow_rays && !by_paths)
+            add_shadow_rays(point, numbers, 0, shadow_rays, place, batch);
     }
 }
 
-void FinalGather::add_shadow_rays(const SurfacePoint& point, const SobolBlocks<5>& numbers,
-                                  std::uint32_t first, std::uint32_t count, std::uint32_t of,
-                                  std::uint32_t place, Batch& batch) const {
+void FinalGather::add_shadow_rays(const SurfacePoint& point, SobolBlocks<5>& numbers,
+                                  std::uint32_t first, std::uint32_t count, std::uint32_t place,
+                                  Batch& batch) const {
     EmitterChoice::Choices choices;
-    choice_.choose(batch.cut, numbers.coordinate(4), choices);
+    std::uint32_t chosen = none; // the block of the choices
     for (std::uint32_t k = first; k < first + count; ++k) {
-        const auto u = numbers.point(k);
-        const Emitter& emitter = emitters_[choices[k].emitter];
+        const auto u = numbers.at(k);
+        if (std::exchange(chosen, k / samples_per_block) != k / samples_per_block)
+            choice_.choose(batch.cut, numbers.coordinate(4), choices);
+        const auto& [index, chance] = choices[k % samples_per_block];
+        const Emitter& emitter = emitters_[index];
         Ray ray{};
         const double factor = look_from(point.position, point.normal, point.facet, emitter.side,
                                         emitter.points, {u[2], u[3]}, emitter.near, ray);
@@ -122,7 +123,7 @@ void FinalGather::add_shadow_rays(const SurfacePoint& point, const SobolBlocks<5
         batch.shadow.push_back(ray);
         batch.targets.push_back(emitter.side.facet);
         batch.to_emitter.push_back(
-            {place, factor / choices[k].chance / of * mesh_.material(emitter.side).emission});
+            {place, factor / chance / count * mesh_.material(emitter.side).emission});
     }
 }
 
@@ -267,14 +268,7 @@ std::vector<DirectLight> FinalGather::direct(std::span<const SurfacePoint> point
             continue;
         const std::size_t before = batch.to_emitter.size();
         SobolBlocks<5> numbers(seed);
-        for (std::uint32_t next = first, end = first + count; next < end;) {
-            const std::uint32_t in_block = next % samples_per_block;
-            const std::uint32_t n =
-                std::min<std::uint32_t>(samples_per_block - in_block, end - next);
-            numbers.move_to(next);
-            add_shadow_rays(points[k], numbers, in_block, n, count, k, batch);
-            next += n;
-        }
+        add_shadow_rays(points[k], numbers, first, count, k, batch);
         double by_nearness = 0;
         for (std::size_t ray = before; ray < batch.to_emitter.size(); ++ray) {
             const Vec3& light = batch.to_emitter[ray].light;

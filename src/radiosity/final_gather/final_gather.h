@@ -49,7 +49,7 @@ struct IndirectLight {
 
 class FinalGather {
   public:
-    /// Rays of one round: cosine-distributed ones, and up to so many shadow rays; at most 16.
+    /// Rays of one round: cosine-distributed ones, and up to so many shadow rays.
     static constexpr unsigned usual_random_rays = 16, usual_shadow_rays = 4;
 
     /// `light`: what patches send. All of it outlives this.
@@ -125,10 +125,9 @@ class FinalGather {
     };
     void gather(const SurfacePoint& point, std::uint64_t seed, std::size_t estimates,
                 std::uint32_t place, Batch& batch) const;
-    /// By `count` points of the block, `first` and those after it, each with a share of 1 / `of`.
-    void add_shadow_rays(const SurfacePoint& point, const SobolBlocks<5>& numbers,
-                         std::uint32_t first, std::uint32_t count, std::uint32_t of,
-                         std::uint32_t place, Batch& batch) const;
+    /// By `count` points of the sequence, `first` and those after it.
+    void add_shadow_rays(const SurfacePoint& point, SobolBlocks<5>& numbers, std::uint32_t first,
+                         std::uint32_t count, std::uint32_t place, Batch& batch) const;
     void weigh(const SurfacePoint& point, Batch& batch) const;
     /// What a random ray meets.
     struct Met {

@@ -16,14 +16,6 @@ namespace {
 /// So many are gathered at a time: points and their light take memory.
 constexpr std::size_t patches_at_a_time = 16'384;
 
-/// Of each point two means, each over so many estimates.
-std::vector<Vec3> mean_of_halves(const std::vector<Vec3>& light, std::size_t estimates) {
-    std::vector<Vec3> halves(light.size() / estimates, Vec3(0.0));
-    for (std::size_t k = 0; k < light.size(); ++k)
-        halves[k / estimates] += light[k] / double(estimates);
-    return halves;
-}
-
 } // namespace
 
 LightWithinPatches light_within_patches(const LightSource& light,
@@ -34,6 +26,7 @@ LightWithinPatches light_within_patches(const LightSource& light,
     result.square.resize(patches.size());
     result.slopes.resize(patches.size());
     FinalGather gather(light.mesh, light.tracer, light.solution, options.rays, options.rays / 2);
+    gather.set_rounds(options.rounds);
     for (std::size_t done = 0; done < patches.size() && !interrupted; done += patches_at_a_time) {
         const auto some = patches.subspan(done, std::min(patches_at_a_time, patches.size() - done));
         const std::vector<PatchPoint> points =
@@ -44,9 +37,8 @@ LightWithinPatches light_within_patches(const LightSource& light,
             at.push_back(point.at);
             streams.push_back(hash_words({options.seed, 1, point.patch}));
         }
-        const std::vector<Vec3> irradiance = mean_of_halves(
-            gather.irradiance(at, streams, 2 * options.estimates, workers, interrupted),
-            options.estimates);
+        const std::vector<Vec3> irradiance =
+            gather.irradiance(at, streams, 2, workers, interrupted);
         for (std::size_t k = 0, begin = 0, end = 0; k < some.size(); ++k, begin = end) {
             while (end < points.size() && points[end].patch == some[k])
                 ++end;

@@ -29,9 +29,9 @@ struct LightSource {
 };
 
 struct WithinOptions {
-    /// Twice so many are made at a point. More: slopes are less noisy.
-    std::size_t estimates = 1;
-    /// Cosine-distributed ones of an estimate, and half as many shadow rays. More: squares are less
+    /// Of rays, in each of the two estimates at a point. More: slopes are less noisy.
+    unsigned rounds = 1;
+    /// Cosine-distributed ones of a round, and half as many shadow rays. More: squares are less
     /// noisy too.
     unsigned rays = 8;
     /// Limits the rows of points on large patches; at least 3.
