@@ -14,13 +14,13 @@
 #include "app/loading/sides.h"
 #include "app/running/target_weights.h"
 #include "division_families.h"
+#include "parallel/workers.h"
 #include "path_reference.h"
 #include "radiosity/division/adaptive_division.h"
 #include "radiosity/final_gather/final_gather.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/rays/make_tracer.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/needs.h"
 
 #include <algorithm>

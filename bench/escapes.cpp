@@ -9,8 +9,8 @@
 #include "bvh/wide/wide_bvh.h"
 #include "closed_meshes.h"
 #include "io/scene_files/obj.h"
+#include "parallel/workers.h"
 #include "radiosity/rays/shot.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 // Faces are divided until no edge is longer than MAX_EDGE. RAYS: of a patch, on average. Prints for
 // 1 to 64 ranks the mean over the largest share of rays and of entries, which is the efficiency if
 // nothing else took time, and the largest number of bytes that a rank gets of hits of others.
-#include "geometry/ranks.h"
 #include "io/scene_files/obj.h"
+#include "parallel/ranks.h"
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/rays/make_tracer.h"
 #include "radiosity/sampling/rng.h"

@@ -7,8 +7,8 @@
 // all. Octants without the stack stay whole.
 
 #include "bvh/wide/wide_bvh.h"
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/density.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solver.h"
 

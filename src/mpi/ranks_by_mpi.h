@@ -2,7 +2,7 @@
 // What the module of MPI gives the program, which loads it where mpirun or srun has started it: a
 // program that runs alone needs no MPI and does not wait for it to be loaded.
 
-#include "geometry/ranks.h"
+#include "parallel/ranks.h"
 
 namespace hemilux {
 

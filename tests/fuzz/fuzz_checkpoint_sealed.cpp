@@ -6,7 +6,7 @@
 #include "io/results/checkpoint.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/solver.h"
 #include "sealed.h"
 

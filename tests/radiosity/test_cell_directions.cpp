@@ -1,6 +1,6 @@
 // Directions into the cells of the hemisphere, many at once.
 
-#include "geometry/instruction_set.h"
+#include "parallel/instruction_set.h"
 #include "radiosity/hemisphere/cell_directions.h"
 #include "radiosity/sampling/rng.h"
 #include "support/catch.h"

@@ -2,8 +2,8 @@
 // hemispheres, and the roulettes of pairs and of whole rays.
 #include "geometry/frame.h"
 #include "radiosity/hemisphere/cell_directions.h"
+#include "radiosity/progressive/shot_factors.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/shooting/shot_factors.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/statistics.h"

@@ -1,7 +1,7 @@
 // The density store: what is counted, and in how many bytes.
 #include "radiosity/hemisphere/density.h"
 
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,9 +1,9 @@
 // The error of the light on the surfaces, against light in closed form and against finer divisions.
 #include "geometry/frame.h"
+#include "parallel/workers.h"
 #include "radiosity/final_gather/division_error.h"
 #include "radiosity/final_gather/light_within_patches.h"
 #include "radiosity/final_gather/linear_light.h"
-#include "radiosity/sampling/workers.h"
 #include "support/closed_forms.h"
 #include "support/scenes.h"
 #include "support/solve.h"

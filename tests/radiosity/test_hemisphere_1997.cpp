@@ -1,11 +1,11 @@
 // The technique of 1997: where its vertices move, what it estimates, and how its triangles and rays
 // lie.
 #include "geometry/spherical_triangle.h"
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/edge_division.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/hemisphere/subdivision_1997.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/shooting/strategy.h"
 #include "support/catch.h"
 #include "support/directions.h"

@@ -3,7 +3,7 @@
 
 #include "radiosity/linear/energy_ledger.h"
 #include "radiosity/saving/state.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -4,7 +4,7 @@
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/linear/conjugate_gradients.h"
 #include "radiosity/saving/state.h"
-#include "radiosity/solving/target.h"
+#include "radiosity/solution/target.h"
 #include "radiosity/stored_transport/importance.h"
 #include "radiosity/stored_transport/ray_allocation.h"
 #include "support/catch.h"

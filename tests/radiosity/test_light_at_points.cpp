@@ -1,6 +1,6 @@
 // The light at points that a user names, against closed forms.
+#include "parallel/workers.h"
 #include "radiosity/final_gather/light_at_points.h"
-#include "radiosity/sampling/workers.h"
 #include "support/closed_forms.h"
 #include "support/scenes.h"
 #include "support/solve.h"

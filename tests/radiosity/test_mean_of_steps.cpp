@@ -2,8 +2,8 @@
 
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
+#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/mean_of_steps.h"
-#include "radiosity/solving/solve_error.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

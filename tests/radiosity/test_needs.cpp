@@ -1,9 +1,9 @@
 // What is left out changes nothing: the same solution with all that is not needed and without it.
+#include "parallel/workers.h"
 #include "radiosity/form_factors/point_to_patch.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/rays/make_tracer.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/convex_enclosure.h"
 #include "radiosity/scene/lit_facets.h"
 #include "radiosity/solving/left_out.h"

@@ -2,9 +2,9 @@
 // nothing hides between three corners.
 #include "radiosity/guiding/pyramids.h"
 
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/shooting/strategy.h"
 #include "support/catch.h"

@@ -1,6 +1,6 @@
 // The same bytes on any number of ranks, which are threads here: solutions, logs and states.
-#include "geometry/rank_threads.h"
 #include "support/catch.h"
+#include "support/rank_threads.h"
 #include "support/same_solution.h"
 #include "support/scenes.h"
 #include "support/solve.h"

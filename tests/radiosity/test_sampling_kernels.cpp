@@ -1,7 +1,7 @@
 // Every instruction set draws the same samples to the last bit, and they are what they should be.
 
-#include "geometry/instruction_set.h"
 #include "geometry/vector.h"
+#include "parallel/instruction_set.h"
 #include "radiosity/sampling/matrix_kernels.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sampling_kernels.h"

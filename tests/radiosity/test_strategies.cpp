@@ -1,7 +1,7 @@
 // What every strategy owes, whatever it guides its rays by: shares that sum to 1, Lambert's law,
 // and rays for every cell that carries power.
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/shooting/strategy.h"
 #include "support/catch.h"
 #include "support/scenes.h"

@@ -1,8 +1,8 @@
 // The hemisphere guided by what is seen: unbiased, honest, and the same for any number of threads.
 #include "radiosity/guiding/visibility_guide.h"
 
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/shooting/shooting.h"
 #include "radiosity/shooting/strategy.h"

@@ -3,8 +3,8 @@
 
 #include "io/scene_files/obj.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solution.h"
-#include "radiosity/solving/target.h"
+#include "radiosity/solution/solution.h"
+#include "radiosity/solution/target.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

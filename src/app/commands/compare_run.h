@@ -7,7 +7,7 @@
 #include "app/settings/settings.h"
 #include "io/results/tables.h"
 #include "radiosity/final_gather/known_light.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 
 #include <functional>
 #include <vector>

@@ -1,10 +1,10 @@
 #include "app/commands/divided_hemispheres.h"
 
+#include "parallel/workers.h"
 #include "radiosity/guiding/pyramids.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/subdivision_1997.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/shooting/strategy.h"
 
 namespace hemilux {

@@ -24,7 +24,7 @@
 #include "app/terminal/progress.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/scene/needs.h"
 #include "radiosity/solving/left_out.h"
 

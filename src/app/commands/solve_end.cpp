@@ -5,11 +5,11 @@
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/summary.h"
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/sides/light_paths.h"
-#include "radiosity/solving/error_spread.h"
+#include "radiosity/solution/error_spread.h"
 
 #include <algorithm>
 #include <cmath>

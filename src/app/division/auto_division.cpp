@@ -4,10 +4,10 @@
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
+#include "parallel/workers.h"
 #include "radiosity/division/adaptive_division.h"
 #include "radiosity/final_gather/division_error.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/solving/time_limit.h"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 
 #include "app/settings/text.h"
 #include "app/terminal/stopwatch.h"
+#include "parallel/workers.h"
 #include "radiosity/final_gather/division_error.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@
 #include "app/terminal/summary.h"
 #include "io/files/error.h"
 #include "io/scene_files/inspect.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/scene/convex_enclosure.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "io/files/error.h"
 #include "io/scene_files/read_result.h"
 #include "radiosity/rays/make_tracer.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 #pragma once
 // The processes that mpirun or srun has started together: one of them speaks and writes.
 
-#include "geometry/ranks.h"
+#include "parallel/ranks.h"
 
 #include <string>
 

@@ -3,9 +3,9 @@
 #include "app/settings/view.h"
 #include "io/drawings/density_picture.h"
 #include "io/files/error.h"
+#include "parallel/workers.h"
 #include "radiosity/final_gather/division_error.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "io/files/error.h"
 #include "io/meshes/baked_light.h"
 #include "io/pictures/render.h"
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/density.h"
-#include "radiosity/sampling/workers.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,8 +2,8 @@
 
 #include "app/settings/view.h"
 #include "io/files/error.h"
+#include "parallel/workers.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 
 #include <algorithm>
 #include <cmath>

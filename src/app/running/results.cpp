@@ -19,9 +19,9 @@
 #include "io/pictures/exr.h"
 #include "io/pictures/image.h"
 #include "io/results/smooth.h"
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 
 #include <algorithm>
 #include <mutex>

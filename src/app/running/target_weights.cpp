@@ -5,8 +5,8 @@
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
 #include "io/files/error.h"
-#include "radiosity/sampling/workers.h"
-#include "radiosity/solving/target.h"
+#include "parallel/workers.h"
+#include "radiosity/solution/target.h"
 
 #include <algorithm>
 #include <cmath>

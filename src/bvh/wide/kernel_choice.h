@@ -2,7 +2,7 @@
 // The kernels of each instruction set.
 
 #include "bvh/wide/wide_layout.h"
-#include "geometry/instruction_set.h"
+#include "parallel/instruction_set.h"
 
 namespace hemilux::wide {
 

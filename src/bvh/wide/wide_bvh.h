@@ -5,7 +5,7 @@
 
 #include "bvh/wide/float_ray.h"
 #include "bvh/wide/wide_build.h"
-#include "geometry/instruction_set.h"
+#include "parallel/instruction_set.h"
 
 namespace hemilux {
 

@@ -2,7 +2,7 @@
 // Divides ranges of triangles in two by the binned surface area heuristic.
 
 #include "bvh/intersect.h"
-#include "geometry/workers.h"
+#include "parallel/workers.h"
 
 #define HEMILUX_KERNELS builder
 #include "bvh/wide/kernels/simd.h"

@@ -3,7 +3,7 @@
 // light of lamps themselves.
 
 #include "bvh/tracer.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 
 #include <cstdint>
 #include <span>

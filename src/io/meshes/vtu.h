@@ -4,7 +4,7 @@
 
 #include "io/files/provenance.h"
 #include "io/results/smooth.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #include "io/pictures/automatic_camera.h"
 
 #include "geometry/box.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "io/files/error.h"
 #include "io/pictures/pixel_colours.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "io/pictures/picture_gather.h"
 
 #include "io/files/error.h"
+#include "parallel/workers.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>

@@ -6,9 +6,9 @@
 #include "io/pictures/pixel_colours.h"
 #include "io/pictures/visible_facets.h"
 #include "io/results/smooth.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "io/pictures/visible_facets.h"
 
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>

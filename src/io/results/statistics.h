@@ -1,9 +1,9 @@
 #pragma once
 // The figures of a run, as the JSON object that other tools read (docs: the program's outputs).
 
-#include "geometry/ranks.h"
+#include "parallel/ranks.h"
+#include "radiosity/solution/solution.h"
 #include "radiosity/solving/left_out.h"
-#include "radiosity/solving/solution.h"
 
 #include <cstdint>
 #include <limits>

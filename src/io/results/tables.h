@@ -3,8 +3,8 @@
 // the log of the steps. Columns are a contract that other tools read; numbers are the shortest text
 // that gives back the same double.
 
-#include "radiosity/sampling/workers.h"
-#include "radiosity/solving/solution.h"
+#include "parallel/workers.h"
+#include "radiosity/solution/solution.h"
 #include "radiosity/solving/solver.h"
 
 #include <cstdint>

@@ -8,7 +8,7 @@
 // count as division_weights() has it, and others are neither measured nor divided.
 
 #include "bvh/tracer.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/solving/solver.h"
 
 #include <array>

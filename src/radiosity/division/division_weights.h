@@ -2,7 +2,7 @@
 // What light that varies within a patch counts for a target.
 
 #include "bvh/tracer.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 
 #include <cstdint>
 #include <span>

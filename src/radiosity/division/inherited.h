@@ -1,7 +1,7 @@
 #pragma once
 // What pieces have from the patch that they were cut from.
 
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <cstdint>
 #include <span>

@@ -1,14 +1,14 @@
 #include "radiosity/final_gather/division_error.h"
 
+#include "parallel/workers.h"
 #include "radiosity/final_gather/final_gather.h"
 #include "radiosity/final_gather/light_within_patches.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/error_spread.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/error_spread.h"
+#include "radiosity/solution/solution.h"
 #include "radiosity/solving/stop_flag.h"
 
 #include <algorithm>

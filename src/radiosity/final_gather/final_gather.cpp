@@ -1,11 +1,11 @@
 #include "radiosity/final_gather/final_gather.h"
 
+#include "parallel/workers.h"
 #include "radiosity/form_factors/point_to_patch.h"
 #include "radiosity/rays/receivers.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/solving/stop_flag.h"
 #include "radiosity/stored_transport/small_emitters.h"
 

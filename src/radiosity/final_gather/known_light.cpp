@@ -2,7 +2,7 @@
 
 #include "radiosity/final_gather/final_gather.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 #include "radiosity/solving/stop_flag.h"
 
 #include <cmath>

@@ -1,12 +1,12 @@
 #include "radiosity/final_gather/light_at_points.h"
 
+#include "parallel/workers.h"
 #include "radiosity/final_gather/final_gather.h"
 #include "radiosity/rays/receivers.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/error_spread.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/error_spread.h"
+#include "radiosity/solution/solution.h"
 #include "radiosity/solving/stop_flag.h"
 
 #include <algorithm>

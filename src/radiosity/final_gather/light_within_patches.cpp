@@ -1,10 +1,10 @@
 #include "radiosity/final_gather/light_within_patches.h"
 
+#include "parallel/workers.h"
 #include "radiosity/final_gather/final_gather.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/final_gather/surface_points.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/stop_flag.h"
 

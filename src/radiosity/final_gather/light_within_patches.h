@@ -8,7 +8,7 @@
 
 #include "bvh/tracer.h"
 #include "geometry/vector.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <array>
 #include <cstdint>

@@ -7,7 +7,7 @@
 
 #include "radiosity/final_gather/surface_points.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <array>
 #include <span>

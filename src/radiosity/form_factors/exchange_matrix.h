@@ -11,7 +11,7 @@
 //
 // Stored is S before it is scaled, so that the S of several batches is their mean.
 
-#include "geometry/ranks.h"
+#include "parallel/ranks.h"
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/form_factors/sampled_form_factors.h"
 #include "radiosity/form_factors/sparse_rows.h"

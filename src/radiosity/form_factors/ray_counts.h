@@ -4,8 +4,8 @@
 // be prolonged.
 
 #include "bvh/tracer.h"
-#include "geometry/ranks.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/ranks.h"
+#include "parallel/workers.h"
 
 #include <cstdint>
 #include <span>

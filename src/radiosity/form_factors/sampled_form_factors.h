@@ -10,8 +10,8 @@
 // then closed: they sum to 1 minus the share of the row's own rays that met no patch.
 
 #include "bvh/tracer.h"
+#include "parallel/workers.h"
 #include "radiosity/form_factors/ray_counts.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/needs.h"
 
 #include <atomic>

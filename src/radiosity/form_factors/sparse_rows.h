@@ -1,7 +1,7 @@
 #pragma once
 // A sparse matrix by its rows.
 
-#include "geometry/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/sampling/matrix_kernels.h"
 
 #include <cstdint>

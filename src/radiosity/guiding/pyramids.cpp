@@ -1,7 +1,7 @@
 #include "radiosity/guiding/pyramids.h"
 
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/log_byte.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solver.h"
 

@@ -1,5 +1,6 @@
 #include "radiosity/guiding/visibility_guide.h"
 
+#include "parallel/workers.h"
 #include "radiosity/guiding/hemisphere_importance.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/hemisphere/log_byte.h"
@@ -7,7 +8,6 @@
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
 

@@ -1,6 +1,6 @@
 #include "radiosity/hemisphere/density.h"
 
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solver.h"
 

@@ -1,7 +1,7 @@
 #include "radiosity/hemisphere/subdivision_1997.h"
 
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/density.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>

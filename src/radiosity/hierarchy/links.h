@@ -4,8 +4,8 @@
 // at some level.
 
 #include "bvh/tracer.h"
+#include "parallel/workers.h"
 #include "radiosity/hierarchy/patch_tree.h"
-#include "radiosity/sampling/workers.h"
 
 #include <cstdint>
 #include <span>

@@ -2,7 +2,7 @@
 
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/solving/missed_light.h"
+#include "radiosity/solution/missed_light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/solver.h"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/form_factors/sampled_form_factors.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <cstdint>
 #include <optional>

@@ -3,8 +3,8 @@
 #include "radiosity/form_factors/hemicube.h"
 #include "radiosity/linear/radiosity_system.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/check_input.h"
-#include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/solver.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "geometry/compensated_sum.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/error_spread.h"
+#include "radiosity/solution/error_spread.h"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 #pragma once
 // What independent batches of rays make of a solution: its errors, and where its power goes.
 
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <span>
 #include <vector>

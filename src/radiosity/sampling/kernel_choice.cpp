@@ -1,6 +1,6 @@
 // Which instruction set's kernels draw samples and multiply matrices.
 
-#include "geometry/instruction_set.h"
+#include "parallel/instruction_set.h"
 #include "radiosity/sampling/kernel_table.h"
 
 namespace hemilux {

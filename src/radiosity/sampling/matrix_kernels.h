@@ -9,7 +9,7 @@
 
 namespace hemilux {
 
-enum class InstructionSet; // geometry/instruction_set.h
+enum class InstructionSet; // parallel/instruction_set.h
 
 struct MatrixEntry {
     std::uint32_t column;

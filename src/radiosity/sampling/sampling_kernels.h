@@ -9,7 +9,7 @@
 
 namespace hemilux {
 
-enum class InstructionSet; // geometry/instruction_set.h
+enum class InstructionSet; // parallel/instruction_set.h
 
 inline constexpr std::size_t samples_per_block = 16;
 inline constexpr std::size_t most_dimensions = 5;

@@ -1,7 +1,7 @@
 #pragma once
 // A solution as part of a solver's state.
 
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <span>
 

@@ -1,7 +1,7 @@
 #include "radiosity/scene/mesh.h"
 
+#include "parallel/workers.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/coplanar_layers.h"
 #include "radiosity/scene/textured_facets.h"
 

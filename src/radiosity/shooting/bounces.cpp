@@ -4,7 +4,7 @@
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/shooting/systematic_cells.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 
 #include <algorithm>
 #include <bit>

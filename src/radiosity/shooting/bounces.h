@@ -5,9 +5,9 @@
 // Late bounces are of few rays: they cost what is shot, not a look at all patches.
 
 #include "geometry/compensated_sum.h"
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/cell_directions.h"
 #include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/shooting/grouped_rays.h"
 #include "radiosity/shooting/shooting_rules.h"
 #include "radiosity/shooting/stepwise.h"

@@ -4,8 +4,8 @@
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/shooting/aimed_rays.h"
-#include "radiosity/solving/solve_error.h"
-#include "radiosity/solving/target.h"
+#include "radiosity/solution/solve_error.h"
+#include "radiosity/solution/target.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,8 +2,8 @@
 // Methods whose steps are independent solutions of all bounces (mean_of_steps.h). As they are
 // independent, several are solved at the same time, each by a thread, or by a rank.
 
+#include "parallel/workers.h"
 #include "radiosity/rays/shot.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/shooting/target_balls.h"
 #include "radiosity/solving/mean_of_steps.h"
 

@@ -14,8 +14,8 @@
 // Some rays look for that, and for what hides the ball, before the first step.
 
 #include "bvh/tracer.h"
+#include "parallel/workers.h"
 #include "radiosity/rays/patch_start.h"
-#include "radiosity/sampling/workers.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -19,12 +19,12 @@
 // one patch are traced at once. Costs one ray after the other and no memory to speak of.
 
 #include "geometry/frame.h"
+#include "parallel/workers.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/largest_first.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/shooting/stepwise.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 
 #include <algorithm>
 #include <array>

@@ -28,12 +28,12 @@
 // patches and high reflectances, as each patch shoots many times. No memory to speak of. Not
 // unbiased: after a finite number of shots some light is missing.
 
+#include "radiosity/progressive/progressive_pass.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/shooting/progressive_pass.h"
+#include "radiosity/solution/error_spread.h"
+#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/check_input.h"
-#include "radiosity/solving/error_spread.h"
-#include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/solver.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include "radiosity/rays/shot.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/lossless_component.h"
-#include "radiosity/solving/solve_error.h"
 #include "radiosity/solving/solver.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // Whether there is anything to solve: what each method asks before it begins.
 
 #include "geometry/vector.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 namespace hemilux {
 

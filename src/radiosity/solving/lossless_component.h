@@ -8,7 +8,7 @@
 // no other way out trap the light. Only reflectances of exactly 1 are looked at.
 
 #include "bvh/tracer.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 
 #include <cstdint>
 #include <optional>

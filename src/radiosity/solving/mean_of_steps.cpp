@@ -3,10 +3,10 @@
 #include "radiosity/rays/shot.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/solution/error_spread.h"
+#include "radiosity/solution/missed_light.h"
+#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/check_input.h"
-#include "radiosity/solving/error_spread.h"
-#include "radiosity/solving/missed_light.h"
-#include "radiosity/solving/solve_error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 // improves the solution.
 
 #include "bvh/tracer.h"
-#include "geometry/ranks.h"
+#include "parallel/ranks.h"
 #include "radiosity/scene/needs.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 #include "radiosity/solving/stop_flag.h"
 
 #include <atomic>

@@ -2,7 +2,7 @@
 // Why a solver is to stop as soon as possible: its caller wishes it, or the time of the run is
 // over.
 
-#include "geometry/ranks.h"
+#include "parallel/ranks.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,7 +2,7 @@
 
 #include "radiosity/saving/solution_state.h"
 #include "radiosity/saving/state.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 
 #include <limits>
 

@@ -3,7 +3,7 @@
 // together. Where rays had to be forgotten for want of memory (--memory), what they showed is kept
 // as a generation, and the light is the mean of the generations.
 
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <array>
 #include <cstdint>

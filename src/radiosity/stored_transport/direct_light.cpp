@@ -8,7 +8,7 @@
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/solver.h"
 #include "radiosity/stored_transport/small_emitters.h"
 

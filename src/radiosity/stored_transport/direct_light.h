@@ -9,9 +9,9 @@
 
 #include "bvh/tracer.h"
 #include "geometry/polygon_sampler.h"
-#include "geometry/ranks.h"
 #include "geometry/vector.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/ranks.h"
+#include "parallel/workers.h"
 #include "radiosity/scene/needs.h"
 #include "radiosity/stored_transport/emitter_choice.h"
 

@@ -4,7 +4,7 @@
 #include "radiosity/linear/conjugate_gradients.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/alike_neighbours.h"
-#include "radiosity/solving/target.h"
+#include "radiosity/solution/target.h"
 #include "radiosity/stored_transport/transport_system.h"
 
 #include <algorithm>

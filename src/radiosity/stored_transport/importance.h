@@ -11,7 +11,7 @@
 // so that I_k says what light at k does for the target in the end. No ray is needed for it.
 
 #include "geometry/vector.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 
 #include <cstddef>
 #include <cstdint>

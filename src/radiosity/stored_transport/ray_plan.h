@@ -2,7 +2,7 @@
 // How many rays are to be traced next, of which kind, and from which patches.
 
 #include "geometry/vector.h"
-#include "radiosity/sampling/workers.h"
+#include "parallel/workers.h"
 #include "radiosity/scene/needs.h"
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/missed_light.h"
+#include "radiosity/solution/missed_light.h"
 #include "radiosity/stored_transport/batch_light.h"
 #include "radiosity/stored_transport/direct_light.h"
 #include "radiosity/stored_transport/linked_parts.h"

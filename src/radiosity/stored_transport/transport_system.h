@@ -3,9 +3,9 @@
 // are kept. Solved once for each of some independent batches of rays, whose spread is the error,
 // and once for all together.
 
+#include "parallel/workers.h"
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/linear/energy_ledger.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/solving/stop_flag.h"
 #include "radiosity/stored_transport/batch_light.h"
 #include "radiosity/stored_transport/direct_light.h"

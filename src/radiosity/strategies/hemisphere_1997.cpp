@@ -27,10 +27,10 @@
 // bytes per patch, where the method `hemisphere` needs 41. Each step more has four times as many
 // triangles, and there should not be many more of them than rays.
 
+#include "parallel/workers.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/subdivision_1997.h"
 #include "radiosity/plain/plain.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/shooting/shooting.h"
 

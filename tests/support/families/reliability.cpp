@@ -1,7 +1,7 @@
 #include "support/families/reliability.h"
 
 #include "geometry/compensated_sum.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 #include "support/families/watchdog.h"
 
 #include <algorithm>

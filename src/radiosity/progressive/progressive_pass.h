@@ -10,10 +10,10 @@
 // proportion to the light that is there.
 
 #include "geometry/compensated_sum.h"
+#include "radiosity/progressive/estimate.h"
+#include "radiosity/progressive/shot_balance.h"
+#include "radiosity/progressive/shot_factors.h"
 #include "radiosity/sampling/largest_first.h"
-#include "radiosity/shooting/shot_balance.h"
-#include "radiosity/shooting/shot_factors.h"
-#include "radiosity/solving/estimate.h"
 #include "radiosity/solving/solver.h"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "radiosity/shooting/shot_balance.h"
+#include "radiosity/progressive/shot_balance.h"
 
 #include "geometry/frame.h"
 #include "radiosity/rays/receivers.h"

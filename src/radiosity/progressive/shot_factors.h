@@ -3,10 +3,10 @@
 // each shot, the more exactly the more light they carry (pair_factor.h), or by the shooter's
 // hemicube (hemicube.h).
 
+#include "parallel/workers.h"
 #include "radiosity/form_factors/hemicube.h"
 #include "radiosity/form_factors/pair_factor.h"
-#include "radiosity/sampling/workers.h"
-#include "radiosity/shooting/shot_balance.h"
+#include "radiosity/progressive/shot_balance.h"
 #include "radiosity/solving/solver.h"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "radiosity/solving/missed_light.h"
+#include "radiosity/solution/missed_light.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,8 +1,8 @@
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/error_spread.h"
+#include "radiosity/solution/error_spread.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "radiosity/shooting/shot_factors.h"
+#include "radiosity/progressive/shot_factors.h"
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/rays/shot.h"

@@ -1,4 +1,4 @@
-#include "geometry/rank_threads.h"
+#include "support/rank_threads.h"
 
 #include <algorithm>
 #include <condition_variable>

@@ -1,6 +1,6 @@
 // Ranks that are threads: what each gets of the others.
-#include "geometry/rank_threads.h"
 #include "support/catch.h"
+#include "support/rank_threads.h"
 
 #include <atomic>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Loops over threads: each index once, in order where order is promised, and errors come through;
 // within one another, from several threads, and again and again.
-#include "geometry/workers.h"
+#include "parallel/workers.h"
 #include "support/catch.h"
 
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "geometry/ranks.h"
+#include "parallel/ranks.h"
 
 #include <algorithm>
 #include <memory>

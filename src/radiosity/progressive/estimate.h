@@ -1,7 +1,7 @@
 #pragma once
 // A solution with its errors, which can be averaged with others that are more or less exact.
 
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "geometry/workers.h"
+#include "parallel/workers.h"
 
 #include <condition_variable>
 #include <system_error>

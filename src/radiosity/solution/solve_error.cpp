@@ -1,4 +1,4 @@
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 
 #include "radiosity/scene/mesh.h"
 

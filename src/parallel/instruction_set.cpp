@@ -1,4 +1,4 @@
-#include "geometry/instruction_set.h"
+#include "parallel/instruction_set.h"
 
 #include <array>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "radiosity/shooting/arriving_power.h"
+#include "radiosity/progressive/arriving_power.h"
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/form_factors/pair_factor.h"

@@ -1,10 +1,10 @@
-#include "radiosity/shooting/progressive_pass.h"
+#include "radiosity/progressive/progressive_pass.h"
 
+#include "radiosity/progressive/arriving_power.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/shooting/arriving_power.h"
-#include "radiosity/solving/solve_error.h"
+#include "radiosity/solution/solve_error.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,7 +2,7 @@
 // Ranks that are threads of one process: a whole run on several ranks within a test, with its
 // counts of work and bytes.
 
-#include "geometry/ranks.h"
+#include "parallel/ranks.h"
 
 #include <functional>
 

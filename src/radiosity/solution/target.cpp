@@ -1,10 +1,10 @@
-#include "radiosity/solving/target.h"
+#include "radiosity/solution/target.h"
 
 #include "geometry/frame.h"
+#include "parallel/workers.h"
 #include "radiosity/rays/receivers.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/workers.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>

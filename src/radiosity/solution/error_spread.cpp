@@ -1,7 +1,7 @@
-#include "radiosity/solving/error_spread.h"
+#include "radiosity/solution/error_spread.h"
 
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solution.h"
+#include "radiosity/solution/solution.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,0 @@
-#pragma once
-// The workers stand below the tree builder, which uses them too.
-
-#include "geometry/workers.h"
