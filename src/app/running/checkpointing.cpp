@@ -31,13 +31,12 @@ Options options_of(const SolveSettings& settings) {
                        {"--rays", exact_text(o.rays)},
                        {"--depth", std::to_string(o.depth)},
                        {"--threshold", exact_text(o.threshold)},
-                       {"--guide", guide_names[static_cast<std::size_t>(o.guide)]},
                        {"--seed", std::to_string(o.seed)},
                        {"--literal", yes_or_no(o.literal)},
                        {"--keep-all", yes_or_no(o.keep_all)}};
-    SolveOptions given = o;
-    for (const MethodNumber& number : settings.method->numbers)
-        options.emplace_back(number.name, std::to_string(number.value(given)));
+    for (const MethodOption& option : settings.method->own_options())
+        if (option.resumable)
+            options.emplace_back(option.name, option.get(o));
     for (const std::string& name : settings.target.names())
         options.emplace_back("--for " + name, "yes");
     return options;
@@ -75,9 +74,10 @@ void check_checkpoint_options(const SolveSettings& settings) {
         throw UsageError("--checkpoint and --resume: --method " +
                          std::string(settings.method->name) +
                          " does not keep its state; these do: " + resumable_methods());
-    if (settings.options.one_shot)
-        throw UsageError(
-            "--checkpoint and --resume: a run with --one-shot does not keep its state");
+    for (const MethodOption& option : settings.method->own_options())
+        if (!option.resumable && option.is_set(settings.options))
+            throw UsageError("--checkpoint and --resume: a run with " +
+                             option.text(settings.options) + " does not keep its state");
     if (!asked.resumed.empty() && settings.every_step &&
         !(settings.view.camera && settings.view.exposure))
         throw UsageError("--every-step after --resume needs --camera and --exposure, which the "

@@ -20,6 +20,7 @@
 #include "io/pictures/image.h"
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
+#include "radiosity/guiding/guide.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/sampling/rng.h"
 
@@ -191,7 +192,7 @@ void write_report(const SolveSettings& settings, const Results& results) {
                           camera_of(settings.view, mesh, tracer, solution.radiosity),
                           settings.view.exposure};
     const bool by_densities = settings.method == &method_of(Role::paper) &&
-                              settings.options.guide == Guide::density && !settings.plain;
+                              guide_of(settings.options) == Guide::density && !settings.plain;
     if (!by_densities)
         return write_report_page(settings.report, content);
     Monitor monitor; // counted anew, as the method does not keep all

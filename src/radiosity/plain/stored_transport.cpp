@@ -48,7 +48,7 @@ class StoredTransport final : public Solver {
     /// Doubles the rays, or adds as many as in the first step.
     bool step() override {
         const double first = std::ceil(input_.options.rays / double(batches));
-        const double more = input_.options.growing_steps && N_ > 0 ? N_ : first;
+        const double more = !input_.options.stop.steps && N_ > 0 ? N_ : first;
         for (std::size_t s = 0; s < batches; ++s)
             look_around(s, more);
         N_ += more;

@@ -36,7 +36,7 @@
 #include "radiosity/solution/missed_light.h"
 #include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/check_input.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +55,9 @@ constexpr double first_tolerance = 1e-3, finer_tolerance = 1.0 / 16;
 constexpr double most_rays = 1u << 20;
 /// Of a link in one batch.
 constexpr std::uint32_t most_points = 8192;
+/// For the estimate of memory: a link with its factors in all batches, and about so many of a
+/// patch.
+constexpr double bytes_per_link = 100, links_per_patch = 150;
 /// Black patches count as if they reflected this: they account for what they absorb.
 constexpr double least_reflectance = .1;
 
@@ -361,6 +364,10 @@ const Method hierarchical_method{
     .make = make_hierarchical,
     .strategy = nullptr,
     .work = {.linear_systems = true, .passes = true},
+    .bytes =
+        [](const SolveOptions&, double patches) {
+            return bytes_per_link * patches * std::min(patches, links_per_patch);
+        },
 };
 
 } // namespace hemilux

@@ -16,7 +16,9 @@
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/form_factors/exact_form_factors.h"
+#include "radiosity/form_factors/factor_options.h"
 #include "radiosity/form_factors/sampled_form_factors.h"
+#include "radiosity/form_factors/sparse_rows.h"
 #include "radiosity/linear/batch_mean.h"
 #include "radiosity/linear/emitter_losses.h"
 #include "radiosity/linear/energy_ledger.h"
@@ -30,7 +32,7 @@
 #include "radiosity/solution/missed_light.h"
 #include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/check_input.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
 
 #include <algorithm>
 #include <array>
@@ -64,7 +66,7 @@ class MatrixSolver final : public Solver {
     explicit MatrixSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads) {
         std::vector<std::uint32_t> emitters;
-        if (input.options.factors.kind == FactorKind::exact)
+        if (input.options.own.of<FactorOptions>().kind == FactorKind::exact)
             exact_.emplace(input.mesh, workers_, input.monitor);
         else
             emitters = few_emitters(input.mesh);
@@ -257,12 +259,20 @@ class MatrixSolver final : public Solver {
 };
 
 std::unique_ptr<Solver> make_matrix(const SolverInput& input) {
-    if (input.options.factors.kind == FactorKind::hemicube)
+    if (input.options.own.of<FactorOptions>().kind == FactorKind::hemicube)
         return make_hemicube_matrix(input);
     return std::make_unique<MatrixSolver>(input);
 }
 
-constexpr std::array factors{FactorKind::exact, FactorKind::hemicube};
+std::vector<MethodOption> options() { return {exact_option(), factors_option(true)}; }
+
+double bytes(const SolveOptions& options, double patches) {
+    const auto& factors = options.own.of<FactorOptions>();
+    if (factors.kind == FactorKind::hemicube)
+        return bytes_per_factor * patches *
+               std::min(patches, 3.0 * std::pow(factors.hemicube_edge, 2));
+    return double(batches) * bytes_per_factor * patches * std::min(patches, options.rays);
+}
 
 } // namespace
 
@@ -276,7 +286,10 @@ const Method matrix_method{
     .strategy = nullptr,
     .work = {.pairs = true, .linear_systems = true, .passes = true},
     .role = Role::reference,
-    .factors = factors,
+    .options = options,
+    .check = check_exact,
+    .adapt = adapt_to_factors,
+    .bytes = bytes,
 };
 
 } // namespace hemilux

@@ -25,6 +25,7 @@
 #include "radiosity/sampling/largest_first.h"
 #include "radiosity/shooting/stepwise.h"
 #include "radiosity/solution/solve_error.h"
+#include "radiosity/solving/one_shot.h"
 
 #include <algorithm>
 #include <array>
@@ -232,12 +233,12 @@ class OneShotSolver final : public Solver {
 };
 
 std::unique_ptr<Solver> make_monte_carlo(const SolverInput& input) {
-    if (input.options.one_shot)
+    if (is_one_shot(input.options))
         return std::make_unique<OneShotSolver>(input);
     return std::make_unique<MonteCarloSolver>(input);
 }
 
-constexpr std::array flags{one_shot_flag};
+std::vector<MethodOption> options() { return {one_shot_option()}; }
 
 } // namespace
 
@@ -253,7 +254,9 @@ const Method monte_carlo_method{
     .saves = true,
     .plain = plain::monte_carlo,
     .aims = true,
-    .flags = flags,
+    .options = options,
+    .adapt = [](MethodWork& work,
+                const SolveOptions& options) { work.ends_by_itself = is_one_shot(options); },
 };
 
 } // namespace hemilux
