@@ -4,8 +4,8 @@
 #include "radiosity/guiding/hemisphere_importance.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/hemisphere/log_byte.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/rays/receivers.h"
-#include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/saving/state.h"
@@ -238,18 +238,16 @@ void VisibilityGuide::look(const SolverInput& input) {
 void VisibilityGuide::look_from(std::uint32_t patch, const SolverInput& input,
                                 LookRays& looks) const {
     looks = {};
-    const Patch& from = mesh_.patches()[patch];
-    if (!needs_.power(patch) || !(from.area > 0) || input.monitor.interrupted)
+    if (!needs_.power(patch) || !(mesh_.patches()[patch].area > 0) || input.monitor.interrupted)
         return;
     constexpr std::uint64_t stream = 0x5ee2; // of no step
     SobolBlocks<4> points(hash_words({input.options.seed, stream, patch}));
-    const PolygonSampler origins(from.shape);
+    const PatchStart start(mesh_, patch, frames_[patch]);
     for (std::uint32_t k = 0; k < rays_of_look(); ++k) {
         const auto u = points.at(k);
         const Vec3 direction = cosine_direction({u[2], u[3]});
         looks.cells.push_back(hemisphere_.leaf_at(direction));
-        looks.rays.push_back({origins.sample({u[0], u[1]}), frames_[patch].to_world(direction)});
-        looks.rays.back().from = from.facet;
+        looks.rays.push_back(start.ray({u[0], u[1]}, direction));
     }
     find_receivers(looks.rays, mesh_, input.tracer, looks.receivers);
     find_arrivals(looks.rays, looks.receivers, looks.arrivals);

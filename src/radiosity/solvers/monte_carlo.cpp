@@ -21,7 +21,7 @@
 #include "geometry/frame.h"
 #include "parallel/workers.h"
 #include "radiosity/plain/plain.h"
-#include "radiosity/rays/shot.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/sampling/largest_first.h"
 #include "radiosity/shooting/stepwise.h"
 #include "radiosity/solution/solve_error.h"
@@ -119,13 +119,11 @@ class Shots {
             if (input_.monitor.interrupted)
                 return;
             Rng rng(hash_words({shot.stream, (first + begin) / rays_per_stream}));
-            const Patch& from = input_.mesh.patches()[shot.shooter];
-            const PolygonSampler origins(from.shape);
-            const Frame frame = Frame::from_normal(from.normal);
+            const auto start = PatchStart::in_any_axes(input_.mesh, shot.shooter);
             std::vector<Ray> drawn;
             std::vector<std::uint32_t> hits;
             for (std::size_t k = begin; k < end; ++k)
-                drawn.push_back(cosine_ray(from, origins, frame, rng));
+                drawn.push_back(start.cosine_ray(rng));
             find_receivers(drawn, input_.mesh, input_.tracer, hits);
             std::ranges::copy(hits, receivers_.begin() + static_cast<std::ptrdiff_t>(begin));
         });
