@@ -8,7 +8,7 @@
 #include "app/loading/reference.h"
 #include "app/running/checkpointing.h"
 #include "app/running/point_table.h"
-#include "app/running/results.h"
+#include "app/running/run_files.h"
 #include "app/running/run_notes.h"
 #include "app/running/signals.h"
 #include "app/running/step_pictures.h"
