@@ -34,7 +34,7 @@ struct Manner {
     double well_known;
 };
 constexpr Manner of_patches{64, 64, .15}, of_divided{640, 64, .15}, of_gathered{16, 16, .25},
-    of_spread{16, 4, .25};
+    of_spread{16, 8, .2};
 
 /// So many points times the length of gathers at the most, in a round.
 constexpr std::size_t longest_round = 4096;

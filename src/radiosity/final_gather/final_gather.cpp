@@ -159,16 +159,21 @@ bool FinalGather::end_ray(const Batch& batch, const Met& met, unsigned bounce,
     const bool reflects = material.reflectance != Vec3(0.0);
     const bool near = reflects && is_near(met, bounce);
     const auto sent = [&] { return radiosity_at(mesh_, light_, met.patch, met.point); };
+    const auto left_out = [&] { return left_out_of(batch, met.ray, met.patch); };
     const auto& [place, share] = batch.from_patch[met.ray];
+    if (find_ == Find::light) {
+        found[place] += share * ((near ? material.emission : sent()) - left_out());
+        return near;
+    }
     const bool in_gather = batch.in_gather[met.ray];
-    if (find_ == Find::light || (find_ == Find::spread && !in_gather)) {
-        const Vec3 light = near ? material.emission : sent();
-        found[place] += share * (light - left_out_of(batch, met.ray, met.patch));
-        return find_ == Find::light ? near : reflects && !batch.ends[met.ray];
+    if (find_ == Find::spread) {
+        if (!in_gather)
+            found[place] += share * (sent() - left_out());
+        return reflects && !batch.ends[met.ray];
     }
     if (!in_gather)
-        found[place] += share * (material.emission - left_out_of(batch, met.ray, met.patch));
-    else if (!near && find_ != Find::spread)
+        found[place] += share * (material.emission - left_out());
+    else if (!near)
         found[place] -= share * (sent() - material.emission);
     return reflects;
 }
