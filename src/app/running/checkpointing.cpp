@@ -42,16 +42,27 @@ Options options_of(const SolveSettings& settings) {
     return options;
 }
 
+/// Of an option of some method, which need not be named where it has this value; else empty.
+std::string default_of(const std::string& name) {
+    for (const Method* const method : methods())
+        for (const MethodOption& own : method->own_options())
+            if (own.name == name)
+                return own.get({});
+    return {};
+}
+
 void check_options(const Options& found, const Options& wanted, const std::string& file) {
-    for (const auto& [name, value] : wanted) {
-        const auto same = std::ranges::find(found, name, &Options::value_type::first);
-        const std::string there = same == found.end() ? "nothing" : same->second;
-        if (there != value)
+    const auto value_of = [](const Options& options, const std::string& name) {
+        const auto same = std::ranges::find(options, name, &Options::value_type::first);
+        return same == options.end() ? default_of(name) : same->second;
+    };
+    for (const auto& [name, value] : wanted)
+        if (const std::string there = value_of(found, name); there != value)
             throw InputError(file, "is a checkpoint of another run: expected " + name + " " +
-                                       value + ", it has " + there);
-    }
-    if (found.size() != wanted.size())
-        throw InputError(file, "is a checkpoint of another run, with options unknown here");
+                                       value + ", it has " + (there.empty() ? "nothing" : there));
+    for (const auto& [name, value] : found)
+        if (value_of(wanted, name) != value)
+            throw InputError(file, "is a checkpoint of another run, with options unknown here");
 }
 
 std::string resumable_methods() {
