@@ -38,7 +38,7 @@ TEST_CASE("The option of an added strategy may come from a file, and is noted in
     CHECK_THAT(place.read("given.json"), Contains("coarser"));
     place.write("run.toml", "coarser = 5\n");
     test::check_fails(place, 2, run + "--config run.toml -o a.csv",
-                      "run.toml:1: expected 0, 1 or 2");
+                      "run.toml:1: coarser: expected 0, 1 or 2");
 }
 
 TEST_CASE("A checkpoint keeps the option of an added strategy") {

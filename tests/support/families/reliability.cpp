@@ -2,6 +2,7 @@
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/solution/solve_error.h"
+#include "radiosity/solving/run.h"
 #include "support/families/watchdog.h"
 
 #include <algorithm>
