@@ -77,7 +77,7 @@ TEST_CASE("A run of steps side by side goes on where it was interrupted") {
 
 TEST_CASE("What goes wrong in one of the steps side by side leaves those before it") {
     const Model model(test::room_with_block());
-    const SolveOptions options = options_of(2, 100);
+    const SolveOptions options = options_of(2, test::steps(100));
     Monitor monitor;
     const test::AfterStreams tracer(model.bvh, 200, [] { throw std::runtime_error("no more"); });
     const auto solver = find_method("stratified")->make({model.mesh, tracer, options, monitor});
@@ -96,7 +96,7 @@ TEST_CASE("What goes wrong in one of the steps side by side leaves those before 
 TEST_CASE("What is worked out when a run is interrupted is not lost") {
     const Model model(test::room_with_block());
     const Method& method = *find_method("stratified");
-    const SolveOptions options = options_of(2, 100);
+    const SolveOptions options = options_of(2, test::steps(100));
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor};
     const auto solver = method.make(input);
@@ -112,5 +112,5 @@ TEST_CASE("What is worked out when a run is interrupted is not lost") {
     CHECK(ready > 0);
     CHECK(solver->solution().steps == at + ready);
     check_same(solver->solution(),
-               test::solve(model, method, options_of(1, 0), test::steps(at + ready)));
+               test::solve(model, method, options_of(1, {}), test::steps(at + ready)));
 }

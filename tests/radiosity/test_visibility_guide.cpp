@@ -1,5 +1,6 @@
 // The hemisphere guided by what is seen: unbiased, honest, and the same for any number of threads.
 #include "radiosity/guiding/guide.h"
+#include "radiosity/guiding/ray_densities.h"
 #include "radiosity/guiding/visibility_guide.h"
 
 #include "parallel/workers.h"
