@@ -153,9 +153,6 @@ void check(const DensitySettings& settings) {
     check_own_options(settings.options, {&settings.method, 1});
     const bool has_parts = settings.method == &method_of(Role::forerunner);
     const bool by_pyramids = settings.options.own.of<Guide>() == Guide::pyramid;
-    if (by_pyramids && has_parts)
-        throw UsageError("--guide pyramid: " + std::string(settings.method->name) +
-                         " counts along rays alone");
     if (by_pyramids && settings.plane)
         throw UsageError("--plane shows rays that count, and --guide pyramid has none");
     const std::uint32_t parts =

@@ -20,7 +20,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace hemilux {
@@ -53,9 +52,10 @@ struct MethodOption {
 
 /// One that is given or not.
 template <class Own>
-[[nodiscard]] MethodOption flag_option(std::string name, std::string help, bool Own::*member) {
-    return {.name = std::move(name),
-            .help = std::move(help),
+[[nodiscard]] MethodOption flag_option(const std::string& name, const std::string& help,
+                                       bool Own::*member) {
+    return {.name = name,
+            .help = help,
             .values = {},
             .set =
                 [member](SolveOptions& options, std::string_view text) {
@@ -69,14 +69,14 @@ template <class Own>
 
 /// One of these whole numbers, which outlive it.
 template <class Own>
-[[nodiscard]] MethodOption number_option(std::string name, std::string help,
+[[nodiscard]] MethodOption number_option(const std::string& name, const std::string& help,
                                          std::uint32_t Own::*member,
                                          std::span<const std::uint32_t> choices) {
     std::vector<std::string> values;
     for (const std::uint32_t choice : choices)
         values.push_back(std::to_string(choice));
-    return {.name = std::move(name),
-            .help = std::move(help),
+    return {.name = name,
+            .help = help,
             .values = values,
             .set =
                 [member, choices](SolveOptions& options, std::string_view text) {
@@ -97,10 +97,10 @@ template <class Own>
 /// One of the values of an enumeration that counts from 0, by their names in order. It is held as
 /// it is: own.of<Choice>().
 template <class Choice>
-[[nodiscard]] MethodOption choice_option(std::string name, std::string help,
+[[nodiscard]] MethodOption choice_option(const std::string& name, const std::string& help,
                                          const std::vector<std::string>& names) {
-    return {.name = std::move(name),
-            .help = std::move(help),
+    return {.name = name,
+            .help = help,
             .values = names,
             .set =
                 [names](SolveOptions& options, std::string_view text) {
