@@ -250,7 +250,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     Monitor monitor;
     Statistics statistics;
     SolveOptions options = solve.options;
-    options.aim = share_of_sampling * error;
+    options.stop.error = share_of_sampling * error;
     Needs needs;
     std::vector<double> target;
     if (settings.for_all)
@@ -267,7 +267,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     run(*solver, input,
         {.steps = {},
          .seconds = {},
-         .error = divided.sampling.value_or(options.aim),
+         .error = divided.sampling.value_or(*options.stop.error),
          .rays = 2'000'000'000},
         {}, divided.before);
     Solution solution = with_slopes(solver->solution(), divided);

@@ -10,7 +10,7 @@
 #include "closed_meshes.h"
 #include "io/scene_files/obj.h"
 #include "parallel/workers.h"
-#include "radiosity/rays/shot.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
@@ -62,9 +62,7 @@ class Inside {
     }
 
     [[nodiscard]] Ray cosine_ray(Rng& rng) const {
-        const std::uint32_t from = any_patch(rng);
-        const Patch& patch = mesh_.patches()[from];
-        return cosine_ray(patch, PolygonSampler(patch.shape), mesh_.hemisphere_frame(from), rng);
+        return PatchStart(mesh_, any_patch(rng)).cosine_ray(rng);
     }
 
     /// At a vertex, or a point between two. Not along the patch's own plane: the point that the ray

@@ -12,8 +12,10 @@
 #include "bvh/wide/wide_bvh.h"
 #include "clock.h"
 #include "io/scene_files/obj.h"
+#include "radiosity/guiding/guide.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
+#include "radiosity/solving/run.h"
 
 #include <array>
 #include <cmath>
@@ -93,7 +95,7 @@ class Measurement {
         options.rays = rays_per_step;
         options.threads = 1;
         options.seed = seed;
-        options.guide = variant.guide;
+        options.own.of<Guide>() = variant.guide;
         const double start = bench::cpu_seconds();
         const Solution s =
             solve(variant.method, options, {.steps = steps, .seconds = {}, .error = {}});

@@ -10,7 +10,8 @@
 #include "bvh/bvh.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
+#include "radiosity/solving/run.h"
 
 #include <algorithm>
 #include <cstdio>

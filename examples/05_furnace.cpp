@@ -8,7 +8,8 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
+#include "radiosity/solving/run.h"
 
 #include <cmath>
 #include <cstdio>

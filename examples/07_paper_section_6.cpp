@@ -11,7 +11,8 @@
 #include "io/pictures/render.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
+#include "radiosity/solving/run.h"
 
 #include <array>
 #include <chrono>

@@ -1,28 +1,38 @@
-// A strategy of one's own in one file: every triangle of the last level gets the same number of
-// rays, whatever power it has, so that rays near the horizon, where triangles have little projected
-// area, are many and weak.
+// A strategy of one's own in one file, its option included: every triangle of the last level gets
+// the same number of rays, whatever power it has, so that rays near the horizon, where triangles
+// have little projected area, are many and weak. With --coarser N the triangles are those N levels
+// above.
 //
 // Build hemilux with it:
 //
 //     cmake --preset release -DHEMILUX_EXTRA_METHODS=$PWD/examples/own_strategy/equal_rays.cpp
 //
 // and --method equal-rays is there, in `hemilux compare` too, and all property tests hold for it:
-// shares that sum to 1, Lambert's law, the furnace, agreement with `matrix`. A file in
+// shares that sum to 1, Lambert's law, the furnace, agreement with `matrix`. Its option is in
+// --help, in files of --config, in what shells complete and in checkpoints. A file in
 // src/radiosity/strategies/ is found without being named.
 
 #include "radiosity/shooting/shooting.h"
+#include "radiosity/solving/method_option.h"
+
+#include <array>
+#include <stdexcept>
 
 namespace hemilux {
 namespace {
 
+struct EqualRaysOptions {
+    std::uint32_t coarser = 0; ///< levels above the last one
+};
+
 class EqualRays final : public Strategy {
   public:
-    explicit EqualRays(const Hemisphere& hemisphere) {
-        const auto& cells = hemisphere.cells();
-        const std::size_t first = Hemisphere::cells_up_to(hemisphere.depth() - 1);
-        const double rays = 1.0 / static_cast<double>(cells.size() - first);
-        for (std::size_t c = first; c < cells.size(); ++c)
-            allocated_.add(static_cast<std::uint16_t>(c), rays);
+    EqualRays(const Hemisphere& hemisphere, const EqualRaysOptions& options) {
+        const int level = hemisphere.depth() - static_cast<int>(options.coarser);
+        const std::size_t begin = Hemisphere::cells_up_to(level - 1);
+        const std::size_t end = Hemisphere::cells_up_to(level);
+        for (std::size_t c = begin; c < end; ++c)
+            allocated_.add(static_cast<std::uint16_t>(c), 1 / double(end - begin));
     }
     Allocation allocate(std::uint32_t, AllocatedCells&) const override { return allocated_.view(); }
 
@@ -30,9 +40,21 @@ class EqualRays final : public Strategy {
     AllocatedCells allocated_;
 };
 
-std::unique_ptr<Strategy> make_equal_rays(const SolverInput&, const Hemisphere& hemisphere,
+std::unique_ptr<Strategy> make_equal_rays(const SolverInput& input, const Hemisphere& hemisphere,
                                           const Workers&) {
-    return std::make_unique<EqualRays>(hemisphere);
+    return std::make_unique<EqualRays>(hemisphere, input.options.own.of<EqualRaysOptions>());
+}
+
+constexpr std::array<std::uint32_t, 3> choices{0, 1, 2};
+
+std::vector<MethodOption> options() {
+    return {number_option("--coarser", "its triangles are so many levels above the last one [0]",
+                          &EqualRaysOptions::coarser, choices)};
+}
+
+void check(const SolveOptions& options, std::size_t) {
+    if (static_cast<int>(options.own.of<EqualRaysOptions>().coarser) > options.depth)
+        throw std::invalid_argument("--coarser may not be more than --depth");
 }
 
 } // namespace
@@ -45,6 +67,8 @@ const Method equal_rays_method{
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_equal_rays>,
     .strategy = make_equal_rays,
+    .options = options,
+    .check = check,
 };
 
 } // namespace hemilux

@@ -47,8 +47,10 @@ TEST_CASE("values that are missing, doubled or contradict each other") {
     check_usage(place, "solve room.obj -o a.png -q -v", "contradict");
     check_usage(place, "solve room.obj -o a.png --exact", "--exact is for --method matrix");
     check_usage(place, "solve room.obj -o a.png --one-shot", "--one-shot is for");
+    check_usage(place, "solve room.obj -o a.png --method stratified --guide visible",
+                "--guide visible is for --method hemisphere");
     check_usage(place, "solve room.obj -o a.png --parts 16",
-                "--parts is for --method hemisphere-1997");
+                "--parts 16 is for --method hemisphere-1997");
     const std::string of_1997 = "solve room.obj -o a.png --method hemisphere-1997 ";
     check_usage(place, of_1997 + "--parts 9", "--parts: expected 1, 4, 16 or 64, not '9'");
     check_usage(place, of_1997 + "--stored-steps 6", "--stored-steps: expected 0, 1, 2, 3, 4 or 5");

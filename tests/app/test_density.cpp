@@ -102,11 +102,12 @@ TEST_CASE("density says what is wrong with what it is asked") {
     fails(1, "room.obj -o a.svg --depth 6", "--depth");
     fails(1, "room.obj -o a.svg --method matrix", "unknown method");
     fails(1, "room.obj -o a.svg --parts 4 --part 1", "numbered from 0 to 0");
-    fails(1, "room.obj -o a.svg --parts 16", "--parts is for --method hemisphere-1997");
+    fails(1, "room.obj -o a.svg --parts 16", "--parts 16 is for --method hemisphere-1997");
     fails(1, "room.obj -o a.svg --method hemisphere-1997 --part 4", "numbered from 0 to 3");
     fails(1, "room.obj -o a.svg --guide learned", "unknown choice");
     fails(1, "room.obj -o a.svg --guide pyramid --plane", "--guide pyramid has none");
-    fails(1, "room.obj -o a.svg --guide pyramid --method hemisphere-1997", "counts along rays");
+    fails(1, "room.obj -o a.svg --guide pyramid --method hemisphere-1997",
+          "--guide pyramid is for --method hemisphere");
     fails(1, "room.obj -o a.png --plane", "there is none");
     fails(1, "room.obj -o a.svg -o a.svg", "named twice");
     fails(2, "none.obj -o a.svg", "none.obj");

@@ -101,12 +101,15 @@ TEST_CASE("formfactors says what is wrong with what it is asked") {
     fails(1, "room.obj -o a.csv --rays 0", "a power of two");
     fails(1, "room.obj -o a.csv -o ./a.csv", "named twice");
     for (const char* factors : {"hemicube:0", "hemicube:15", "hemicube:5000", "hemicube:many",
-                                "hemicube:", "hemicube:-4", "exact:64", "cubes"})
+                                "hemicube:", "hemicube:-4"})
         fails(1, "room.obj -o a.csv --factors " + std::string(factors),
               "an even N from 2 to 1024, not '" + std::string(factors) + "'");
+    for (const char* factors : {"exact:64", "cubes"})
+        fails(1, "room.obj -o a.csv --factors " + std::string(factors),
+              "rays, exact, hemicube or hemicube:N, not '" + std::string(factors) + "'");
     fails(1, "room.obj -o a.csv --exact --factors hemicube", "--exact");
     fails(1, "room.obj -o a.npy --max-edge .015", "up to 20 000 patches");
-    fails(1, "room.obj -o a.csv --exact --max-edge .05", "up to 2 000 patches");
+    fails(1, "room.obj -o a.csv --exact --max-edge .05", "up to 2000 patches");
     fails(2, "none.obj -o a.csv", "none.obj");
     fails(3, "room.obj -o nowhere/a.csv", "nowhere");
     CHECK_FALSE(place.has("a.csv"));

@@ -7,7 +7,7 @@
 #include "io/results/checkpoint.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
 #include "sealed.h"
 
 #include <cstdlib>

@@ -7,7 +7,7 @@
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solution/solve_error.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
 #include "sealed.h"
 
 #include <algorithm>

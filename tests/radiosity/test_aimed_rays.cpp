@@ -297,7 +297,7 @@ TEST_CASE("Things on a table take a fifth of the rays", "[slow]") {
         const Model model = test::example(scene);
         const std::vector<double> target = test::weights_of(model.mesh, "detail");
         SolveOptions exactly = options_of(99, 64, 0);
-        exactly.aim = .002;
+        exactly.stop.error = .002;
         const Solution exact = solve_for(model, *find_method("stored-transport"), target, exactly,
                                          {.steps = {}, .seconds = {}, .error = .002});
         for (const char* name : {"hemisphere", "progressive-monte-carlo"}) {
@@ -317,7 +317,7 @@ TEST_CASE("One room of a building takes a third of the rays", "[slow]") {
     const Model model = test::example("building_6");
     const std::vector<double> target = test::weights_of(model.mesh, "room_1");
     SolveOptions exactly = options_of(99, 64, 0);
-    exactly.aim = .001;
+    exactly.stop.error = .001;
     const Solution exact = solve_for(model, *find_method("stored-transport"), target, exactly,
                                      {.steps = {}, .seconds = {}, .error = .001});
     for (const char* name : {"hemisphere", "progressive-monte-carlo"}) {
@@ -336,7 +336,7 @@ TEST_CASE("Shooting for a target that is all of the scene loses nothing", "[slow
         const Model model = test::example(scene);
         const std::vector<double> all(model.mesh.patches().size(), 1.0);
         SolveOptions exactly = options_of(99, 64, 0);
-        exactly.aim = .002;
+        exactly.stop.error = .002;
         const Solution exact = solve_for(model, *find_method("stored-transport"), {}, exactly,
                                          {.steps = {}, .seconds = {}, .error = .002});
         for (const char* name : {"stratified", "hemisphere", "progressive-monte-carlo"}) {

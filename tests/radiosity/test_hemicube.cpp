@@ -2,6 +2,7 @@
 // pixels miss, and the methods that solve with them.
 #include "geometry/compensated_sum.h"
 #include "radiosity/form_factors/exact_form_factors.h"
+#include "radiosity/form_factors/factor_options.h"
 #include "radiosity/form_factors/hemicube.h"
 #include "radiosity/sampling/rng.h"
 #include "support/catch.h"
@@ -61,7 +62,7 @@ struct FirstRow {
 
 SolveOptions with_hemicubes(std::uint32_t edge) {
     SolveOptions options;
-    options.factors = {FactorKind::hemicube, edge};
+    options.own.of<FactorOptions>() = {FactorKind::hemicube, edge};
     return options;
 }
 

@@ -48,7 +48,7 @@ struct Allocator {
     explicit Allocator(const Model& model, bool literal = false,
                        const Subdivision1997Options& numbers = {}) {
         options.literal = literal;
-        options.subdivision_1997 = numbers;
+        options.own.of<Subdivision1997Options>() = numbers;
         const SolverInput input{model.mesh, model.bvh, options, monitor};
         strategy = find_method("hemisphere-1997")->strategy(input, hemisphere, Workers(1));
     }
@@ -299,7 +299,7 @@ TEST_CASE("End to end, every private cell gets its equal number of rays", "[slow
         SolveOptions options;
         options.rays = 40;
         options.threads = 1;
-        options.subdivision_1997 = numbers;
+        options.own.of<Subdivision1997Options>() = numbers;
         const Allocator allocator(model, false, numbers);
         for (const std::uint32_t step : {1u, 2u}) {
             const Allocation allocation = allocator.allocate(step);
@@ -369,7 +369,7 @@ TEST_CASE("Guided steps are unbiased whatever the numbers, as printed they are n
                                            {{1, 0, 1}, true}}) {
         SolveOptions options;
         options.literal = literal;
-        options.subdivision_1997 = numbers;
+        options.own.of<Subdivision1997Options>() = numbers;
         constexpr int runs = 24;
         const std::uint32_t guided = numbers.stored_steps + numbers.estimated_steps;
         const std::size_t patches = model.mesh.patches().size();

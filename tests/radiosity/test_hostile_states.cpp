@@ -1,6 +1,7 @@
 // States that no solver has saved: bytes and numbers changed at many places, as a checkpoint with a
 // right checksum may hold them. Each is refused, or the run goes on to finite numbers.
 
+#include "radiosity/guiding/guide.h"
 #include "radiosity/linear/energy_ledger.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/solution/solve_error.h"
@@ -97,7 +98,7 @@ TEST_CASE("changed states are refused, or go on to finite numbers", "[slow][stat
             SolveOptions options;
             options.rays = 2;
             options.threads = 1;
-            options.guide = guide;
+            options.own.of<Guide>() = guide;
             Monitor monitor;
             const SolverInput input{model.mesh, model.bvh, options, monitor};
             StateWriter saved;

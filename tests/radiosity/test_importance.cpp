@@ -61,7 +61,7 @@ Solution solve_to(const Model& model, std::span<const double> target, double err
                   std::uint64_t seed) {
     SolveOptions options;
     options.seed = seed;
-    options.aim = error;
+    options.stop.error = error;
     return solve_for(model, stored_transport(), target, options,
                      {.steps = {}, .seconds = {}, .error = error});
 }

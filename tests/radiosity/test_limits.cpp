@@ -168,7 +168,7 @@ TEST_CASE("A step that the time has cut short is taken anew and gives what it wo
     for (const char* name : {"hemisphere", "monte-carlo", "stored-transport"}) {
         CAPTURE(name);
         const Method& method = *find_method(name);
-        const SolveOptions options{.rays = 64, .growing_steps = false, .threads = 2};
+        const SolveOptions options{.rays = 64, .stop = test::steps(2), .threads = 2};
         const Solution whole = test::solve(model, method, options, test::steps(2));
         Monitor monitor;
         const test::AfterStreams tracer(model.bvh, 3,

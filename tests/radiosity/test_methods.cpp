@@ -2,6 +2,7 @@
 // see a broken direction law. Scenes where a method is added inherit all of this.
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
+#include "radiosity/solving/one_shot.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -40,7 +41,7 @@ SolveOptions with_seed(std::uint64_t seed, double rays = 64) {
 Solution solve(const Model& model, const Method& method, SolveOptions options, std::uint32_t n) {
     if (method.name == "progressive") {
         options.rays *= 16;
-        options.one_shot = true;
+        options.own.of<OneShotOptions>().one_shot = true;
         return test::solve(model, method, options, test::steps(1'000'000));
     }
     const std::uint32_t doublings = method.name == "matrix" ? 2 : 4;
@@ -244,37 +245,57 @@ TEST_CASE("A step shoots about the rays that were asked for") {
     }
 }
 
-TEST_CASE("Each role is one method's, and each flag sets an option of its own") {
+TEST_CASE("Each role is one method's") {
     for (const Role role :
          {Role::standard, Role::reference, Role::baseline, Role::paper, Role::forerunner})
         CHECK(std::ranges::count(methods(), role, [](const Method* m) { return m->role; }) == 1);
-    SolveOptions options;
-    std::vector<std::string_view> names;
-    for (const Method* const method : methods())
-        for (const MethodFlag& flag : method->flags) {
-            CAPTURE(flag.name);
-            const bool is_known = std::ranges::count(names, flag.name) > 0; // of another method
-            CHECK(is_known == (method->name == "progressive" && flag.name == "--one-shot"));
-            CHECK(flag.value(options) == is_known);
-            flag.value(options) = true;
-            names.push_back(flag.name);
-        }
-    CHECK(names.size() == 4);
 }
 
-TEST_CASE("Each number of a method is one of its choices and has a place of its own") {
-    SolveOptions options;
-    std::vector<const std::uint32_t*> places;
+namespace {
+
+/// The texts that an option takes, with 8 for a number.
+std::vector<std::string> values_of(const MethodOption& option) {
+    if (option.values.empty())
+        return {"yes"};
+    std::vector<std::string> values = option.values;
+    for (std::string& value : values)
+        std::ranges::replace(value, 'N', '8');
+    return values;
+}
+
+} // namespace
+
+TEST_CASE("Each option of a method is set by each of its values, and by no other text") {
+    std::size_t values = 0;
     for (const Method* const method : methods())
-        for (const MethodNumber& number : method->numbers) {
-            CAPTURE(number.name);
-            std::uint32_t& value = number.value(options);
-            CHECK(std::ranges::count(number.choices, value) == 1);
-            CHECK(std::ranges::is_sorted(number.choices));
-            CHECK(std::ranges::count(places, &value) == 0);
-            places.push_back(&value);
+        for (const MethodOption& option : method->own_options()) {
+            CAPTURE(method->name, option.name);
+            SolveOptions options;
+            for (const char* const wrong : {"", "no such value", "-1", "4294967296"})
+                CHECK_FALSE(option.set(options, wrong));
+            CHECK_FALSE(option.is_set(options));
+            for (const std::string& value : values_of(option)) {
+                CHECK(option.set(options, value));
+                CHECK(option.get(options).starts_with(value));
+                ++values;
+            }
         }
-    CHECK(places.size() == 3);
+    CHECK(values > 30);
+}
+
+TEST_CASE("An option of a method is not in the way of another's") {
+    for (const Method* const method : methods())
+        for (const MethodOption& option : method->own_options()) {
+            SolveOptions options;
+            REQUIRE(option.set(options, values_of(option).back()));
+            for (const Method* const other : methods())
+                for (const MethodOption& another : other->own_options()) {
+                    CAPTURE(option.name, another.name);
+                    const bool same =
+                        another.name == option.name || another.name == option.excludes;
+                    CHECK(another.is_set(options) == same);
+                }
+        }
 }
 
 TEST_CASE("monte-carlo shot by shot: brighter with each, and in the end its first step") {
@@ -282,7 +303,7 @@ TEST_CASE("monte-carlo shot by shot: brighter with each, and in the end its firs
     const Method& method = *find_method("monte-carlo");
     SolveOptions options = with_seed(5, 20);
     const Solution whole = test::solve(model, method, options, test::steps(1));
-    options.one_shot = true;
+    options.own.of<OneShotOptions>().one_shot = true;
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor};
     const auto solver = method.make(input);

@@ -1,6 +1,7 @@
 // What is left out changes nothing: the same solution with all that is not needed and without it.
 #include "parallel/workers.h"
 #include "radiosity/form_factors/point_to_patch.h"
+#include "radiosity/guiding/guide.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/rays/make_tracer.h"
 #include "radiosity/sampling/rng.h"
@@ -315,7 +316,7 @@ TEST_CASE("What is left out keeps every byte where that is promised, else the re
                     const std::string name(method->name);
                     const bool bytes = keeps_every_byte(name, guide, c.omission);
                     SolveOptions options = with_rays(bytes ? 4 : 64, literal);
-                    options.guide = guide;
+                    options.own.of<Guide>() = guide;
                     const std::uint32_t steps = bytes ? 2 : 6;
                     const Solution with = solve_with(mesh, needs, *method, options, steps);
                     options.keep_all = true;

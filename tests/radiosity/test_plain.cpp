@@ -1,6 +1,7 @@
 // The engine against the pages of src/radiosity/plain: the same bits where the random numbers are
 // the same, within standard errors for stored-transport.
 #include "io/scene_files/obj.h"
+#include "radiosity/hemisphere/subdivision_1997.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -108,7 +109,7 @@ TEST_CASE("Section 4 on a page has the engine's bits for other numbers of parts 
          {Subdivision1997Options{1, 2, 1}, {3, 0, 4}, {0, 2, 16}, {0, 0, 64}, {1, 1, 64}})
         for (const bool literal : {false, true}) {
             SolveOptions options = with_rays(30, literal);
-            options.subdivision_1997 = numbers;
+            options.own.of<Subdivision1997Options>() = numbers;
             CAPTURE(numbers.stored_steps, numbers.estimated_steps, numbers.parts);
             check_same(Model(test::furnace_l_shape(.5)), of_1997, options, 4);
         }

@@ -1,5 +1,7 @@
 // Progressive radiosity against the matrix, its energy, and its options.
 #include "radiosity/form_factors/pair_factor.h"
+#include "radiosity/progressive/progressive_pass.h"
+#include "radiosity/solving/one_shot.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -21,8 +23,8 @@ SolveOptions coarse(double rays = 64) {
 /// One pass.
 Solution to_the_end(const Model& model, const ProgressiveOptions& chosen,
                     SolveOptions options = coarse(), std::uint32_t* steps = nullptr) {
-    options.progressive = chosen;
-    options.one_shot = true;
+    options.own.of<ProgressiveOptions>() = chosen;
+    options.own.of<OneShotOptions>().one_shot = true;
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor};
     const auto solver = find_method("progressive")->make(input);
@@ -104,7 +106,7 @@ TEST_CASE("Progressive radiosity shoots the brightest patch first, one at a time
     const Model model(test::cube_with_lit_floor(3, .5)); // the first nine patches emit
     Monitor monitor;
     SolveOptions options = coarse();
-    options.one_shot = true;
+    options.own.of<OneShotOptions>().one_shot = true;
     const SolverInput input{model.mesh, model.bvh, options, monitor};
     const auto solver = find_method("progressive")->make(input);
     double before = 0;
@@ -132,8 +134,8 @@ TEST_CASE("The ambient term makes early solutions better and is gone at the end"
     const Solution end = to_the_end(model, {}, options);
     const auto early = [&](bool ambient) {
         SolveOptions chosen = options;
-        chosen.one_shot = true;
-        chosen.progressive.ambient = ambient;
+        chosen.own.of<OneShotOptions>().one_shot = true;
+        chosen.own.of<ProgressiveOptions>().ambient = ambient;
         Monitor monitor;
         const SolverInput input{model.mesh, model.bvh, chosen, monitor};
         const auto solver = find_method("progressive")->make(input);

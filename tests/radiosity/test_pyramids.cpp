@@ -1,5 +1,6 @@
 // The pyramidal guide: which patches lie in a pyramid, what a tree of boxes finds of them, and that
 // nothing hides between three corners.
+#include "radiosity/guiding/guide.h"
 #include "radiosity/guiding/pyramids.h"
 
 #include "parallel/workers.h"
@@ -22,7 +23,7 @@ namespace {
 
 SolveOptions by_pyramids(std::uint64_t seed = 3) {
     SolveOptions options;
-    options.guide = Guide::pyramid;
+    options.own.of<Guide>() = Guide::pyramid;
     options.seed = seed;
     return options;
 }
@@ -184,7 +185,7 @@ TEST_CASE("What stands between three empty corners is found") {
 
     const auto share_of_rays = [&](Guide guide) {
         SolveOptions options = by_pyramids();
-        options.guide = guide;
+        options.own.of<Guide>() = guide;
         options.threshold = threshold;
         const SolverInput input{model.mesh, model.bvh, options, monitor};
         const auto strategy = find_method("hemisphere")->strategy(input, hemisphere, Workers(1));

@@ -12,11 +12,11 @@ using test::Model;
 
 namespace {
 
-SolveOptions options_of(unsigned threads, std::uint32_t expected_steps) {
+SolveOptions options_of(unsigned threads, const StopRule& stop) {
     SolveOptions options;
     options.rays = 24;
     options.threads = threads;
-    options.expected_steps = expected_steps;
+    options.stop = stop;
     return options;
 }
 
@@ -35,10 +35,12 @@ TEST_CASE("Steps side by side are those that one thread finds one after the othe
     for (const Method* method : methods()) {
         if (!method->strategy && method->name != "monte-carlo")
             continue; // their steps build on each other
-        const Solution alone = test::solve(model, *method, options_of(1, 0), test::steps(5));
+        const Solution alone = test::solve(model, *method, options_of(1, {}), test::steps(5));
         for (const unsigned threads : {2u, 3u}) {
             CAPTURE(method->name, threads);
-            check_same(test::solve(model, *method, options_of(threads, 5), test::steps(5)), alone);
+            check_same(
+                test::solve(model, *method, options_of(threads, test::steps(5)), test::steps(5)),
+                alone);
         }
     }
 }
@@ -46,17 +48,16 @@ TEST_CASE("Steps side by side are those that one thread finds one after the othe
 TEST_CASE("Steps side by side end at an error as one after the other") {
     const Model model(test::room_with_block());
     const Method& method = *find_method("hemisphere");
-    SolveOptions options = options_of(1, 0);
+    SolveOptions options = options_of(1, {});
     const StopRule stop{.steps = {}, .seconds = {}, .error = .05};
     const Solution alone = test::solve(model, method, options, stop);
-    options = options_of(3, expected_steps(stop));
-    options.aim = *stop.error;
+    options = options_of(3, stop);
     check_same(test::solve(model, method, options, stop), alone);
 }
 
 TEST_CASE("A run of steps side by side goes on where it was interrupted") {
     const Model model(test::room_with_block());
-    const SolveOptions options = options_of(2, 6);
+    const SolveOptions options = options_of(2, test::steps(6));
     for (const char* name : {"hemisphere", "monte-carlo"}) {
         const Method& method = *find_method(name);
         const Solution whole = test::solve(model, method, options, test::steps(6));
@@ -76,7 +77,7 @@ TEST_CASE("A run of steps side by side goes on where it was interrupted") {
 
 TEST_CASE("What goes wrong in one of the steps side by side leaves those before it") {
     const Model model(test::room_with_block());
-    const SolveOptions options = options_of(2, 100);
+    const SolveOptions options = options_of(2, test::steps(100));
     Monitor monitor;
     const test::AfterStreams tracer(model.bvh, 200, [] { throw std::runtime_error("no more"); });
     const auto solver = find_method("stratified")->make({model.mesh, tracer, options, monitor});
@@ -95,7 +96,7 @@ TEST_CASE("What goes wrong in one of the steps side by side leaves those before 
 TEST_CASE("What is worked out when a run is interrupted is not lost") {
     const Model model(test::room_with_block());
     const Method& method = *find_method("stratified");
-    const SolveOptions options = options_of(2, 100);
+    const SolveOptions options = options_of(2, test::steps(100));
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor};
     const auto solver = method.make(input);
@@ -111,5 +112,5 @@ TEST_CASE("What is worked out when a run is interrupted is not lost") {
     CHECK(ready > 0);
     CHECK(solver->solution().steps == at + ready);
     check_same(solver->solution(),
-               test::solve(model, method, options_of(1, 0), test::steps(at + ready)));
+               test::solve(model, method, options_of(1, {}), test::steps(at + ready)));
 }

@@ -333,7 +333,7 @@ TEST_CASE("What a large dark patch may have missed does not stay unknown") {
     test::add_quad(scene, {-5, -5, -5}, {-5, -5, 5}, {5, -5, 5}, {5, -5, -5}, 1, 1, 0);
     const Model model(std::move(scene));
     SolveOptions options;
-    options.aim = .01;
+    options.stop.error = .01;
     StopRule stop;
     stop.error = .01;
     stop.rays = 2'000'000;
@@ -348,18 +348,18 @@ TEST_CASE("Equal steps take as many rays as were asked for, and an error is reac
     const auto patches = static_cast<double>(model.mesh.patches().size());
     SolveOptions options;
     options.rays = 100;
-    options.growing_steps = false;
     for (const int steps : {1, 2, 5, 9}) {
+        options.stop = test::steps(std::uint32_t(steps));
         const Solution s =
             test::solve(model, stored_transport(), options, test::steps(std::uint32_t(steps)));
         CAPTURE(steps);
         CHECK(double(s.rays_energy) / patches < 100 * steps + 1);
         CHECK(double(s.rays_energy) / patches > 60 * steps);
     }
-    options.growing_steps = true;
+    options.stop = {}; // their number is not known
     const Solution doubled = test::solve(model, stored_transport(), options, test::steps(5));
     CHECK(double(doubled.rays_energy) / patches > 900);
-    options.aim = .005;
+    options.stop.error = .005;
     StopRule stop;
     stop.error = .005;
     const Solution aimed = test::solve(model, stored_transport(), options, stop);

@@ -1,4 +1,6 @@
 // The hemisphere guided by what is seen: unbiased, honest, and the same for any number of threads.
+#include "radiosity/guiding/guide.h"
+#include "radiosity/guiding/ray_densities.h"
 #include "radiosity/guiding/visibility_guide.h"
 
 #include "parallel/workers.h"
@@ -20,7 +22,7 @@ namespace {
 
 SolveOptions guided(Guide guide, std::uint64_t seed = 3) {
     SolveOptions options;
-    options.guide = guide;
+    options.own.of<Guide>() = guide;
     options.seed = seed;
     return options;
 }

@@ -1,6 +1,7 @@
 // Where all light goes: emitted = absorbed + escaped + unshot to the last digits that doubles have,
 // for every method, and what stands for chance in it is small.
 #include "geometry/compensated_sum.h"
+#include "radiosity/solving/one_shot.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -203,7 +204,7 @@ TEST_CASE("Progressive radiosity leaves hardly anything unshot in the end") {
         const Model model(open ? open_room(.9) : closed_room(.9));
         SolveOptions options;
         options.rays = 16;
-        options.one_shot = false;
+        options.own.of<OneShotOptions>().one_shot = false;
         const Solution s = test::solve(model, *find_method("progressive"), options,
                                        {.steps = {}, .seconds = {}, .error = .1});
         CAPTURE(open, s.steps, share(s.energy.unshot, s.energy.emitted));

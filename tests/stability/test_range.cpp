@@ -1,7 +1,9 @@
 // Scenes in which one thing is far larger, brighter, thinner or nearer than another, or in which
 // faces lie where no real surface could: each against the same scene without the oddity, against a
 // closed form, or against the balance of energy.
+#include "radiosity/form_factors/factor_options.h"
 #include "radiosity/scene/needs.h"
+#include "radiosity/solving/one_shot.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -55,7 +57,7 @@ Solution solved(const Model& model, const Method& method, double rays = 64) {
     options.rays = rays;
     options.threads = 1;
     const bool one_shot = method.name == "progressive"; // until the first pass has ended
-    options.one_shot = one_shot;
+    options.own.of<OneShotOptions>().one_shot = one_shot;
     const Needs needs = find_needs(model.mesh);
     Monitor monitor;
     const SolverInput input{model.mesh, model.bvh, options, monitor, needs};
@@ -69,7 +71,7 @@ Solution solved(const Model& model, const Method& method, double rays = 64) {
 
 Solution exact(const Model& model) {
     SolveOptions options;
-    options.factors.kind = FactorKind::exact;
+    options.own.of<FactorOptions>().kind = FactorKind::exact;
     return test::solve(model, *find_method("matrix"), options, test::steps(2));
 }
 

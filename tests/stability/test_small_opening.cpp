@@ -31,8 +31,7 @@ std::optional<double> brightness(const Model& model, const Method& method, std::
     options.rays = rays;
     options.seed = seed;
     options.threads = 2;
-    options.growing_steps = !stop.steps;
-    options.aim = stop.error.value_or(0);
+    options.stop = stop;
     Solution solution;
     try {
         solution = test::solve(model, method, options, stop);

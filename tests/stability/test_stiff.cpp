@@ -1,5 +1,6 @@
 // Closed rooms that reflect nearly all: there the tail of the series of bounces is the solution,
 // and the smallest loss of energy between patches would be multiplied by 1 / (1 - rho).
+#include "radiosity/form_factors/factor_options.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -14,7 +15,7 @@ namespace {
 /// Without chance: in a convex room all factors are known.
 Solution exact_solution(const Model& model) {
     SolveOptions options;
-    options.factors.kind = FactorKind::exact;
+    options.own.of<FactorOptions>().kind = FactorKind::exact;
     return test::solve(model, *find_method("matrix"), options, test::steps(1));
 }
 

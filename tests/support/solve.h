@@ -4,7 +4,8 @@
 #include "bvh/bvh.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
+#include "radiosity/solving/run.h"
 
 #include <cstring>
 #include <string>

@@ -19,12 +19,12 @@ namespace {
 std::vector<MethodVariant> possible_variants() {
     std::vector<MethodVariant> list;
     for (const Method* const method : methods()) {
-        list.push_back({std::string(method->name), method, {}});
-        if (method->guided)
-            for (const Guide guide : {Guide::pyramid, Guide::visible, Guide::learned})
-                list.push_back(
-                    {std::string(method->name) + "-" + guide_names[static_cast<std::size_t>(guide)],
-                     method, guide});
+        list.push_back({std::string(method->name), method, {}, {}});
+        for (const MethodOption& own : method->own_options())
+            for (const std::string& value : own.values)
+                if (own.makes_variants && value != own.get(SolveOptions{}))
+                    list.push_back(
+                        {std::string(method->name) + "-" + value, method, own.name, value});
     }
     return list;
 }
@@ -34,8 +34,8 @@ MethodVariant variant_by_name(std::string_view name) {
     for (const MethodVariant& variant : possible_variants()) {
         if (variant.name == name)
             return variant;
-        if (!variant.guide && variant.method == find_method(name))
-            return {std::string(name), variant.method, {}}; // results call it as the user does
+        if (variant.value.empty() && variant.method == find_method(name))
+            return {std::string(name), variant.method, {}, {}}; // results call it as the user does
         names.push_back(variant.name);
     }
     throw UsageError("--methods: " + unknown_name("method", name, names));
@@ -48,7 +48,7 @@ std::vector<MethodVariant> variants_from(std::string_view text) {
         const std::size_t comma = text.find(',');
         MethodVariant variant = variant_by_name(text.substr(0, comma));
         if (std::ranges::any_of(list, [&variant](const MethodVariant& other) {
-                return other.method == variant.method && other.guide == variant.guide;
+                return other.method == variant.method && other.value == variant.value;
             }))
             throw UsageError("--methods: '" + variant.name + "' is named twice");
         list.push_back(std::move(variant));
@@ -60,14 +60,14 @@ std::vector<MethodVariant> variants_from(std::string_view text) {
 }
 
 void add_methods_option(Command command, std::vector<MethodVariant>& list) {
-    std::string with_guides;
+    std::string with_values;
     for (const MethodVariant& variant : possible_variants())
-        if (variant.guide)
-            with_guides += (with_guides.empty() ? "" : ", ") + variant.name;
+        if (!variant.value.empty())
+            with_values += (with_values.empty() ? "" : ", ") + variant.name;
         else if (variant.method->unbiased || variant.method->role == Role::standard)
             list.push_back(variant);
     command.add_value("--methods", "METHOD,METHOD,...",
-                      "what to compare, see below; also " + with_guides + " [" +
+                      "what to compare, see below; also " + with_values + " [" +
                           std::string(method_of(Role::standard).name) +
                           " and all that are unbiased]",
                       [&list](const std::string& text) { list = variants_from(text); });
@@ -116,7 +116,7 @@ Command add_compare_command(Arguments& program, CompareSettings& settings) {
     add_memory_option(command.under(scene_group), settings.scene);
     add_methods_option(method, settings.variants);
     add_method_options(method, settings.options);
-    add_own_options(command.under(own_group), settings.options);
+    add_own_options(command.under(own_group), methods(), settings.options);
     add_budget_options(command.under("Budget of each run of each method, one of the two"),
                        settings);
     add_reference_options(command.under(comparison_group), settings);

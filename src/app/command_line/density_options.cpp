@@ -3,6 +3,7 @@
 #include "app/command_line/options.h"
 #include "app/commands/density.h"
 #include "app/settings/names.h"
+#include "radiosity/guiding/guide.h"
 
 #include <limits>
 
@@ -47,9 +48,9 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
     add_scene_options(command, settings.scene);
     add_dividing_method(method, settings.method);
     add_division_options(method, settings.options);
-    add_choice(method, "--guide", settings.options.guide, drawn_guides,
+    add_choice(method, "--guide", settings.options.own.of<Guide>(), drawn_guides,
                "what divides hemisphere's [density]");
-    add_own_numbers(command.under(own_group), {&forerunner, 1}, settings.options);
+    add_own_options(command.under(own_group), {&forerunner, 1}, settings.options);
     add_random_options(method, settings.options);
     add_path(outputs, "-o,--output", "FILE",
              "a patch's hemisphere .svg, mean densities of all patches .png; repeatable",

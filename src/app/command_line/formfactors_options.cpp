@@ -33,11 +33,8 @@ Command add_formfactors_command(Arguments& program, FormFactorSettings& settings
     add_parsed(method, "--rays", "N", "rays per patch, a power of two [4096]",
                "a power of two from 1 to 1048576", power_of_two,
                [&settings](std::uint32_t rays) { settings.rays = rays; });
-    add_factor_options(
-        method, settings.options.factors,
-        {"rays; exact: as --exact; hemicube: by a hemicube over each patch, N pixels along its "
-         "edge, and no --rays [rays; N 64]",
-         "without chance where nothing can stand between two patches; up to 2000 patches"});
+    const Method* const same = &method_of(Role::reference);
+    add_own_options(method, {&same, 1}, settings.options);
     add_random_options(method, settings.options);
     add_path(command.under(output_group), "-o,--output", "FILE",
              "i,j,F of the factors above 0 .csv, dense NumPy array .npy; repeatable",

@@ -4,10 +4,12 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/memory.h"
 #include "app/settings/names.h"
-#include "radiosity/form_factors/hemicube.h"
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
 
 namespace hemilux {
 
@@ -34,22 +36,6 @@ std::optional<std::optional<Camera>> camera_from(const std::string& text) {
     } catch (const std::invalid_argument&) {
         return std::nullopt;
     }
-}
-
-/// rays, exact, hemicube or hemicube:N.
-std::optional<FactorOptions> factors_from(const std::string& text) {
-    const std::size_t colon = text.find(':');
-    const auto found = std::ranges::find(factor_names, text.substr(0, colon));
-    if (found == factor_names.end())
-        return std::nullopt;
-    FactorOptions factors{.kind = static_cast<FactorKind>(found - factor_names.begin())};
-    if (colon == std::string::npos)
-        return factors;
-    const std::optional<std::uint64_t> edge = parse_whole(text.substr(colon + 1));
-    if (factors.kind != FactorKind::hemicube || !edge || !Hemicube::is_edge(*edge))
-        return std::nullopt;
-    factors.hemicube_edge = static_cast<std::uint32_t>(*edge);
-    return factors;
 }
 
 void choose_sides(SceneSettings& scene, Sides sides) {
@@ -135,37 +121,63 @@ void add_division_options(Command command, SolveOptions& options) {
                "divide a triangle whose mean density is above X [0]");
 }
 
-void add_own_numbers(Command command, std::span<const Method* const> methods,
-                     SolveOptions& options) {
-    for (const Method* const method : methods)
-        for (const MethodNumber& number : method->numbers) {
-            std::string expected;
-            for (const std::uint32_t choice : number.choices)
-                expected += (expected.empty()                  ? ""
-                             : choice == number.choices.back() ? " or "
-                                                               : ", ") +
-                            std::to_string(choice);
-            const auto parse = [choices = number.choices](const std::string& text) {
-                const std::optional<std::uint64_t> value = parse_whole(text);
-                return value && std::ranges::find(choices, *value) != choices.end() ? value
-                                                                                    : std::nullopt;
-            };
-            add_parsed(command, std::string(number.name), "N", std::string(number.help), expected,
-                       parse, [&target = number.value(options)](std::uint64_t value) {
-                           target = static_cast<std::uint32_t>(value);
-                       });
-        }
+namespace {
+
+/// "a, b or c".
+std::string either(std::span<const std::string> values) {
+    std::string text;
+    for (std::size_t k = 0; k < values.size(); ++k)
+        text += (k == 0 ? "" : k + 1 < values.size() ? ", " : " or ") + values[k];
+    return text;
 }
 
-void add_factor_options(Command command, FactorOptions& factors, const FactorHelp& help) {
-    const Option kind =
-        add_parsed(command, "--factors", "rays|exact|hemicube[:N]", help.factors,
-                   "rays, exact, hemicube or hemicube:N with an even N from 2 to 1024",
-                   factors_from, [&factors](const FactorOptions& value) { factors = value; });
-    command
-        .add_action(
-            "--exact", [&factors] { factors.kind = FactorKind::exact; }, help.exact)
-        .excludes(kind);
+std::string joined(std::span<const std::string> values) {
+    std::string text;
+    for (const std::string& value : values)
+        text += (text.empty() ? "" : "|") + value;
+    return text;
+}
+
+Option add_own_option(Command command, const MethodOption& own, const std::string& help,
+                      SolveOptions& options) {
+    if (own.values.empty())
+        return command.add_action(
+            own.name, [own, &options] { own.set(options, "yes"); }, help);
+    return command.add_value(
+        own.name, joined(own.values), help, [own, &options](const std::string& text) {
+            const auto refuse = [&](const std::string& expected) {
+                throw UsageError(own.name + ": expected " + expected + ", not '" + text + "'");
+            };
+            try {
+                if (!own.set(options, text))
+                    refuse(either(own.values));
+            } catch (const std::invalid_argument& error) {
+                refuse(error.what());
+            }
+        });
+}
+
+} // namespace
+
+void add_own_options(Command command, std::span<const Method* const> methods,
+                     SolveOptions& options) {
+    std::map<std::string, Option> added;
+    std::vector<std::pair<std::string, std::string>> excluding;
+    for (const Method* const method : methods)
+        for (const MethodOption& own : method->own_options()) {
+            if (added.contains(own.name)) // several methods have it
+                continue;
+            std::string names;
+            for (const Method* const other : methods)
+                if (std::ranges::count(other->own_options(), own.name, &MethodOption::name) > 0)
+                    names.append(names.empty() ? "" : ", ").append(other->name);
+            const std::string help = methods.size() > 1 ? names + ": " + own.help : own.help;
+            added.emplace(own.name, add_own_option(command, own, help, options));
+            if (!own.excludes.empty())
+                excluding.emplace_back(own.name, own.excludes);
+        }
+    for (const auto& [one, other] : excluding)
+        static_cast<void>(added.at(one).excludes(added.at(other)));
 }
 
 void add_random_options(Command command, SolveOptions& options) {

@@ -22,14 +22,9 @@ Option add_scene_options(Command command, SceneSettings& scene);
 void add_memory_option(Command command, SceneSettings& scene);
 /// Adds --depth and --threshold: how hemispheres are divided.
 void add_division_options(Command command, SolveOptions& options);
-/// Adds the options of these methods that are whole numbers (Method::numbers).
-void add_own_numbers(Command command, std::span<const Method* const> methods,
+/// Adds what these methods declare (Method::options), each name once.
+void add_own_options(Command command, std::span<const Method* const> methods,
                      SolveOptions& options);
-struct FactorHelp {
-    std::string factors, exact;
-};
-/// Adds --factors, and --exact, which is `--factors exact`.
-void add_factor_options(Command command, FactorOptions& factors, const FactorHelp& help);
 /// Adds --seed and --threads.
 void add_random_options(Command command, SolveOptions& options);
 /// Adds --camera and --size.

@@ -230,7 +230,7 @@ Command add_solve_command(Arguments& program, SolveSettings& settings) {
     add_method_option(method, settings.method);
     add_method_options(method, settings.options);
     add_plain_option(method, settings.plain);
-    add_own_options(command.under(own_group), settings.options);
+    add_own_options(command.under(own_group), methods(), settings.options);
     add_stop_options(command.under("Stop at the first that is met"), settings.stop);
     add_target_option(command.under("Target"), settings.target);
     add_output_options(outputs, settings);

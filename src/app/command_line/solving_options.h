@@ -13,8 +13,6 @@ inline constexpr const char* comparison_group = "Comparison";
 
 /// Adds --rays, --depth and others that say how to solve, but for the method itself.
 void add_method_options(Command command, SolveOptions& options);
-/// Adds --factors and what else single methods declare (Method::flags, Method::numbers).
-void add_own_options(Command command, SolveOptions& options);
 /// Adds --detail.
 void add_detail_option(Command command, std::vector<std::string>& detail);
 

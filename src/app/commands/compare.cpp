@@ -42,7 +42,7 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
     SolveOptions options = settings.options;
     options.literal = false;
     if (!method.work_with(options).estimates_error)
-        options.factors = {};
+        options.own = {};
     options.seed = hash_words({options.seed, 0x7265666572656e63u});
     const SolverInput input{.mesh = mesh,
                             .tracer = tracer,
@@ -159,10 +159,11 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     std::vector<const Method*> methods;
     for (const MethodVariant& variant : settings.variants)
         methods.push_back(variant.method);
-    if (settings.options.factors.kind == FactorKind::hemicube) // the reference has none
+    const Method& of_reference = method_of(Role::reference);
+    if (!of_reference.work_with(settings.options).estimates_error) // the reference is without it
         check_own_options(settings.options, methods);
     if (settings.reference.empty())
-        methods.push_back(&method_of(Role::reference));
+        methods.push_back(&of_reference);
     check_own_options(settings.options, methods);
     make_folder(settings.folder);
     const RunFiles files = check_files(settings);
@@ -175,7 +176,7 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     const Mesh& mesh = loaded.mesh;
     settings.view = view_of(settings.view, loaded, settings.verbosity);
     check_camera(settings.view, mesh);
-    check_exact(settings.options, mesh.patches().size());
+    check_own_options(settings.options, methods, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);
     std::optional<Reference> reference;
     if (!settings.reference.empty())

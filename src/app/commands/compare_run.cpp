@@ -28,12 +28,12 @@ class Runner {
     Runner(const Comparison& comparison, const MethodVariant& variant, std::uint32_t run,
            const Budget& budget)
         : comparison_(comparison), variant_(variant), run_(run), budget_(budget),
-          options_(with_memory(comparison.settings.options, comparison.settings.scene)) {
+          options_(variant.applied_to(
+              with_memory(comparison.settings.options, comparison.settings.scene))) {
         options_.rays = rays_of_step(options_.rays, budget.seconds, *variant.method,
                                      comparison.mesh.patches().size());
         options_.seed += run;
         options_.literal = options_.literal && variant.method->has_literal;
-        options_.guide = variant.guide.value_or(options_.guide);
         const Stopwatch preparing;
         solver_ = variant.method->make({.mesh = comparison.mesh,
                                         .tracer = comparison.tracer,

@@ -15,6 +15,8 @@
 #include "io/drawings/density_picture.h"
 #include "io/drawings/plane_svg.h"
 #include "io/files/atomic_file.h"
+#include "radiosity/guiding/guide.h"
+#include "radiosity/hemisphere/subdivision_1997.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,13 +152,11 @@ void check(const DensitySettings& settings) {
         throw UsageError("--patch, --rays and --plane are for .svg outputs, and there is none");
     check_own_options(settings.options, {&settings.method, 1});
     const bool has_parts = settings.method == &method_of(Role::forerunner);
-    const bool by_pyramids = settings.options.guide == Guide::pyramid;
-    if (by_pyramids && has_parts)
-        throw UsageError("--guide pyramid: " + std::string(settings.method->name) +
-                         " counts along rays alone");
+    const bool by_pyramids = settings.options.own.of<Guide>() == Guide::pyramid;
     if (by_pyramids && settings.plane)
         throw UsageError("--plane shows rays that count, and --guide pyramid has none");
-    const std::uint32_t parts = has_parts ? settings.options.subdivision_1997.parts : 1;
+    const std::uint32_t parts =
+        has_parts ? settings.options.own.of<Subdivision1997Options>().parts : 1;
     if (settings.part >= parts)
         throw UsageError(formatted("--part: there is no part %u; they are numbered from 0 to %u",
                                    settings.part, parts - 1));

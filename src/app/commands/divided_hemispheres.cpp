@@ -1,6 +1,7 @@
 #include "app/commands/divided_hemispheres.h"
 
 #include "parallel/workers.h"
+#include "radiosity/guiding/guide.h"
 #include "radiosity/guiding/pyramids.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/subdivision_1997.h"
@@ -34,7 +35,7 @@ class ByDensity final : public DividedHemispheres {
     ByDensity(const SolverInput& input, const Workers& workers)
         : input_(input), workers_(workers), hemisphere_(input.options.depth) {
         const double threshold = input.options.threshold;
-        if (input.options.guide == Guide::pyramid) {
+        if (input.options.own.of<Guide>() == Guide::pyramid) {
             leaves_ = std::make_unique<PyramidMap>(input.mesh, hemisphere_, threshold, workers,
                                                    input.monitor);
             return;
@@ -94,8 +95,8 @@ class Of1997 final : public DividedHemispheres {
   public:
     Of1997(const SolverInput& input, const Workers& workers)
         : seed_(input.options.seed),
-          subdivision_(input.mesh, input.needs, input.options.subdivision_1997) {
-        const Subdivision1997Options& numbers = input.options.subdivision_1997;
+          subdivision_(input.mesh, input.needs, input.options.own.of<Subdivision1997Options>()) {
+        const Subdivision1997Options& numbers = input.options.own.of<Subdivision1997Options>();
         level_ = static_cast<int>(numbers.stored_steps + numbers.estimated_steps);
         subdivision_.find(level_, input.tracer, workers, input.monitor);
     }

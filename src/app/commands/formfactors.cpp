@@ -13,6 +13,7 @@
 #include "io/results/factor_table.h"
 #include "io/results/npy.h"
 #include "radiosity/form_factors/exact_form_factors.h"
+#include "radiosity/form_factors/factor_options.h"
 #include "radiosity/form_factors/hemicube.h"
 #include "radiosity/form_factors/matrix_quality.h"
 
@@ -28,7 +29,8 @@ void check_size(const FormFactorSettings& settings, std::size_t patches) {
     if (patches > settings.most_dense && std::ranges::any_of(settings.outputs, is_dense))
         throw UsageError("a dense .npy matrix is for up to " + grouped(settings.most_dense) +
                          " patches, not " + grouped(patches) + "; write .csv instead");
-    check_exact(settings.options, patches);
+    const Method* const same = &method_of(Role::reference);
+    check_own_options(settings.options, {&same, 1}, patches);
 }
 
 void log_quality(Verbosity verbosity, const MatrixQuality& quality) {
@@ -60,7 +62,7 @@ void log_rays(Verbosity verbosity, std::size_t patches, std::uint64_t rays) {
 std::optional<Factors> by_hemicubes(const FormFactorSettings& settings, const Mesh& mesh,
                                     const Tracer& tracer, const Workers& workers,
                                     Monitor& monitor) {
-    const Hemicube cube(settings.options.factors.hemicube_edge);
+    const Hemicube cube(settings.options.own.of<FactorOptions>().hemicube_edge);
     const HemicubeFormFactors factors(cube, mesh, tracer, workers, monitor);
     if (monitor.interrupted)
         return std::nullopt;
@@ -77,7 +79,7 @@ std::optional<Factors> by_rays(const FormFactorSettings& settings, const Mesh& m
     if (monitor.interrupted)
         return std::nullopt;
     log_rays(settings.verbosity, mesh.patches().size(), traced);
-    if (settings.options.factors.kind == FactorKind::rays) {
+    if (settings.options.own.of<FactorOptions>().kind == FactorKind::rays) {
         SparseMatrix matrix = samples.matrix();
         const MatrixQuality quality = assess_matrix(matrix, mesh, samples);
         return Factors{std::move(matrix), quality};
@@ -104,7 +106,7 @@ int formfactors(const FormFactorSettings& settings) {
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted);
     const Workers workers(settings.options.threads);
-    const auto factors = settings.options.factors.kind == FactorKind::hemicube
+    const auto factors = settings.options.own.of<FactorOptions>().kind == FactorKind::hemicube
                              ? by_hemicubes(settings, mesh, bvh, workers, monitor)
                              : by_rays(settings, mesh, bvh, workers, monitor);
     if (!factors) {

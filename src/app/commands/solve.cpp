@@ -8,7 +8,7 @@
 #include "app/loading/reference.h"
 #include "app/running/checkpointing.h"
 #include "app/running/point_table.h"
-#include "app/running/results.h"
+#include "app/running/run_files.h"
 #include "app/running/run_notes.h"
 #include "app/running/signals.h"
 #include "app/running/step_pictures.h"
@@ -44,7 +44,7 @@ StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
     if (!stop.steps && !stop.seconds && !stop.error) {
         stop = settings.method->default_stop;
         stop.rays = settings.stop.rays;
-        if (settings.options.one_shot) // it ends by itself, whatever the number of shots
+        if (settings.work().ends_by_itself)
             stop.steps.reset();
         else if (!stop.steps && !stop.seconds && !stop.error)
             stop.steps = StopRule::default_steps;
@@ -132,7 +132,7 @@ void SolveRun::read_scene() {
         std::ranges::any_of(settings_.outputs, is_picture, &Output::kind))
         settings_.view = view_of(settings_.view, *loaded_, settings_.verbosity);
     check_camera(settings_.view, mesh());
-    check_exact(settings_.options, mesh().patches().size());
+    check_own_options(settings_.options, methods, mesh().patches().size());
     check_plain(settings_, mesh().patches().size());
     statistics_.seconds_read = loaded_->seconds_read;
 }
@@ -163,9 +163,7 @@ std::unique_ptr<Solver> SolveRun::begin() {
     const StopRule stop = stop_rule(settings_, patches);
     options_.rays =
         rays_of_step(settings_.options.rays, settings_.stop.seconds, *settings_.method, patches);
-    options_.growing_steps = !stop.steps;
-    options_.aim = stop.error.value_or(0);
-    options_.expected_steps = expected_steps(stop);
+    options_.stop = stop;
     return make_solver(settings_, *input_, loaded_->face_lines);
 }
 

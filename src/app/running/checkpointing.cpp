@@ -31,28 +31,38 @@ Options options_of(const SolveSettings& settings) {
                        {"--rays", exact_text(o.rays)},
                        {"--depth", std::to_string(o.depth)},
                        {"--threshold", exact_text(o.threshold)},
-                       {"--guide", guide_names[static_cast<std::size_t>(o.guide)]},
                        {"--seed", std::to_string(o.seed)},
                        {"--literal", yes_or_no(o.literal)},
                        {"--keep-all", yes_or_no(o.keep_all)}};
-    SolveOptions given = o;
-    for (const MethodNumber& number : settings.method->numbers)
-        options.emplace_back(number.name, std::to_string(number.value(given)));
+    for (const MethodOption& option : settings.method->own_options())
+        if (option.resumable)
+            options.emplace_back(option.name, option.get(o));
     for (const std::string& name : settings.target.names())
         options.emplace_back("--for " + name, "yes");
     return options;
 }
 
+/// Of an option of some method, which need not be named where it has this value; else empty.
+std::string default_of(const std::string& name) {
+    for (const Method* const method : methods())
+        for (const MethodOption& own : method->own_options())
+            if (own.name == name)
+                return own.get({});
+    return {};
+}
+
 void check_options(const Options& found, const Options& wanted, const std::string& file) {
-    for (const auto& [name, value] : wanted) {
-        const auto same = std::ranges::find(found, name, &Options::value_type::first);
-        const std::string there = same == found.end() ? "nothing" : same->second;
-        if (there != value)
+    const auto value_of = [](const Options& options, const std::string& name) {
+        const auto same = std::ranges::find(options, name, &Options::value_type::first);
+        return same == options.end() ? default_of(name) : same->second;
+    };
+    for (const auto& [name, value] : wanted)
+        if (const std::string there = value_of(found, name); there != value)
             throw InputError(file, "is a checkpoint of another run: expected " + name + " " +
-                                       value + ", it has " + there);
-    }
-    if (found.size() != wanted.size())
-        throw InputError(file, "is a checkpoint of another run, with options unknown here");
+                                       value + ", it has " + (there.empty() ? "nothing" : there));
+    for (const auto& [name, value] : found)
+        if (value_of(wanted, name) != value)
+            throw InputError(file, "is a checkpoint of another run, with options unknown here");
 }
 
 std::string resumable_methods() {
@@ -75,9 +85,10 @@ void check_checkpoint_options(const SolveSettings& settings) {
         throw UsageError("--checkpoint and --resume: --method " +
                          std::string(settings.method->name) +
                          " does not keep its state; these do: " + resumable_methods());
-    if (settings.options.one_shot)
-        throw UsageError(
-            "--checkpoint and --resume: a run with --one-shot does not keep its state");
+    for (const MethodOption& option : settings.method->own_options())
+        if (!option.resumable && option.is_set(settings.options))
+            throw UsageError("--checkpoint and --resume: a run with " +
+                             option.text(settings.options) + " does not keep its state");
     if (!asked.resumed.empty() && settings.every_step &&
         !(settings.view.camera && settings.view.exposure))
         throw UsageError("--every-step after --resume needs --camera and --exposure, which the "

@@ -5,12 +5,10 @@
 #include "app/running/error_map.h"
 #include "app/running/layered_picture.h"
 #include "app/running/point_table.h"
-#include "app/settings/exit_code.h"
 #include "app/settings/view.h"
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
-#include "io/files/input_file.h"
 #include "io/meshes/glb.h"
 #include "io/meshes/indirect_light.h"
 #include "io/meshes/lightmap.h"
@@ -20,6 +18,7 @@
 #include "io/pictures/image.h"
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
+#include "radiosity/guiding/guide.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/sampling/rng.h"
 
@@ -191,7 +190,7 @@ void write_report(const SolveSettings& settings, const Results& results) {
                           camera_of(settings.view, mesh, tracer, solution.radiosity),
                           settings.view.exposure};
     const bool by_densities = settings.method == &method_of(Role::paper) &&
-                              settings.options.guide == Guide::density && !settings.plain;
+                              guide_of(settings.options) == Guide::density && !settings.plain;
     if (!by_densities)
         return write_report_page(settings.report, content);
     Monitor monitor; // counted anew, as the method does not keep all
@@ -203,81 +202,7 @@ void write_report(const SolveSettings& settings, const Results& results) {
     write_report_page(settings.report, content);
 }
 
-/// The files of --lightmap.
-std::vector<std::string> lightmap_paths(const SolveSettings& settings) {
-    std::vector<std::string> paths;
-    for (const Output& output : settings.outputs)
-        if (settings.lightmap && output.kind == OutputKind::glb) {
-            if (output.path == standard_output)
-                throw UsageError("--lightmap takes its name from the .glb file; -o -.glb has none");
-            paths.push_back(lightmap_path(output.path));
-        }
-    if (settings.lightmap && paths.empty())
-        throw UsageError("--lightmap is for .glb files; add -o scene.glb");
-    return paths;
-}
-
 } // namespace
-
-RunFiles check_files(const SolveSettings& settings) {
-    std::vector<std::pair<std::string, std::string>> written;
-    for (const Output& output : settings.outputs)
-        written.emplace_back("output", output.path);
-    for (const std::string& path : lightmap_paths(settings))
-        written.emplace_back("file of --lightmap", path);
-    for (const auto& [role, path] : {std::pair("file of --points-output", settings.points.output),
-                                     std::pair("file of --error-map", settings.error_map),
-                                     std::pair("file of --stats", settings.statistics),
-                                     std::pair("file of --report", settings.report),
-                                     std::pair("file of --steps-log", settings.steps_log)})
-        if (!path.empty())
-            written.emplace_back(role, path);
-    if (settings.points.path.empty() != settings.points.output.empty())
-        throw UsageError(settings.points.path.empty()
-                             ? "--points-output is the table of --points; add --points FILE"
-                             : "--points needs a file for its table; add --points-output "
-                               "light.csv (or /dev/stdout)");
-    if (written.empty())
-        throw UsageError("nothing would be written; add an output such as -o picture.png");
-    if (settings.every_step && std::ranges::none_of(settings.outputs, is_picture, &Output::kind))
-        throw UsageError("--every-step is for pictures; add -o picture.png");
-    if (settings.every_step && std::ranges::find(settings.outputs, standard_output,
-                                                 &Output::path) != settings.outputs.end())
-        throw UsageError("--every-step names a file for each step; -o - has no name");
-    const auto& [checkpoint, resumed, every] = settings.checkpoint;
-    if (!checkpoint.empty())
-        written.emplace_back("checkpoint", checkpoint);
-    RunFiles files;
-    for (const auto& [role, path] : written)
-        files.write(role, path);
-    for (const Output& output : settings.outputs)
-        if (settings.every_step && is_picture(output.kind))
-            files.write_steps(output.path);
-    files.read("scene", settings.scene.path);
-    if (!settings.scene.config.empty())
-        files.read("file of --config", settings.scene.config);
-    if (!settings.reference.empty())
-        files.read("reference", settings.reference);
-    if (!settings.points.path.empty())
-        files.read("file of --points", settings.points.path);
-    for (const std::string& path : settings.target.points)
-        files.read("file of --for", path);
-    // A run may renew the checkpoint that it goes on from.
-    if (!resumed.empty() && resumed != checkpoint &&
-        identity_of(resumed) != identity_of(checkpoint))
-        files.read("file of --resume", resumed);
-    for (const auto& [role, path] : written)
-        check_writable(path);
-    for (const std::string& path : {settings.reference, settings.points.path})
-        if (!path.empty())
-            check_input(path, InputKind::stream);
-    for (const std::string& path : settings.target.points)
-        check_input(path, InputKind::regular);
-    if (is_same_stream(settings.reference, settings.points.path))
-        throw UsageError("--reference and --points: '" + settings.points.path +
-                         "' is a pipe, which can be read once");
-    return files;
-}
 
 WriteReport write_results(const SolveSettings& settings, const Results& results,
                           const Stopwatch& started) {

@@ -27,11 +27,6 @@ struct Results {
     const StopFlag& interrupted;           ///< pictures are then left out where they take long
 };
 
-/// The files of the run, as far as they are known before the scene is read. Throws UsageError where
-/// nothing would be written or an output is another file of the run, OutputError where a file
-/// cannot be made, InputError where one cannot be read.
-[[nodiscard]] RunFiles check_files(const SolveSettings& settings);
-
 /// Writes all outputs, the statistics last: with the seconds that the others took, and those of the
 /// run since it was `started`.
 [[nodiscard]] WriteReport write_results(const SolveSettings& settings, const Results& results,

@@ -2,7 +2,7 @@
 // What a user must know of how a run ended, besides its numbers: that an error is not known, that
 // it was not reached, that the estimate has jumped.
 
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/run.h"
 
 #include <string>
 #include <vector>

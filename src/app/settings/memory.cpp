@@ -1,9 +1,6 @@
 #include "app/settings/memory.h"
 
 #include "app/settings/text.h"
-#include "radiosity/guiding/patch_boxes.h"
-#include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/hemisphere/subdivision_1997.h"
 #include "radiosity/scene/coplanar_overlaps.h"
 
 #include <algorithm>
@@ -23,18 +20,8 @@ constexpr double bytes_of_program = 12e6;
 constexpr double growth = 2;
 /// Per triangle: boxes while the tree is built, and a leaf's share.
 constexpr double bytes_per_triangle = 150;
-/// Of a guide by what is seen: its byte, and the importance and number of the hits that it learns
-/// from.
-constexpr double bytes_per_leaf = 18;
 /// Of a stepwise method: solution, spread, one step.
 constexpr double bytes_per_solution = 225;
-/// Of a matrix of form factors: index, value, and the counts that they come from, with room to
-/// grow.
-constexpr double bytes_per_factor = 32;
-/// Of `hierarchical`: a link with its factors in all batches, and about so many of a patch.
-constexpr double bytes_per_link = 100, links_per_patch = 150;
-/// Independent matrices that `matrix` keeps to know its error.
-constexpr double batches = 8;
 /// What `stored-transport` may use for its rays where --memory says nothing: a scene of a million
 /// patches then stays within 4 GiB.
 constexpr std::uint64_t default_transport = std::uint64_t{5} << 29;
@@ -73,34 +60,9 @@ double pieces(double length, double max_edge) {
     return std::max(1.0, std::ceil(length / max_edge));
 }
 
-std::size_t leaves(int depth) {
-    return Hemisphere::cells_up_to(depth) - (depth > 0 ? Hemisphere::cells_up_to(depth - 1) : 0);
-}
-
-/// The methods that keep all pairs keep no more of them than rays were shot.
 double bytes_of(const Method& method, const SolveOptions& options, double patches) {
-    double bytes = bytes_per_solution * patches;
-    if (method.role == Role::forerunner)
-        bytes += patches * Subdivision1997::bytes_of_patch(options.subdivision_1997);
-    else if (method.work.densities && options.guide == Guide::density)
-        bytes +=
-            growth * patches * static_cast<double>(Hemisphere(options.depth).vertices().size());
-    else if (method.work.densities && options.guide == Guide::pyramid)
-        bytes += patches * static_cast<double>(Hemisphere::cells_up_to(options.depth) +
-                                               2 * sizeof(PatchBoxes::Node));
-    else if (method.work.densities)
-        bytes += bytes_per_leaf * patches * static_cast<double>(leaves(options.depth));
-    const bool by_hemicubes = options.factors.kind == FactorKind::hemicube;
-    if (method.work.pairs && method.work.linear_systems && by_hemicubes)
-        bytes += bytes_per_factor * patches *
-                 std::min(patches, 3.0 * std::pow(options.factors.hemicube_edge, 2));
-    else if (method.work.pairs && method.work.linear_systems)
-        bytes += batches * bytes_per_factor * patches * std::min(patches, options.rays);
-    else if (method.work.linear_systems)
-        bytes += bytes_per_link * patches * std::min(patches, links_per_patch);
-    else if (method.work.pairs)
-        bytes += bytes_per_factor * patches * std::min(patches, options.rays);
-    return bytes + bytes_of_ray_batches;
+    return bytes_per_solution * patches + (method.bytes ? method.bytes(options, patches) : 0) +
+           bytes_of_ray_batches;
 }
 
 std::string rounded(double bytes) {

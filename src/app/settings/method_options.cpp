@@ -2,7 +2,6 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"
-#include "radiosity/form_factors/exact_form_factors.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -23,55 +22,41 @@ std::string methods_with_a_page() {
     return names_of_methods([](const Method& method) { return method.plain != nullptr; });
 }
 
+SolveOptions MethodVariant::applied_to(SolveOptions options) const {
+    for (const MethodOption& own : method->own_options())
+        if (own.name == option)
+            own.set(options, value);
+    return options;
+}
+
 namespace {
 
-std::string name_of(FactorKind kind) {
-    return kind == FactorKind::exact
-               ? "--exact"
-               : "--factors " + std::string(factor_names.at(static_cast<std::size_t>(kind)));
-}
-
-bool takes(const Method& method, FactorKind kind) {
-    return std::ranges::find(method.factors, kind) != method.factors.end();
-}
-
-void check_factors(FactorKind kind, std::span<const Method* const> chosen) {
-    if (kind == FactorKind::rays ||
-        std::ranges::any_of(chosen, [kind](const Method* method) { return takes(*method, kind); }))
-        return;
-    throw UsageError(
-        name_of(kind) + " is for --method " +
-        names_of_methods([kind](const Method& method) { return takes(method, kind); }, " or "));
-}
-
-/// Flags or numbers that were given are taken by a method that was chosen.
-template <auto own>
-void check_taken(SolveOptions options, std::span<const Method* const> chosen) {
-    SolveOptions defaults;
-    for (const Method* const method : methods())
-        for (const auto& option : method->*own) {
-            const auto takes = [&option](const Method& other) {
-                return std::ranges::find(other.*own, option.name, [](const auto& its) {
-                           return its.name;
-                       }) != (other.*own).end();
-            };
-            if (option.value(options) != option.value(defaults) &&
-                std::ranges::none_of(chosen, [&](const Method* one) { return takes(*one); }))
-                throw UsageError(std::string(option.name) + " is for --method " +
-                                 names_of_methods(takes, " or "));
-        }
+/// Whether the method has an option of this name that takes this value.
+bool takes(const Method& method, const std::string& name, const std::string& value) {
+    SolveOptions ignored;
+    return std::ranges::any_of(method.own_options(), [&](const MethodOption& own) {
+        return own.name == name && own.set(ignored, value);
+    });
 }
 
 } // namespace
 
-void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen) {
-    check_factors(options.factors.kind, chosen);
-    check_taken<&Method::flags>(options, chosen);
-    check_taken<&Method::numbers>(options, chosen);
+void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen,
+                       std::size_t patches) {
+    for (const Method* const method : methods())
+        for (const MethodOption& own : method->own_options()) {
+            const auto takes_it = [&own, value = own.get(options)](const Method& other) {
+                return takes(other, own.name, value);
+            };
+            if (own.is_set(options) &&
+                std::ranges::none_of(chosen, [&](const Method* one) { return takes_it(*one); }))
+                throw UsageError(own.text(options) + " is for --method " +
+                                 names_of_methods(takes_it, " or "));
+        }
     for (const Method* const method : chosen)
         try {
             if (method->check)
-                method->check(options);
+                method->check(options, patches);
         } catch (const std::invalid_argument& error) {
             throw UsageError(error.what());
         }
@@ -83,11 +68,10 @@ void check_plain(const SolveSettings& settings) {
     if (!settings.method->plain)
         throw UsageError("--plain: --method " + std::string(settings.method->name) +
                          " has no page; these have one: " + methods_with_a_page());
-    if (settings.options.guide != Guide::density)
-        throw UsageError("--plain is guided by densities alone; leave out --guide " +
-                         std::string(guide_names.at(std::size_t(settings.options.guide))));
-    if (settings.options.one_shot)
-        throw UsageError("--plain shows whole solutions; leave out --one-shot");
+    for (const MethodOption& own : settings.method->own_options())
+        if (!own.on_page && own.is_set(settings.options))
+            throw UsageError("--plain: the page of " + std::string(settings.method->name) +
+                             " does not have it; leave out " + own.text(settings.options));
     if (!settings.checkpoint.path.empty() || !settings.checkpoint.resumed.empty())
         throw UsageError("--plain keeps no state; leave out --checkpoint and --resume");
 }
@@ -98,13 +82,6 @@ void check_plain(const SolveSettings& settings, std::size_t patches) {
         throw UsageError("--plain --method " + std::string(method.name) +
                          " keeps all pairs of patches: it is for up to " +
                          grouped(method.most_plain_patches) + " patches, not " + grouped(patches));
-}
-
-void check_exact(const SolveOptions& options, std::size_t patches) {
-    if (options.factors.kind == FactorKind::exact && patches > most_patches_for_exact_factors)
-        throw UsageError("--exact is for up to " + grouped(most_patches_for_exact_factors) +
-                         " patches, not " + grouped(patches) +
-                         "; leave it out and take more --rays");
 }
 
 } // namespace hemilux

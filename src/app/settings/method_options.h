@@ -1,5 +1,5 @@
 #pragma once
-// Checks options that belong to one method alone.
+// Checks options that belong to single methods (MethodOption).
 
 #include "app/settings/settings.h"
 
@@ -10,9 +10,10 @@
 
 namespace hemilux {
 
-/// Throws UsageError where an option was given whose method (Method::flags, Method::factors) is not
-/// among these.
-void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen);
+/// Throws UsageError where an option is set that none of these methods has, or not with this value,
+/// or where their own checks find fault; patches: 0 before their number is known.
+void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen,
+                       std::size_t patches = 0);
 
 /// The names of the methods for which `belongs` holds, with `between` between them.
 [[nodiscard]] std::string names_of_methods(const std::function<bool(const Method&)>& belongs,
@@ -26,8 +27,5 @@ void check_own_options(const SolveOptions& options, std::span<const Method* cons
 void check_plain(const SolveSettings& settings);
 /// Throws UsageError if the page takes fewer patches than the scene has.
 void check_plain(const SolveSettings& settings, std::size_t patches);
-
-/// Throws UsageError if exact factors would take too long.
-void check_exact(const SolveOptions& options, std::size_t patches);
 
 } // namespace hemilux

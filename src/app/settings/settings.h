@@ -10,7 +10,7 @@
 #include "io/pictures/camera.h"
 #include "io/results/statistics.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
 
 #include <array>
 #include <cstdint>
@@ -38,13 +38,6 @@ struct SceneSettings {
     std::optional<std::uint64_t> memory; ///< bytes that a run may need
     std::string spill; ///< a folder for what memory has no room for (spill.h); empty: none
 };
-
-/// The values of --guide, in the order of Guide.
-inline constexpr std::array<const char*, 4> guide_names = {"density", "pyramid", "visible",
-                                                           "learned"};
-
-/// As --factors names them, in the order of FactorKind.
-inline constexpr std::array<const char*, 3> factor_names = {"rays", "exact", "hemicube"};
 
 /// How much is said on stderr.
 enum class Verbosity { quiet, normal, verbose };
@@ -139,12 +132,13 @@ struct Budget {
     static constexpr double default_steps = 64; ///< of the mean rays per patch and step
 };
 
-/// A method as `compare` names it: `hemisphere-visible` and `hemisphere-learned` are hemisphere
-/// with another guide.
+/// A method as `compare` names it: `hemisphere-visible` is hemisphere with `--guide visible`.
 struct MethodVariant {
     std::string name;
     const Method* method = nullptr;
-    std::optional<Guide> guide; ///< empty: as --guide says
+    /// A value of one of its own options (MethodOption::makes_variants). Empty: as it is given.
+    std::string option, value;
+    [[nodiscard]] SolveOptions applied_to(SolveOptions options) const;
 };
 
 struct CompareSettings {

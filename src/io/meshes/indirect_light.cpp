@@ -1,6 +1,6 @@
 #include "io/meshes/indirect_light.h"
 
-#include "radiosity/rays/shot.h"
+#include "radiosity/rays/patch_start.h"
 
 namespace hemilux {
 
@@ -9,15 +9,11 @@ std::vector<Vec3> indirect_irradiance(const Mesh& mesh, const Tracer& tracer,
                                       std::uint64_t seed, const Workers& workers) {
     std::vector<Vec3> irradiance(mesh.patches().size(), Vec3(0.0));
     const auto gather = [&](std::uint32_t patch) {
-        const PolygonSampler points(mesh.patches()[patch].shape);
-        const Frame frame = mesh.hemisphere_frame(patch);
+        const PatchStart start(mesh, patch);
         Rng rng(hash_words({seed, patch}));
         std::vector<Ray> group(rays);
-        for (Ray& ray : group) {
-            ray.origin = sample_uniform(points, rng);
-            ray.direction = frame.to_world(sample_cosine(rng));
-            ray.from = mesh.patches()[patch].facet;
-        }
+        for (Ray& ray : group)
+            ray = start.cosine_ray(rng);
         std::vector<std::uint32_t> receivers;
         find_receivers(group, mesh, tracer, receivers);
         for (const std::uint32_t receiver : receivers)

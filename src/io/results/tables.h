@@ -5,7 +5,7 @@
 
 #include "parallel/workers.h"
 #include "radiosity/solution/solution.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/run.h"
 
 #include <cstdint>
 #include <optional>

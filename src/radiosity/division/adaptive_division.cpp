@@ -9,6 +9,7 @@
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/scene/needs.h"
+#include "radiosity/solving/method.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +71,7 @@ Solution rough_solution(const Mesh& mesh, const Tracer& tracer, const AdaptiveDi
     solve.seed = options.seed;
     solve.threads = options.threads;
     const StopRule stop = rough_stop(options, mesh.patches().size());
-    solve.aim = stop.error.value_or(0);
+    solve.stop = stop;
     solve.memory = options.memory;
     const SolverInput input{mesh, tracer, solve, monitor, needs, target};
     const auto solver = method_of(Role::standard).make(input);

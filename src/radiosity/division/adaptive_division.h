@@ -9,7 +9,7 @@
 
 #include "bvh/tracer.h"
 #include "parallel/workers.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/run.h"
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,6 @@
 #include "radiosity/form_factors/ray_counts.h"
 
-#include "geometry/polygon_sampler.h"
-#include "radiosity/rays/shot.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/saving/state.h"
@@ -22,17 +21,14 @@ namespace {
 constexpr std::uint32_t rays_in_burst = 1u << 14;
 
 /// Some of a block's rays. Of the four dimensions the first two are the best distributed.
-void draw(const Patch& from, const PolygonSampler& origins, const Frame& frame,
-          const SobolBlocks<4>& points, std::size_t first, std::size_t count,
-          std::vector<Ray>& rays) {
+void draw(const PatchStart& start, const SobolBlocks<4>& points, std::size_t first,
+          std::size_t count, std::vector<Ray>& rays) {
     std::array<double, samples_per_block> x, y, z;
     sampling_kernels().cosine(samples_per_block, points.coordinate(0), points.coordinate(1),
                               x.data(), y.data(), z.data());
-    for (std::size_t k = first; k < first + count; ++k) {
-        const Vec2 u(points.coordinate(2)[k], points.coordinate(3)[k]);
-        rays.push_back({origins.sample(u), frame.to_world({x[k], y[k], z[k]})});
-        rays.back().from = from.facet;
-    }
+    for (std::size_t k = first; k < first + count; ++k)
+        rays.push_back(
+            start.ray({points.coordinate(2)[k], points.coordinate(3)[k]}, {x[k], y[k], z[k]}));
 }
 
 } // namespace
@@ -152,9 +148,7 @@ void RayCounts::trace_block(std::size_t block, std::span<const std::uint32_t> ra
 }
 
 void RayCounts::draw_row(std::uint32_t patch, std::uint32_t end, RayBatch& batch) {
-    const Patch& from = mesh_.patches()[patch];
-    const PolygonSampler origins(from.shape);
-    const Frame frame = Frame::from_normal(from.normal);
+    const auto start = PatchStart::in_any_axes(mesh_, patch);
     SobolBlocks<4> points(hash_words({seed_, patch}));
     while (rows_[patch].rays < end) {
         const std::uint32_t first = rows_[patch].rays;
@@ -163,7 +157,7 @@ void RayCounts::draw_row(std::uint32_t patch, std::uint32_t end, RayBatch& batch
             const std::size_t in_block = k % samples_per_block;
             const auto count = std::min<std::size_t>(samples_per_block - in_block, last - k);
             points.move_to(k);
-            draw(from, origins, frame, points, in_block, count, batch.rays);
+            draw(start, points, in_block, count, batch.rays);
             k += static_cast<std::uint32_t>(count);
         }
         batch.groups.push_back({patch, last - first});

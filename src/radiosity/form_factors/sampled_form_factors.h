@@ -25,7 +25,10 @@ namespace hemilux {
 class Mesh;
 struct Monitor;
 
-/// Sparse matrix by rows; the entries of a row are in any order [-].
+/// Sparse matrix by rows; the entries of a row are in any order, each column once [-]. The
+/// reference is solved to a residual of 1e-12 and written to files, so its values are doubles and
+/// what two patches saw of each other is merged. Stored transport has rows of floats without
+/// merging (sparse_rows.h): its rays err more than floats round.
 struct SparseMatrix {
     std::vector<std::size_t> row_begin; ///< one more than rows
     std::vector<std::uint32_t> column;

@@ -11,6 +11,10 @@
 
 namespace hemilux {
 
+/// Of a sparse matrix of form factors at its peak: column, value, and the counts that they come
+/// from, with room to grow.
+inline constexpr double bytes_per_factor = 32;
+
 class SparseRows {
   public:
     SparseRows() = default;

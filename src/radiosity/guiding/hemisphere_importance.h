@@ -38,6 +38,9 @@ class HemisphereImportance {
     [[nodiscard]] std::size_t leaves() const { return leaves_; }
     /// The share of a patch's power that a leaf has.
     [[nodiscard]] double share(std::size_t leaf) const { return shares_[first_leaf_ + leaf]; }
+    [[nodiscard]] std::vector<double> shares() const {
+        return {shares_.end() - static_cast<std::ptrdiff_t>(leaves_), shares_.end()};
+    }
     /// Integral of the importance over a patch's hemisphere by its own hits, times its area.
     [[nodiscard]] double sum_of(std::uint32_t patch) const;
     /// The importance of each leaf, for sums that are to be multiplied by `scale`; `prior_mean` is

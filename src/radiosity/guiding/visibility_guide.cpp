@@ -2,17 +2,16 @@
 
 #include "parallel/workers.h"
 #include "radiosity/guiding/hemisphere_importance.h"
+#include "radiosity/guiding/ray_densities.h"
 #include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/hemisphere/log_byte.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/rays/receivers.h"
-#include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -32,7 +31,7 @@ constexpr std::uint64_t steps_of_learning = 8, later_training = 4;
 constexpr double unknown_share = .05;
 
 /// Kept within what floats hold, whatever the areas.
-constexpr double most_value = 1e12, most_rays_per_area = 1e18, most_density = 1e12;
+constexpr double most_value = 1e12, most_rays_per_area = 1e18;
 
 /// After the first four, as often as what is known has grown by a third or a half: 6, 8, 12, 16 ...
 bool is_time_to_estimate(std::uint64_t step) {
@@ -46,11 +45,8 @@ class VisibilityGuide final : public Strategy {
                     bool learn)
         : mesh_(input.mesh), needs_(input.needs), hemisphere_(hemisphere), workers_(workers),
           first_leaf_(Hemisphere::cells_up_to(hemisphere.depth() - 1)), keeps_learning_(learn),
-          known_(hemisphere, input.mesh.patches().size()) {
-        const std::size_t patches = mesh_.patches().size();
-        importance_.assign(patches * known_.leaves(), log_byte::from(1));
-        density_.fill(1);
-        rays_for_power_.assign(patches, 1);
+          known_(hemisphere, input.mesh.patches().size()),
+          densities_(input.mesh.patches().size(), known_.shares()) {
         describe_sides();
         look(input);
     }
@@ -84,15 +80,15 @@ class VisibilityGuide final : public Strategy {
     }
 
     [[nodiscard]] double rays_for_power(std::uint32_t patch) const override {
-        return rays_for_power_[patch];
+        return densities_.for_power(patch);
     }
 
     Allocation allocate(std::uint32_t patch, AllocatedCells& memory) const override {
-        const double scale = 1 / rays_for_power_[patch];
+        const double scale = 1 / densities_.for_power(patch);
         memory.clear();
         for (std::size_t t = 0; t < known_.leaves(); ++t)
             memory.add(static_cast<std::uint16_t>(first_leaf_ + t),
-                       known_.share(t) * scale * density(patch, t));
+                       known_.share(t) * scale * densities_.of(patch, t));
         return memory.view();
     }
 
@@ -112,14 +108,15 @@ class VisibilityGuide final : public Strategy {
                std::span<const std::uint16_t> arrivals) override {
         const Side side = sides_[patch];
         const std::size_t leaf = cell - first_leaf_;
-        const double sent = side.rays_per_area * density(patch, leaf); // D_it
+        const double sent = side.rays_per_area * densities_.of(patch, leaf); // D_it
         float sum = 0;
         for (std::size_t k = 0; k < receivers.size(); ++k) {
             if (receivers[k] >= sides_.size())
                 continue;
             const Side& other = sides_[receivers[k]];
             const std::size_t there = arrivals[k] - first_leaf_;
-            const double received = other.rays_per_area * density(receivers[k], there); // D_js
+            const double received =
+                other.rays_per_area * densities_.of(receivers[k], there); // D_js
             const auto part = static_cast<float>(1 / (sent + received));
             sum += part * other.value;
             known_.add(receivers[k], there, part * side.value, 1);
@@ -132,7 +129,7 @@ class VisibilityGuide final : public Strategy {
 
     [[nodiscard]] std::uint64_t density_rays() const override { return rays_; }
     [[nodiscard]] std::uint64_t density_bytes() const override {
-        return importance_.size() + (keeps_learning_ ? known_.bytes() : 0);
+        return densities_.bytes() + (keeps_learning_ ? known_.bytes() : 0);
     }
 
   private:
@@ -148,10 +145,6 @@ class VisibilityGuide final : public Strategy {
         std::vector<std::uint16_t> cells, arrivals;
     };
 
-    /// Rays for the power of a leaf, on average 1.
-    [[nodiscard]] double density(std::uint32_t patch, std::size_t leaf) const {
-        return density_[importance_[patch * known_.leaves() + leaf]];
-    }
     [[nodiscard]] std::size_t rays_of_look() const {
         return keeps_learning_ ? rays_of_first_look : rays_of_one_look;
     }
@@ -162,7 +155,6 @@ class VisibilityGuide final : public Strategy {
     void look_from(std::uint32_t patch, const SolverInput& input, LookRays& looks) const;
     void estimate_importance(std::span<const Vec3> radiosity);
     [[nodiscard]] double find_prior_mean() const;
-    void find_density(double mean_root);
     template <class Body>
     void for_patches(const Body& body) const;
 
@@ -174,15 +166,12 @@ class VisibilityGuide final : public Strategy {
     bool keeps_learning_, learns_ = false;
     bool prepared_ = false; ///< not before the pilot
     HemisphereImportance known_;
+    RayDensities densities_;
     double training_steps_ = 0; ///< steps whose rays are in known_, the look being a part of one
     std::uint64_t steps_ = 0;   ///< from 1; 0 before the pilot
     std::uint64_t rays_ = 0;
-    double mean_root_ = 0;                         ///< of sqrt(V) over all power
-    std::vector<std::uint8_t> importance_;         ///< sqrt(V) by patch and leaf
-    std::array<double, log_byte::values> density_; ///< by the byte of importance_
-    std::vector<double> rays_for_power_;           ///< by patch
-    std::vector<Side> sides_;                      ///< by patch
-    std::vector<Frame> frames_;                    ///< by patch
+    std::vector<Side> sides_;   ///< by patch
+    std::vector<Frame> frames_; ///< by patch
 };
 
 template <class Body>
@@ -238,18 +227,16 @@ void VisibilityGuide::look(const SolverInput& input) {
 void VisibilityGuide::look_from(std::uint32_t patch, const SolverInput& input,
                                 LookRays& looks) const {
     looks = {};
-    const Patch& from = mesh_.patches()[patch];
-    if (!needs_.power(patch) || !(from.area > 0) || input.monitor.interrupted)
+    if (!needs_.power(patch) || !(mesh_.patches()[patch].area > 0) || input.monitor.interrupted)
         return;
     constexpr std::uint64_t stream = 0x5ee2; // of no step
     SobolBlocks<4> points(hash_words({input.options.seed, stream, patch}));
-    const PolygonSampler origins(from.shape);
+    const PatchStart start(mesh_, patch, frames_[patch]);
     for (std::uint32_t k = 0; k < rays_of_look(); ++k) {
         const auto u = points.at(k);
         const Vec3 direction = cosine_direction({u[2], u[3]});
         looks.cells.push_back(hemisphere_.leaf_at(direction));
-        looks.rays.push_back({origins.sample({u[0], u[1]}), frames_[patch].to_world(direction)});
-        looks.rays.back().from = from.facet;
+        looks.rays.push_back(start.ray({u[0], u[1]}, direction));
     }
     find_receivers(looks.rays, mesh_, input.tracer, looks.receivers);
     find_arrivals(looks.rays, looks.receivers, looks.arrivals);
@@ -285,11 +272,8 @@ void VisibilityGuide::estimate_importance(std::span<const Vec3> radiosity) {
         thread_local std::vector<double> importance;
         importance.resize(known_.leaves());
         known_.estimate(i, 1 / (training_steps_ * mesh_.patches()[i].area), prior_mean, importance);
-        for (std::size_t t = 0; t < importance.size(); ++t) {
-            std::uint8_t& byte = importance_[i * importance.size() + t];
-            byte = log_byte::from(std::sqrt(importance[t] + energy));
-            roots[i] += known_.share(t) * log_byte::value(byte);
-        }
+        for (std::size_t t = 0; t < importance.size(); ++t)
+            roots[i] += known_.share(t) * densities_.keep(i, t, std::sqrt(importance[t] + energy));
     });
     double power = 0, sum = 0;
     for (std::size_t i = 0; i < roots.size(); ++i) {
@@ -297,30 +281,15 @@ void VisibilityGuide::estimate_importance(std::span<const Vec3> radiosity) {
         power += shot;
         sum += shot * roots[i];
     }
-    find_density(power > 0 ? sum / power : 0);
-}
-
-void VisibilityGuide::find_density(double mean_root) {
-    mean_root_ = mean_root;
-    for (std::size_t byte = 0; byte < log_byte::values; ++byte) {
-        const double guided = mean_root > 0 ? log_byte::value(byte) / mean_root : 1;
-        density_[byte] = lowest_density + (1 - lowest_density) * std::min(guided, most_density);
-    }
-    for_patches([&](std::uint32_t i) {
-        double rays = 0;
-        for (std::size_t t = 0; t < known_.leaves(); ++t)
-            rays += known_.share(t) * density(i, t);
-        rays_for_power_[i] = rays;
-    });
+    densities_.set_mean(power > 0 ? sum / power : 0);
+    for_patches([&](std::uint32_t i) { densities_.find_for_power(i); });
 }
 
 /// rays_per_area follows from the radiosity before each step.
 void VisibilityGuide::save(StateWriter& state) const {
     state.add(steps_);
     state.add(training_steps_);
-    state.add(mean_root_);
-    state.add(
-        std::string_view(reinterpret_cast<const char*>(importance_.data()), importance_.size()));
+    densities_.save(state);
     if (keeps_learning_)
         known_.save(state);
 }
@@ -329,14 +298,10 @@ void VisibilityGuide::load(StateReader& state) {
     steps_ = state.whole_up_to(std::numeric_limits<std::uint32_t>::max());
     const double of_look = training_steps_; // each step adds one at most
     training_steps_ = state.number({of_look, of_look + static_cast<double>(steps_)});
-    const double mean_root = state.number(bounds::non_negative);
-    const std::string importance = state.text();
-    if (importance.size() != importance_.size())
-        throw StateError("the number of triangles is not that of the patches");
-    std::ranges::copy(importance, importance_.begin());
+    densities_.load(state);
     if (keeps_learning_)
         known_.load(state);
-    find_density(mean_root);
+    for_patches([&](std::uint32_t i) { densities_.find_for_power(i); });
 }
 
 } // namespace

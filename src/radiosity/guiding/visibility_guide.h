@@ -20,8 +20,8 @@
 // show, and as some hits more for what its parent's show: children whose parent's hits do not show
 // a spread share its importance.
 //
-// Each triangle keeps sqrt(V) in one byte, as a logarithm. No triangle gets less than a part of its
-// share by power, so none starves and no ray carries more than 1 / lowest_density of the mean.
+// Each triangle keeps sqrt(V) in one byte, and none gets less than a part of its share by power
+// (ray_densities.h).
 
 #include "radiosity/shooting/strategy.h"
 
@@ -30,9 +30,6 @@
 namespace hemilux {
 
 class Workers;
-
-/// The part of its rays by power alone that a triangle always gets.
-inline constexpr double lowest_density = .2;
 
 /// Learns from a few rays of each patch before the first step, and with `learn` also from all rays
 /// of the steps.

@@ -22,6 +22,16 @@ namespace hemilux {
 class Mesh;
 class Workers;
 
+/// What the user of the technique of 1997 gives (paper section 4). Each step makes four times as
+/// many spherical triangles, of which a patch may have 16384 at most: parts times
+/// 4^(1 + stored_steps + estimated_steps).
+struct Subdivision1997Options {
+    std::uint32_t stored_steps = 2; ///< n, 0 to 5: of counted surfaces; each takes rays and memory
+    std::uint32_t estimated_steps = 1; ///< m, 0 to 6: of estimated ones
+    /// Fictive parts of a patch, each with a hemisphere of its own: 1, 4, 16 or 64.
+    std::uint32_t parts = 4;
+};
+
 class Subdivision1997 {
   public:
     /// A patch may have as many triangles, of all its parts.

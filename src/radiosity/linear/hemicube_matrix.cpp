@@ -1,5 +1,6 @@
 #include "radiosity/linear/hemicube_matrix.h"
 
+#include "radiosity/form_factors/factor_options.h"
 #include "radiosity/form_factors/hemicube.h"
 #include "radiosity/linear/radiosity_system.h"
 #include "radiosity/scene/mesh.h"
@@ -25,7 +26,7 @@ class HemicubeMatrix final : public Solver {
 
     bool step() override {
         const Workers workers(input_.options.threads);
-        const Hemicube cube(input_.options.factors.hemicube_edge);
+        const Hemicube cube(input_.options.own.of<FactorOptions>().hemicube_edge);
         input_.monitor.phase = "hemicubes";
         const HemicubeFormFactors factors(cube, input_.mesh, input_.tracer, workers,
                                           input_.monitor);

@@ -10,7 +10,7 @@
 // With --literal (`printed_`) the rules are those of the print; beside each stands the corrected
 // one (docs/decisions.md, D1, D2, D4, D10, D34 and D61).
 
-#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/hemisphere/subdivision_1997.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/plain/step.h"
 #include "radiosity/plain/stored_subdivision.h"
@@ -27,9 +27,9 @@ class Hemisphere1997 final : public StepSolver {
   public:
     explicit Hemisphere1997(const SolverInput& input)
         : StepSolver(input, !input.options.literal), printed_(input.options.literal),
-          n(static_cast<int>(input.options.subdivision_1997.stored_steps)),
-          m(static_cast<int>(input.options.subdivision_1997.estimated_steps)),
-          parts_(input.options.subdivision_1997.parts), tree_(n),
+          n(static_cast<int>(input.options.own.of<Subdivision1997Options>().stored_steps)),
+          m(static_cast<int>(input.options.own.of<Subdivision1997Options>().estimated_steps)),
+          parts_(input.options.own.of<Subdivision1997Options>().parts), tree_(n),
           stored_(input.mesh.patches().size() * parts_) {
         if (!printed_)
             divide_to(n);

@@ -44,15 +44,12 @@ class MonteCarlo final : public StepSolver {
             const double due = mean_of_channels(Phi) / Phi_mean;
             const double rays = std::floor(due + Rng(stream).uniform());
             const Vec3 Phi_ray = Phi / (due >= 1 ? rays : due);
-            const Patch& its = input_.mesh.patches()[shooter];
-            const PolygonSampler points(its.shape);
-            const Frame frame = Frame::from_normal(its.normal);
+            const auto start = PatchStart::in_any_axes(input_.mesh, shooter);
             Rng random(0);
             for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(rays); ++k) {
                 if (k % rays_per_stream == 0)
                     random = Rng(hash_words({stream, k / rays_per_stream}));
-                const Ray ray = cosine_ray(its, points, frame, random);
-                const std::uint32_t i = result.shoot(ray, Phi_ray);
+                const std::uint32_t i = result.shoot(start.cosine_ray(random), Phi_ray);
                 if (i == none)
                     continue;
                 unshot[i] += input_.mesh.material(i).reflectance * Phi_ray;

@@ -11,16 +11,12 @@
 namespace hemilux::plain {
 
 void shoot_plainly(const Due& due, const Rays& rays, Step& result) {
-    const Mesh& mesh = result.input.mesh;
-    const Patch& patch = mesh.patches()[due.patch];
-    const Frame frame = mesh.hemisphere_frame(due.patch);
-    const PolygonSampler points(patch.shape);
+    const PatchStart start(result.input.mesh, due.patch);
     const Vec3 Phi_ray = 1 / rays.divisor * result.unshot[due.patch];
     for (std::uint64_t k = 0; k < rays.number; ++k) {
         RayNumbers random(due.key, static_cast<std::uint32_t>(k));
         const double u = random.next(), v = random.next();
-        result.shoot(patch, points.sample(random.start()), frame.to_world(cosine_direction({u, v})),
-                     Phi_ray);
+        result.shoot(start.ray(random.start(), cosine_direction({u, v})), Phi_ray);
     }
 }
 

@@ -3,7 +3,7 @@
 // rays that they are due, and the mean of the steps (mean_of_steps.h).
 
 #include "radiosity/plain/ray_numbers.h"
-#include "radiosity/rays/shot.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/solving/mean_of_steps.h"
 
 #include <cstdint>

@@ -11,12 +11,11 @@
 //
 // Four independent batches of rays give four solutions, whose spread is the standard error; the
 // result is the solution of all rays together. The engine adds what makes it fast: sparse rows,
-// Sobol points, more rays where the error is, shadow rays to small lamps, conjugate gradients. Here
-// S is dense, so a few thousand patches are the limit.
+// Sobol points, more rays where the error is, shadow rays to small lamps, conjugate gradients.
 
 #include "radiosity/plain/batches.h"
 #include "radiosity/plain/plain.h"
-#include "radiosity/rays/shot.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/solving/check_input.h"
 
 #include <array>
@@ -48,7 +47,7 @@ class StoredTransport final : public Solver {
     /// Doubles the rays, or adds as many as in the first step.
     bool step() override {
         const double first = std::ceil(input_.options.rays / double(batches));
-        const double more = input_.options.growing_steps && N_ > 0 ? N_ : first;
+        const double more = !input_.options.stop.steps && N_ > 0 ? N_ : first;
         for (std::size_t s = 0; s < batches; ++s)
             look_around(s, more);
         N_ += more;
@@ -64,16 +63,15 @@ class StoredTransport final : public Solver {
     }
 
   private:
+    [[nodiscard]] double area(std::size_t i) const { return input_.mesh.patches()[i].area; }
+
     /// So many rays more from each patch, for one batch and for all together.
     void look_around(std::size_t batch, double rays) {
         for (std::uint32_t i = 0; i < n_ && !input_.monitor.interrupted; ++i) {
-            const Patch& patch = input_.mesh.patches()[i];
-            const PolygonSampler points(patch.shape);
-            const Frame frame = Frame::from_normal(patch.normal);
+            const auto start = PatchStart::in_any_axes(input_.mesh, i);
             Rng random(hash_words({input_.options.seed, batch, i, solution_.steps}));
-            for (auto left = static_cast<std::uint64_t>(rays); left > 0 && patch.area > 0; --left) {
-                const std::optional<Hit> hit =
-                    input_.tracer.closest(cosine_ray(patch, points, frame, random));
+            for (auto left = static_cast<std::uint64_t>(rays); left > 0 && area(i) > 0; --left) {
+                const auto hit = input_.tracer.closest(start.cosine_ray(random));
                 const std::uint32_t j = hit ? input_.mesh.patch_at(*hit) : none;
                 for (Counts* const to : {&counts_[batch], &counts_[batches]})
                     ++(!hit ? to->escaped[i] : j == none ? to->absorbed[i] : to->c[i * n_ + j]);
@@ -88,9 +86,8 @@ class StoredTransport final : public Solver {
     [[nodiscard]] std::vector<double> exchange(const Counts& counts, double N) const {
         std::vector<double> S(std::size_t{n_} * n_), due, rays_per_area, g(n_, 1.0), sum(n_);
         for (std::size_t i = 0; i < n_; ++i) {
-            const double area = input_.mesh.patches()[i].area;
-            rays_per_area.push_back(area > 0 ? N / area : 0);
-            due.push_back(area * (1 - (counts.escaped[i] + counts.absorbed[i]) / N));
+            rays_per_area.push_back(area(i) > 0 ? N / area(i) : 0);
+            due.push_back(area(i) * (1 - (counts.escaped[i] + counts.absorbed[i]) / N));
         }
         for (std::size_t i = 0; i < n_; ++i)
             for (std::size_t j = 0; j < n_; ++j)
@@ -125,14 +122,13 @@ class StoredTransport final : public Solver {
                 Vec3 arriving(0.0);
                 for (std::size_t j = 0; j < n_; ++j)
                     arriving += S[std::size_t{i} * n_ + j] * B[j];
-                const double area = input_.mesh.patches()[i].area;
                 const Material& material = input_.mesh.material(i);
                 const Vec3 before = B[i];
                 B[i] = material.emission;
-                if (area > 0)
-                    B[i] += material.reflectance * arriving / area;
-                change += area * mean_of_channels(glm::abs(B[i] - before));
-                all += area * mean_of_channels(B[i]);
+                if (area(i) > 0)
+                    B[i] += material.reflectance * arriving / area(i);
+                change += area(i) * mean_of_channels(glm::abs(B[i] - before));
+                all += area(i) * mean_of_channels(B[i]);
             }
         }
         return B;

@@ -1,5 +1,6 @@
 #include "radiosity/progressive/progressive_pass.h"
 
+#include "radiosity/form_factors/factor_options.h"
 #include "radiosity/progressive/arriving_power.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
@@ -59,14 +60,15 @@ double mean_reflected(const Mesh& mesh) {
 } // namespace
 
 ProgressivePass::ProgressivePass(const SolverInput& input)
-    : input_(input), emitted_(emitted_power(input.mesh)), brightest_(input.mesh.patches().size()),
+    : input_(input), options_(input.options.own.of<ProgressiveOptions>()),
+      emitted_(emitted_power(input.mesh)), brightest_(input.mesh.patches().size()),
       balance_(input.needs.closed), factors_(input, mean_reflected(input.mesh)),
       hits_(input.mesh.patches().size()) {
     const ReflectingArea reflecting(input.mesh);
     reflecting_area_ = reflecting.area;
     mean_reflectance_ = reflecting.mean_reflectance;
-    if (input.options.factors.kind == FactorKind::hemicube)
-        hemicube_.emplace(input.options.factors.hemicube_edge);
+    if (input.options.own.of<FactorOptions>().kind == FactorKind::hemicube)
+        hemicube_.emplace(input.options.own.of<FactorOptions>().hemicube_edge);
 }
 
 void ProgressivePass::begin(double rays_per_light) {
@@ -111,7 +113,7 @@ void ProgressivePass::shoot(std::uint32_t step) {
     Vec3 shot = unshot_[shooter]; // dB_s
     const Vec3 shot_variance = unshot_variance_[shooter];
     unshot_[shooter] = unshot_variance_[shooter] = Vec3(0.0);
-    if (input_.options.progressive.overshoot) {
+    if (options_.overshoot) {
         // At most so much that it converges: as over-relaxation by less than 2 does.
         const Vec3 later = glm::clamp(input_.mesh.material(shooter).reflectance * ambient(),
                                       Vec3(0.0), glm::max(most_overshot * shot, 0.0));
@@ -264,7 +266,7 @@ Estimate ProgressivePass::estimate() const {
         result.missing.push_back(glm::max(glm::abs(rho * missing), glm::abs(here)));
         result.variance[i] += rho * rho * shared;
         result.shared += input_.mesh.patches()[i].area * glm::dot(rho * rho, shared);
-        if (input_.options.progressive.ambient)
+        if (options_.ambient)
             result.radiosity[i] += rho * missing;
     }
     return result;

@@ -23,6 +23,16 @@
 
 namespace hemilux {
 
+/// What the method `progressive` may do besides.
+struct ProgressiveOptions {
+    /// Adds to the solution shown an estimate of the light that is still unshot (Cohen et al.
+    /// 1988). It makes early pictures brighter and is gone at the end.
+    bool ambient = false;
+    /// Patches also shoot what they will probably receive later, and take back what was too much
+    /// (Feda and Purgathofer 1992). Fewer shots in bright rooms.
+    bool overshoot = false;
+};
+
 class ProgressivePass {
   public:
     explicit ProgressivePass(const SolverInput& input);
@@ -63,6 +73,7 @@ class ProgressivePass {
     [[nodiscard]] Vec3 power_unshot() const;
 
     SolverInput input_;
+    ProgressiveOptions options_;
     double reflecting_area_ = 0;
     Vec3 mean_reflectance_{0.0}; ///< of that, by area
     Vec3 emitted_{0.0};

@@ -1,8 +1,7 @@
 #include "radiosity/progressive/shot_balance.h"
 
-#include "geometry/frame.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/rays/receivers.h"
-#include "radiosity/rays/shot.h"
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/scene/mesh.h"
 
@@ -20,15 +19,12 @@ constexpr double most_at_risk = .05;
 
 ShotRays shoot_to_lose(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                        std::uint32_t shooter, std::uint32_t count, std::uint64_t seed) {
-    const Patch& from = mesh.patches()[shooter];
-    const Frame frame = Frame::from_normal(from.normal);
+    const auto start = PatchStart::in_any_axes(mesh, shooter);
     std::vector<Ray> rays;
     SobolBlocks<4> points(seed);
     for (std::uint32_t k = 0; k < count; ++k) {
         const auto u = points.at(k);
-        rays.push_back(
-            {from.shape.sample({u[0], u[1]}), frame.to_world(cosine_direction({u[2], u[3]}))});
-        rays.back().from = from.facet;
+        rays.push_back(start.ray({u[0], u[1]}, cosine_direction({u[2], u[3]})));
     }
     std::vector<std::uint32_t> receivers;
     find_receivers(rays, mesh, tracer, receivers);

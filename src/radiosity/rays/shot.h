@@ -1,6 +1,6 @@
 #pragma once
-// What all methods that shoot random rays share: where rays start, where they go, and how many rays
-// a power in three channels gets.
+// What all methods that shoot random rays share: where rays go, and how many rays a power in three
+// channels gets. Where they start is in patch_start.h.
 
 #include "bvh/tracer.h"
 #include "geometry/compensated_sum.h"
@@ -56,21 +56,6 @@ namespace hemilux {
     Vec3 direction;
     sampling_kernels().cosine(1, &u.x, &u.y, &direction.x, &direction.y, &direction.z);
     return direction;
-}
-
-/// A point uniform over a polygon.
-[[nodiscard]] inline Vec3 sample_uniform(const PolygonSampler& polygon, Rng& rng) {
-    const double u = rng.uniform(), v = rng.uniform();
-    return polygon.sample({u, v});
-}
-
-/// A ray from a uniform point of a patch, by Lambert's law. `points` and `frame` are those of the
-/// patch; z of the frame is its normal.
-[[nodiscard]] inline Ray cosine_ray(const Patch& from, const PolygonSampler& points,
-                                    const Frame& frame, Rng& rng) {
-    Ray ray{sample_uniform(points, rng), frame.to_world(sample_cosine(rng))};
-    ray.from = from.facet;
-    return ray;
 }
 
 } // namespace hemilux

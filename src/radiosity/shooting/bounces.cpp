@@ -8,21 +8,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 namespace hemilux {
 namespace {
 
-/// Rays that one thread takes at a time: a part of those that are left of the bounce, so that at
-/// its end no thread waits long for another. And rays whose receivers are kept until they are
-/// summed.
-constexpr double items_of_rest = 32, least_item = 256, largest_item = 8192;
-constexpr std::uint32_t patches_per_item = 32;
-constexpr double rays_at_once = 2e6;
-/// Work items that are listed at a time: a step of 1e9 rays per patch has millions.
-constexpr std::size_t most_items = 4096;
+/// Work ranges whose receivers are kept until they are summed: of two million rays, about.
+constexpr std::size_t ranges_at_once = 244;
 /// A thread that works alone takes work items of so many together: tracing likes many rays at once.
 constexpr double rays_at_least = 4096;
 /// Fewer rays than this are traced sooner than others would have come to help.
@@ -36,11 +28,6 @@ constexpr std::size_t bits_of_word = 64;
 
 /// What stands for the receiver of a ray along which rays to a ball carry the power.
 constexpr std::uint32_t shot_apart = 0xfffffffd;
-
-/// Of a ray among those of its patch. After 2^32 rays of one patch they begin anew.
-std::uint32_t ray_number(double rays_before) {
-    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(rays_before));
-}
 
 } // namespace
 
@@ -100,10 +87,9 @@ std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
 }
 
 void Bounces::shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result) {
-    const auto most = static_cast<std::size_t>(rays_at_once / largest_item);
-    batches_.resize(std::min(most, ranges_.size()));
-    for (std::size_t begin = 0; begin < ranges_.size(); begin += most) {
-        const std::size_t count = std::min(most, ranges_.size() - begin);
+    batches_.resize(std::min(ranges_at_once, ranges_.size()));
+    for (std::size_t begin = 0; begin < ranges_.size(); begin += ranges_at_once) {
+        const std::size_t count = std::min(ranges_at_once, ranges_.size() - begin);
         workers.for_each_in_order(
             count, [&](std::size_t k) { shoot_range(ranges_[begin + k], stream, batches_[k]); },
             [&](std::size_t k) {
@@ -118,20 +104,6 @@ void Bounces::shoot_ranges(const Workers& workers, std::uint64_t stream, StepRes
     }
 }
 
-/// Work items in their order to ranges of so many rays at least.
-void Bounces::divide_work(double rays) {
-    ranges_.clear();
-    double from = 0;
-    for (const WorkItem& item : items_) {
-        if (ranges_.empty() || item.to - from >= rays) {
-            const std::size_t first = ranges_.empty() ? 0 : ranges_.back().last;
-            ranges_.push_back({first, first});
-            from = item.from;
-        }
-        ++ranges_.back().last;
-    }
-}
-
 void Bounces::shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const {
     batch.groups.clear();
     batch.receivers.clear();
@@ -142,24 +114,6 @@ void Bounces::shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch
         schedule(items_[k], batch.groups);
     trace(stream, batch);
     input_.monitor.rays += batch.receivers.size();
-}
-
-void Bounces::schedule(const WorkItem& item, std::vector<RayGroup>& groups) const {
-    thread_local AllocatedCells memory;
-    const auto allocate = [&](std::size_t k) {
-        return tools_.strategy->allocate(senders_[k], memory);
-    };
-    if (!rays_by_power()) {
-        for (std::size_t k = item.first; k < item.last; ++k)
-            schedule_same_number(senders_[k], item, allocate(k), groups);
-        return;
-    }
-    double last = whole_below(rays_before_[item.first]);
-    for (std::size_t k = item.first; k < item.last; ++k) {
-        const double first = std::exchange(last, whole_below(rays_before_[k + 1]));
-        if (std::min(last, item.to) > std::max(first, item.from))
-            schedule(k, item, allocate(k), groups);
-    }
 }
 
 /// In the order of patches and rays, whatever thread traced them.
@@ -232,92 +186,6 @@ void Bounces::reflect(StepResult& result) {
                 result.radiosity[i] += reflected / area;
             add_sender(i, reflected);
         }
-}
-
-/// Rays in proportion to the power to be shot, times the strategy's factor. Sender k owns the
-/// interval from rays_before_[k] to rays_before_[k+1] of a line on which a ray stands at each whole
-/// number: as the line's origin is random, each patch and each cell gets its expected number on
-/// average, rounded up or down.
-void Bounces::plan(std::uint64_t stream) {
-    rays_before_.resize(senders_.size() + 1);
-    rays_before_[0] = Rng(stream).uniform();
-    for (std::size_t k = 0; k < senders_.size(); ++k) {
-        const std::uint32_t i = senders_[k];
-        const double rays = rays_by_power()
-                                ? task_->rays(i, unshot_[i]) * tools_.strategy->rays_for_power(i)
-                                : input_.options.rays;
-        rays_before_[k + 1] = rays_before_[k] + rays;
-    }
-}
-
-/// By numbers of rays, as an emitter may shoot half of a bounce. Work items do not depend on the
-/// number of threads.
-bool Bounces::cut(Place& next) {
-    items_.clear();
-    if (rays_by_power())
-        cut_line(next);
-    else
-        cut_same_number(next);
-    return !items_.empty();
-}
-
-void Bounces::cut_line(Place& next) {
-    const double end = whole_below(rays_before_.back());
-    const auto sender_of = [&](double ray) {
-        return static_cast<std::uint32_t>(std::ranges::lower_bound(rays_before_, ray) -
-                                          rays_before_.begin() - 1);
-    };
-    for (double& from = next.ray; from < end && items_.size() < most_items;) {
-        const double size =
-            std::clamp(std::ceil((end - from) / items_of_rest), least_item, largest_item);
-        const double to = std::min(from + size, end);
-        items_.push_back({sender_of(from + 1), sender_of(to) + 1, from, to});
-        from = to;
-    }
-}
-
-/// Rays do not stand on the line: each sender has as many, which are counted from 0. Where these
-/// are many an item is a part of them.
-void Bounces::cut_same_number(Place& next) {
-    const auto senders = static_cast<std::uint32_t>(senders_.size());
-    const bool whole = input_.options.rays <= largest_item;
-    while (next.sender < senders && items_.size() < most_items) {
-        const std::uint32_t last = std::min(next.sender + (whole ? patches_per_item : 1), senders);
-        const double end = std::numeric_limits<double>::infinity();
-        const bool is_last = whole || next.ray + largest_item >= input_.options.rays;
-        items_.push_back({next.sender, last, next.ray, is_last ? end : next.ray + largest_item});
-        next = is_last ? Place{last, 0} : Place{next.sender, next.ray + largest_item};
-    }
-}
-
-void Bounces::schedule(std::size_t sender, const WorkItem& item, const Allocation& allocation,
-                       std::vector<RayGroup>& groups) const {
-    const std::uint32_t patch = senders_[sender];
-    const SystematicCells line(allocation, rays_before_[sender], rays_before_[sender + 1]);
-    const double before = whole_below(rays_before_[sender]);
-    line.for_each_cell([&](std::uint16_t cell, double expected, double low, double high) {
-        const double first = std::max(low, item.from), here = std::min(high, item.to) - first;
-        // Below one ray per cell, the ray that is shot carries the power of those that are not.
-        const double sharing = expected >= 1 ? high - low : expected;
-        if (here > 0)
-            groups.push_back({patch, cell, ray_number(low - before), ray_number(first - before),
-                              static_cast<std::uint32_t>(here), 1 / sharing});
-    });
-}
-
-void Bounces::schedule_same_number(std::uint32_t patch, const WorkItem& item,
-                                   const Allocation& allocation,
-                                   std::vector<RayGroup>& groups) const {
-    double before = 0;
-    for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
-        const double rays = std::round(input_.options.rays * allocation.rays(k)); // N_tr
-        const double first = std::max(before, item.from);
-        const double here = std::min(before + rays, item.to) - first;
-        if (here > 0)
-            groups.push_back({patch, allocation.cells[k], ray_number(before), ray_number(first),
-                              static_cast<std::uint32_t>(here), 1 / rays});
-        before += rays;
-    }
 }
 
 void Bounces::trace(std::uint64_t stream, RayBatch& batch) const {

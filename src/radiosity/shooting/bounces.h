@@ -83,26 +83,30 @@ class Bounces {
     void begin(const StepResult& result);
     /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
     std::uint64_t bounce(std::uint64_t stream, StepResult& result);
+
+    // Which rays (bounces_plan.cpp).
     void plan(std::uint64_t stream);
     /// Lists some work items from the place on, which is moved behind them; false if none are left.
     bool cut(Place& next);
     void cut_line(Place& next);
     void cut_same_number(Place& next);
     void divide_work(double rays);
-    void shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result);
-    void shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const;
-    // The same to the balls of a target (bounces_to_balls.cpp).
-    void shoot_to_balls(const Workers& workers, std::uint64_t of_bounce, StepResult& result);
-    void shoot_to_balls(std::span<const double> rays_before, double from, double to,
-                        std::uint64_t stream, BallShots& shots) const;
-    void collect(const BallShots& shots, StepResult& result);
     // These add the rays to be drawn to `groups`.
     void schedule(const WorkItem& item, std::vector<RayGroup>& groups) const;
     void schedule(std::size_t sender, const WorkItem& item, const Allocation& allocation,
                   std::vector<RayGroup>& groups) const;
     void schedule_same_number(std::uint32_t patch, const WorkItem& item,
                               const Allocation& allocation, std::vector<RayGroup>& groups) const;
+
+    // What becomes of them.
+    void shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result);
+    void shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const;
     void trace(std::uint64_t stream, RayBatch& batch) const;
+    // The same to the balls of a target (bounces_to_balls.cpp).
+    void shoot_to_balls(const Workers& workers, std::uint64_t of_bounce, StepResult& result);
+    void shoot_to_balls(std::span<const double> rays_before, double from, double to,
+                        std::uint64_t stream, BallShots& shots) const;
+    void collect(const BallShots& shots, StepResult& result);
 
     void collect(const RayBatch& batch, StepResult& result);
     /// Rays of one power.

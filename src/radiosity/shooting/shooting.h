@@ -10,6 +10,7 @@
 
 #include "radiosity/shooting/bounces.h"
 #include "radiosity/shooting/stepwise.h"
+#include "radiosity/solving/method.h"
 
 #include <memory>
 #include <vector>

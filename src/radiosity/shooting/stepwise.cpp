@@ -155,13 +155,14 @@ std::uint32_t StepwiseSolver::steps_ready() const {
 /// As far as it is known; at least 1. Two are needed to tell an error, which then falls as the root
 /// of their number.
 double StepwiseSolver::steps_to_come() const {
-    const SolveOptions& options = input_.options;
+    const StopRule& stop = input_.options.stop;
+    const std::uint32_t expected = stop.expected_steps();
     const double done = mean_.solution.steps;
-    double last = options.expected_steps > 0 ? options.expected_steps : done + 1;
-    if (options.aim > 0) {
-        const double off = estimated_error(input_.mesh, mean_.solution) / options.aim;
+    double last = expected > 0 ? expected : done + 1;
+    if (stop.error) {
+        const double off = estimated_error(input_.mesh, mean_.solution) / *stop.error;
         const double by_error = done < 2 ? 2 : done * off * off;
-        last = options.expected_steps > 0 ? std::min(last, by_error) : by_error;
+        last = expected > 0 ? std::min(last, by_error) : by_error;
     }
     return last > done + 1 ? last - done : 1;
 }

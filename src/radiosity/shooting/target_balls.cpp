@@ -176,15 +176,16 @@ unsigned TargetBalls::takers(std::uint32_t patch, const Vec3& origin, const Vec3
 std::optional<TargetBalls::Shot> TargetBalls::draw(const PatchStart& start, std::size_t ball,
                                                    std::uint64_t key) const {
     Rng rng(key);
-    Shot shot{{sample_uniform(start.points, rng), {}}, 0};
-    shot.ray.from = start.facet;
-    const double u = rng.uniform(), v = rng.uniform();
-    const auto aimed = balls_[ball].aim(shot.ray.origin, start.frame.z, {u, v});
+    const auto square = [&rng] {
+        const double u = rng.uniform(), v = rng.uniform();
+        return Vec2(u, v);
+    };
+    const Vec3 origin = start.points.sample(square());
+    const auto aimed = balls_[ball].aim(origin, start.frame.z, square());
     if (!aimed)
         return std::nullopt;
-    shot.ray.direction = aimed->direction;
-    shot.power = aimed->power;
-    return shot;
+    return Shot{{.origin = origin, .direction = aimed->direction, .from = start.facet},
+                aimed->power};
 }
 
 /// What is seen besides: that one ray more has found what all rays find on average.

@@ -22,21 +22,15 @@
 // facet is a plane of its own, as on curved surfaces: all roots are linked with all. Consistent,
 // not unbiased: a solution depends on its factors in a non-linear way, and nodes have one light.
 
-#include "geometry/compensated_sum.h"
+#include "radiosity/hierarchy/link_errors.h"
 #include "radiosity/hierarchy/links.h"
 #include "radiosity/hierarchy/lost_rays.h"
-#include "radiosity/linear/batch_mean.h"
-#include "radiosity/linear/energy_ledger.h"
-#include "radiosity/linear/radiosity_system.h"
+#include "radiosity/linear/batch_solutions.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solution/error_spread.h"
-#include "radiosity/solution/missed_light.h"
-#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/check_input.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +49,9 @@ constexpr double first_tolerance = 1e-3, finer_tolerance = 1.0 / 16;
 constexpr double most_rays = 1u << 20;
 /// Of a link in one batch.
 constexpr std::uint32_t most_points = 8192;
+/// For the estimate of memory: a link with its factors in all batches, and about so many of a
+/// patch.
+constexpr double bytes_per_link = 100, links_per_patch = 150;
 /// Black patches count as if they reflected this: they account for what they absorb.
 constexpr double least_reflectance = .1;
 
@@ -62,8 +59,9 @@ class HierarchicalSolver final : public Solver {
   public:
     explicit HierarchicalSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
-          tree_(input.mesh), links_(input.mesh, tree_),
+          batches_(input, batches, solution_), tree_(input.mesh), links_(input.mesh, tree_),
           lost_rays_(input.mesh, input.tracer, input.options.seed, batches),
+          changes_(input.mesh.patches().size()),
           rays_(std::clamp(input.options.rays, 1.0, most_rays)) {
         const auto n = static_cast<std::uint32_t>(input.mesh.patches().size());
         for (std::uint32_t i = 0; i < n; ++i) {
@@ -76,7 +74,6 @@ class HierarchicalSolver final : public Solver {
         }
         solution_.error_batches = batches;
         emitted_ = mean_of_channels(emitted_power(input.mesh));
-        guesses_.assign(batches, solution_.radiosity);
     }
 
     bool step() override {
@@ -140,29 +137,14 @@ class HierarchicalSolver final : public Solver {
                 return false;
             traced_ += factors.back().rays();
         }
-        input_.monitor.phase = "solving";
         const RowNormalisation normalisation(lost_rays_, row_sums(factors), input_.needs.closed);
-        CompensatedSum<Vec3> absorbed, escaped;
-        bool drained = true;
-        for (std::size_t r = 0; r < batches; ++r) {
-            const EnergyBalance energy = solve(factors[r], r, normalisation);
-            absorbed += energy.absorbed;
-            escaped += energy.escaped;
-            drained = drained && search.is_drained(energy);
-            if (input_.monitor.interrupted)
-                return false;
-        }
-        if (!drained) {
-            guesses_.assign(batches, solution_.radiosity);
-            return std::nullopt;
-        }
-        for (const std::vector<Vec3>& guess : guesses_)
-            check_finite(input_.mesh, guess, "the radiosity", solution_.steps + 1);
+        const std::optional<bool> solved =
+            batches_.solve(search, solution_, [&](std::size_t r, std::vector<Vec3>& radiosity) {
+                return solve(factors[r], normalisation.rows(r), radiosity);
+            });
+        if (!solved || !*solved)
+            return solved;
         combine(points, factors);
-        const double to_world = input_.mesh.frame().area_to_world(1.0) / double(batches);
-        solution_.energy.absorbed = to_world * absorbed.value();
-        solution_.energy.escaped = to_world * escaped.value();
-        solution_.energy.unshot = Vec3(0.0);
         solution_.rays_energy = traced_;
         solution_.links = links_.all().size();
         ++solution_.steps;
@@ -209,33 +191,29 @@ class HierarchicalSolver final : public Solver {
     }
 
     /// Solves one batch, from its last solution on.
-    EnergyBalance solve(const LinkFactors& factors, std::size_t batch,
-                        const RowNormalisation& normalisation) {
-        const NormalisedRows rows = normalisation.rows(batch);
-        std::vector<Vec3>& radiosity = guesses_[batch];
-        std::vector<Vec3> incident = arriving_light(
+    EnergyBalance solve(const LinkFactors& factors, const NormalisedRows& rows,
+                        std::vector<Vec3>& radiosity) const {
+        return solve_closed(
             [&](auto x, auto y) {
                 factors.multiply(x, y);
                 for (std::size_t i = 0; i < y.size(); ++i)
                     y[i] += rows.self[i] * x[i];
             },
-            input_.mesh, radiosity, input_.needs.colours);
-        const EnergyBalance energy = close_energy({area_, emission_, reflectance_, rows.lost,
-                                                   lost_rays_.rays_of_batch(), input_.needs.closed},
-                                                  incident);
-        for (std::size_t i = 0; i < radiosity.size(); ++i)
-            radiosity[i] = emission_[i] + reflectance_[i] * incident[i];
-        return energy;
+            {area_, emission_, reflectance_, rows.lost, lost_rays_.rays_of_batch(),
+             input_.needs.closed},
+            input_, radiosity);
     }
 
     void combine(std::span<const std::uint32_t> points, std::span<const LinkFactors> factors) {
         const std::vector<Vec3> before = solution_.radiosity;
-        BatchMean found = mean_of_batches(guesses_, area_);
-        solution_.radiosity = std::move(found.radiosity);
+        const std::vector<Vec3> variance = batches_.combine(solution_);
         note_hits(points);
-        note_errors(before, found.variance, missed_light(points, factors));
-        solution_.effective_freedom = believed_freedom(solution_.effective_freedom,
-                                                       effective_freedom(found.products, batches));
+        if (links_.are_whole())
+            changes_.clear();
+        if (solution_.steps > 0 && refinement_ == Refinement::done)
+            changes_.measure(tree_, area_, before, solution_.radiosity);
+        note_errors(variance,
+                    missed_over_links(tree_, links_, factors, points, solution_.radiosity));
     }
 
     /// Of a patch: points of all links by which it gathers.
@@ -248,81 +226,20 @@ class HierarchicalSolver final : public Solver {
             solution_.hits[i] = static_cast<std::uint64_t>(by_patch[i]);
     }
 
-    /// Squares by patch [(W/m2)^2 arriving] of what links may bring of which no ray arrived: up to
-    /// three of them might have.
-    [[nodiscard]] std::vector<Vec3> missed_light(std::span<const std::uint32_t> points,
-                                                 std::span<const LinkFactors> factors) const {
-        const std::size_t nodes = tree_.nodes().size(), n = area_.size();
-        std::vector<Vec3> result(n);
-        std::vector<double> light(n), by_node(nodes), squares(nodes), by_patch(n);
-        for (int c = 0; c < 3; ++c) {
-            for (std::size_t i = 0; i < n; ++i)
-                light[i] = solution_.radiosity[i][c];
-            tree_.pull(light, by_node);
-            std::ranges::fill(squares, 0.0);
-            for (std::size_t l = 0; l < points.size(); ++l) {
-                const Link& link = links_.all()[l];
-                const bool seen = std::ranges::any_of(
-                    factors, [l](const LinkFactors& f) { return f.factors()[l] > 0; });
-                const double share =
-                    std::min(1.0, rule_of_three / (double(points[l]) * double(batches)));
-                const double most =
-                    share * rough_factor(tree_[link.to], tree_[link.from]) * by_node[link.from];
-                if (!seen)
-                    squares[link.to] += most * most;
-            }
-            tree_.push(squares, by_patch);
-            for (std::size_t i = 0; i < n; ++i)
-                result[i][c] = by_patch[i];
-        }
-        return result;
-    }
-
-    /// Squares by patch of 1.5 times what the refinement has changed: there, and on the whole
-    /// surface, as some patches change little by chance. Without a refinement what the last one has
-    /// changed stands; between patches alone nothing does.
-    void note_changes(std::span<const Vec3> before) {
-        if (changes_.empty() || links_.are_whole())
-            changes_.assign(before.size(), Vec3(0.0));
-        if (solution_.steps == 0)
-            return;
-        if (refinement_ != Refinement::done)
-            return;
-        is_measured_ = true;
-        for (const std::uint32_t root : tree_.roots()) {
-            const PatchTree::Node& node = tree_[root];
-            Vec3 of_root(0.0);
-            for (std::uint32_t k = node.begin; k < node.end; ++k) {
-                const std::uint32_t i = tree_.order()[k];
-                const Vec3 change = 1.5 * (solution_.radiosity[i] - before[i]);
-                changes_[i] = change * change;
-                of_root += area_[i] * changes_[i];
-            }
-            for (std::uint32_t k = node.begin; k < node.end && node.area > 0; ++k)
-                changes_[tree_.order()[k]] =
-                    .5 * (changes_[tree_.order()[k]] + of_root / node.area);
-        }
-    }
-
-    void note_errors(std::span<const Vec3> before, std::span<const Vec3> variance,
-                     std::span<const Vec3> missed) {
-        solution_.variance = solution_.missed = 0;
-        solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
+    void note_errors(std::span<const Vec3> variance, std::span<const Vec3> missed) {
+        solution_.missed = 0;
         const double loss = input_.needs.closed
                                 ? 0
                                 : lost_rays_.uncertain_light(area_, solution_.radiosity, emission_);
-        note_changes(before);
         const bool known = solution_.steps > 0
-                               ? is_measured_ || links_.are_whole() || !(reflected() > 0)
+                               ? changes_.are_measured() || links_.are_whole() || !(reflected() > 0)
                                : !input_.needs.bounces;
         for (std::size_t i = 0; i < variance.size(); ++i) {
             const Vec3 level = loss * (solution_.radiosity[i] - emission_[i]);
-            const Vec3 more =
-                changes_[i] + level * level + reflectance_[i] * reflectance_[i] * missed[i];
-            *solution_.variance += area_[i] * glm::dot(variance[i], Vec3(1.0));
+            const Vec3 more = changes_.squares()[i] + level * level +
+                              reflectance_[i] * reflectance_[i] * missed[i];
             solution_.missed += area_[i] * glm::dot(more, Vec3(1.0));
-            solution_.standard_error[i] =
-                known ? glm::sqrt(solution_.standard_error[i] + more) : Vec3(unknown);
+            solution_.standard_error[i] = known ? glm::sqrt(variance[i] + more) : Vec3(unknown);
         }
         if (!known)
             solution_.variance = unknown;
@@ -331,16 +248,15 @@ class HierarchicalSolver final : public Solver {
     SolverInput input_;
     Solution solution_;
     Workers workers_;
+    BatchSolutions batches_;
     PatchTree tree_;
     Links links_;
     LostRays lost_rays_;
     std::vector<double> area_, mean_reflectance_;
     std::vector<Vec3> emission_, reflectance_;
-    double emitted_ = 0;                             ///< power, mean of channels, local units
-    std::vector<std::vector<Vec3>> guesses_;         ///< solution of each batch
-    std::vector<Vec3> changes_;                      ///< squares, by the last refinement
+    double emitted_ = 0; ///< power, mean of channels, local units
+    RefinementChanges changes_;
     Refinement refinement_ = Refinement::not_needed; ///< in this step
-    bool is_measured_ = false;                       ///< a refinement has shown how much it changes
     double tolerance_ = first_tolerance;
     double rays_; ///< per patch, of the next step
     std::uint64_t traced_ = 0;
@@ -361,6 +277,10 @@ const Method hierarchical_method{
     .make = make_hierarchical,
     .strategy = nullptr,
     .work = {.linear_systems = true, .passes = true},
+    .bytes =
+        [](const SolveOptions&, double patches) {
+            return bytes_per_link * patches * std::min(patches, links_per_patch);
+        },
 };
 
 } // namespace hemilux

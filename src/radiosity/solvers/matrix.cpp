@@ -14,29 +14,24 @@
 // of patches that see each other and batch. Exact factors are for small scenes: their time grows as
 // patches^2 faces.
 
-#include "geometry/compensated_sum.h"
 #include "radiosity/form_factors/exact_form_factors.h"
+#include "radiosity/form_factors/factor_options.h"
 #include "radiosity/form_factors/sampled_form_factors.h"
-#include "radiosity/linear/batch_mean.h"
+#include "radiosity/form_factors/sparse_rows.h"
+#include "radiosity/linear/batch_solutions.h"
 #include "radiosity/linear/emitter_losses.h"
-#include "radiosity/linear/energy_ledger.h"
 #include "radiosity/linear/hemicube_matrix.h"
-#include "radiosity/linear/radiosity_system.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solution/error_spread.h"
 #include "radiosity/solution/missed_light.h"
-#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/check_input.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 namespace hemilux {
 namespace {
@@ -62,9 +57,10 @@ std::vector<std::uint32_t> few_emitters(const Mesh& mesh) {
 class MatrixSolver final : public Solver {
   public:
     explicit MatrixSolver(const SolverInput& input)
-        : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads) {
+        : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
+          batches_(input, batches, solution_) {
         std::vector<std::uint32_t> emitters;
-        if (input.options.factors.kind == FactorKind::exact)
+        if (input.options.own.of<FactorOptions>().kind == FactorKind::exact)
             exact_.emplace(input.mesh, workers_, input.monitor);
         else
             emitters = few_emitters(input.mesh);
@@ -75,7 +71,6 @@ class MatrixSolver final : public Solver {
             factors_.emplace_back(input.mesh, input.tracer, emitters,
                                   hash_words({input.options.seed, r}), needs);
         solution_.error_batches = batches;
-        guesses_.assign(batches, solution_.radiosity);
     }
 
     bool step() override {
@@ -97,27 +92,19 @@ class MatrixSolver final : public Solver {
                 return false;
         }
         rays_of_step_ = rays;
-        input_.monitor.phase = "solving";
-        CompensatedSum<Vec3> absorbed, escaped;
-        bool drained = true;
         const auto losses = emitter_losses(factors_, rays);
-        for (std::size_t r = 0; r < batches; ++r) {
-            const EnergyBalance energy = solve(factors_[r], losses[r], guesses_[r]);
-            absorbed += energy.absorbed;
-            escaped += energy.escaped;
-            drained = drained && search.is_drained(energy);
-            if (input_.monitor.interrupted)
-                return false;
-        }
+        const std::optional<bool> solved =
+            batches_.solve(search, solution_, [&](std::size_t r, std::vector<Vec3>& radiosity) {
+                return solve(factors_[r], losses[r], radiosity);
+            });
+        if (solved == false)
+            return false;
         rays_ = rays;
-        if (!drained) {
-            guesses_.assign(batches, solution_.radiosity);
-            return std::nullopt;
+        if (solved) {
+            combine();
+            ++solution_.steps;
         }
-        for (const std::vector<Vec3>& guess : guesses_)
-            check_finite(input_.mesh, guess, "the radiosity", solution_.steps + 1);
-        combine(absorbed.value() / double(batches), escaped.value() / double(batches));
-        return true;
+        return solved;
     }
 
     [[nodiscard]] bool finished() const override {
@@ -132,26 +119,12 @@ class MatrixSolver final : public Solver {
         return std::bit_ceil(static_cast<std::uint32_t>(std::ceil(asked)));
     }
 
-    /// For one batch, from its last solution on.
+    /// For one batch, from its last solution on. The lost shares are those of the rows as they are,
+    /// of one kind or the other as rays tell; for emitters, what is known best.
     EnergyBalance solve(const SampledFormFactors& factors, std::span<const EmitterLoss> losses,
                         std::vector<Vec3>& radiosity) {
         const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
-        std::vector<Vec3> incident =
-            arriving_light([&](auto x, auto y) { f.multiply(x, y, workers_); }, input_.mesh,
-                           radiosity, input_.needs.colours);
-        const EnergyBalance energy = close(factors, losses, f, incident);
-        for (std::uint32_t i = 0; i < incident.size(); ++i) {
-            const Material& material = input_.mesh.material(i);
-            radiosity[i] = material.emission + material.reflectance * incident[i];
-        }
-        return energy;
-    }
-
-    /// The lost shares are those of the rows as they are, of one kind or the other as rays tell;
-    /// for emitters, what is known best.
-    EnergyBalance close(const SampledFormFactors& factors, std::span<const EmitterLoss> losses,
-                        const SparseMatrix& f, std::span<Vec3> incident) const {
-        const std::size_t n = incident.size();
+        const std::size_t n = radiosity.size();
         std::vector<double> area(n), rays(n, rays_of_step_);
         std::vector<Vec3> emission(n), reflectance(n);
         std::vector<EscapeFraction> lost(n);
@@ -171,32 +144,14 @@ class MatrixSolver final : public Solver {
             lost[factors.emitters()[e]] = losses[e].lost;
             rays[factors.emitters()[e]] = losses[e].rays;
         }
-        return close_energy({area, emission, reflectance, lost, rays}, incident);
+        return solve_closed([&](auto x, auto y) { f.multiply(x, y, workers_); },
+                            {area, emission, reflectance, lost, rays}, input_, radiosity);
     }
 
-    void combine(const Vec3& absorbed_power, const Vec3& escaped_power) {
-        std::vector<double> area;
-        for (const Patch& patch : input_.mesh.patches())
-            area.push_back(patch.area);
-        BatchMean found = mean_of_batches(guesses_, area);
-        solution_.radiosity = std::move(found.radiosity);
-        solution_.hits.assign(area.size(), std::uint64_t{rays_} * batches);
-        note_errors(found.variance, found.products);
-        const double to_world = input_.mesh.frame().area_to_world(1.0);
-        solution_.energy.absorbed = to_world * absorbed_power;
-        solution_.energy.escaped = to_world * escaped_power;
-        solution_.energy.unshot = Vec3(0.0);
+    void combine() {
+        const std::vector<Vec3> variance = batches_.combine(solution_);
+        solution_.hits.assign(variance.size(), std::uint64_t{rays_} * batches);
         solution_.rays_energy = traced_;
-        ++solution_.steps;
-    }
-
-    void note_errors(std::span<const Vec3> variance, std::span<const double> products) {
-        solution_.variance = 0;
-        for (std::uint32_t i = 0; i < variance.size(); ++i)
-            *solution_.variance += input_.mesh.patches()[i].area * glm::dot(variance[i], Vec3(1.0));
-        solution_.effective_freedom =
-            believed_freedom(solution_.effective_freedom, effective_freedom(products, batches));
-        solution_.standard_error = pooled_over_neighbours(input_.mesh, variance);
         const std::vector<Vec3> missed = missed_light();
         const double share = missed_loss();
         solution_.missed = 0;
@@ -204,7 +159,7 @@ class MatrixSolver final : public Solver {
             const Vec3 level = share * (solution_.radiosity[i] - input_.mesh.material(i).emission);
             solution_.missed += input_.mesh.patches()[i].area * glm::dot(level, level);
             solution_.standard_error[i] =
-                glm::sqrt(solution_.standard_error[i] + level * level + missed[i] * missed[i]);
+                glm::sqrt(variance[i] + level * level + missed[i] * missed[i]);
         }
     }
 
@@ -247,22 +202,30 @@ class MatrixSolver final : public Solver {
     SolverInput input_;
     Solution solution_;
     Workers workers_;
+    BatchSolutions batches_;
     std::vector<SampledFormFactors> factors_;
     std::optional<ExactFormFactors> exact_;
-    bool rays_find_emission_ = true;         ///< no column has the closed form
-    std::vector<std::vector<Vec3>> guesses_; ///< solution of each batch
-    std::uint32_t rays_ = 0;                 ///< per patch and batch
-    std::uint32_t rays_of_step_ = 0;         ///< those of the step under way
+    bool rays_find_emission_ = true; ///< no column has the closed form
+    std::uint32_t rays_ = 0;         ///< per patch and batch
+    std::uint32_t rays_of_step_ = 0; ///< those of the step under way
     std::uint64_t traced_ = 0;
 };
 
 std::unique_ptr<Solver> make_matrix(const SolverInput& input) {
-    if (input.options.factors.kind == FactorKind::hemicube)
+    if (input.options.own.of<FactorOptions>().kind == FactorKind::hemicube)
         return make_hemicube_matrix(input);
     return std::make_unique<MatrixSolver>(input);
 }
 
-constexpr std::array factors{FactorKind::exact, FactorKind::hemicube};
+std::vector<MethodOption> options() { return {exact_option(), factors_option(true)}; }
+
+double bytes(const SolveOptions& options, double patches) {
+    const auto& factors = options.own.of<FactorOptions>();
+    if (factors.kind == FactorKind::hemicube)
+        return bytes_per_factor * patches *
+               std::min(patches, 3.0 * std::pow(factors.hemicube_edge, 2));
+    return double(batches) * bytes_per_factor * patches * std::min(patches, options.rays);
+}
 
 } // namespace
 
@@ -276,7 +239,10 @@ const Method matrix_method{
     .strategy = nullptr,
     .work = {.pairs = true, .linear_systems = true, .passes = true},
     .role = Role::reference,
-    .factors = factors,
+    .options = options,
+    .check = check_exact,
+    .adapt = adapt_to_factors,
+    .bytes = bytes,
 };
 
 } // namespace hemilux

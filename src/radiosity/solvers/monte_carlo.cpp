@@ -21,10 +21,11 @@
 #include "geometry/frame.h"
 #include "parallel/workers.h"
 #include "radiosity/plain/plain.h"
-#include "radiosity/rays/shot.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/sampling/largest_first.h"
 #include "radiosity/shooting/stepwise.h"
 #include "radiosity/solution/solve_error.h"
+#include "radiosity/solving/one_shot.h"
 
 #include <algorithm>
 #include <array>
@@ -118,13 +119,11 @@ class Shots {
             if (input_.monitor.interrupted)
                 return;
             Rng rng(hash_words({shot.stream, (first + begin) / rays_per_stream}));
-            const Patch& from = input_.mesh.patches()[shot.shooter];
-            const PolygonSampler origins(from.shape);
-            const Frame frame = Frame::from_normal(from.normal);
+            const auto start = PatchStart::in_any_axes(input_.mesh, shot.shooter);
             std::vector<Ray> drawn;
             std::vector<std::uint32_t> hits;
             for (std::size_t k = begin; k < end; ++k)
-                drawn.push_back(cosine_ray(from, origins, frame, rng));
+                drawn.push_back(start.cosine_ray(rng));
             find_receivers(drawn, input_.mesh, input_.tracer, hits);
             std::ranges::copy(hits, receivers_.begin() + static_cast<std::ptrdiff_t>(begin));
         });
@@ -232,12 +231,12 @@ class OneShotSolver final : public Solver {
 };
 
 std::unique_ptr<Solver> make_monte_carlo(const SolverInput& input) {
-    if (input.options.one_shot)
+    if (is_one_shot(input.options))
         return std::make_unique<OneShotSolver>(input);
     return std::make_unique<MonteCarloSolver>(input);
 }
 
-constexpr std::array flags{one_shot_flag};
+std::vector<MethodOption> options() { return {one_shot_option()}; }
 
 } // namespace
 
@@ -253,7 +252,9 @@ const Method monte_carlo_method{
     .saves = true,
     .plain = plain::monte_carlo,
     .aims = true,
-    .flags = flags,
+    .options = options,
+    .adapt = [](MethodWork& work,
+                const SolveOptions& options) { work.ends_by_itself = is_one_shot(options); },
 };
 
 } // namespace hemilux

@@ -15,7 +15,7 @@
 // unshot, a pass is done: with 64 rays it is within 1 or 2 % of the exact solution. The next one
 // begins again, four times as accurate, and the result is the mean of the passes by what they are
 // worth. --one-shot makes a step of each shot and ends with the first pass, --ambient shows what is
-// still unshot, --overshoot shoots ahead (ProgressiveOptions in solver.h).
+// still unshot, --overshoot shoots ahead (ProgressiveOptions in progressive_pass.h).
 //
 // With --factors hemicube the shooter's hemicube shows the form factors to all others at once, one
 // ray a pixel, as Cohen et al. (1988) have them: F_is = F_si A_s / A_i. Another pass would see the
@@ -28,16 +28,16 @@
 // patches and high reflectances, as each patch shoots many times. No memory to speak of. Not
 // unbiased: after a finite number of shots some light is missing.
 
+#include "radiosity/form_factors/factor_options.h"
 #include "radiosity/progressive/progressive_pass.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solution/error_spread.h"
 #include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/check_input.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/one_shot.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -59,7 +59,8 @@ constexpr double samples_of_error = 9;
 class ProgressiveSolver final : public Solver {
   public:
     explicit ProgressiveSolver(const SolverInput& input)
-        : input_(checked(input)), by_hemicubes_(input.options.factors.kind == FactorKind::hemicube),
+        : input_(checked(input)), is_one_shot_(is_one_shot(input.options)),
+          by_hemicubes_(input.options.own.of<FactorOptions>().kind == FactorKind::hemicube),
           pass_(input) {
         solution_.may_find_light = input.needs.bounces;
         solution_.error_batches = samples_of_error;
@@ -88,7 +89,7 @@ class ProgressiveSolver final : public Solver {
             // At the end of the time the shots of this step count.
             if (cut_short && (input_.monitor.interrupted.wished() || pass_.points() == before))
                 return false;
-            if (input_.options.one_shot)
+            if (is_one_shot_)
                 break;
         }
         publish(passes_ > 0 ? mean_ : pass_.estimate());
@@ -100,8 +101,7 @@ class ProgressiveSolver final : public Solver {
         const bool sure = (is_lit(mean_.radiosity) || !solution_.may_find_light) &&
                           std::ranges::all_of(mean_.variance, is_zero) &&
                           std::ranges::all_of(mean_.missing, is_zero);
-        return (passes_ > 0 && (input_.options.one_shot || sure || by_hemicubes_)) ||
-               is_zero(pass_.emitted());
+        return (passes_ > 0 && (is_one_shot_ || sure || by_hemicubes_)) || is_zero(pass_.emitted());
     }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
@@ -175,6 +175,7 @@ class ProgressiveSolver final : public Solver {
     }
 
     SolverInput input_;
+    bool is_one_shot_;
     bool by_hemicubes_; ///< another pass would see the same
     ProgressivePass pass_;
     // All passes before; solution_ is that after the last step.
@@ -188,15 +189,18 @@ std::unique_ptr<Solver> make_progressive(const SolverInput& input) {
     return std::make_unique<ProgressiveSolver>(input);
 }
 
-constexpr std::array<MethodFlag, 3> flags{{
-    one_shot_flag,
-    {"--ambient", "progressive: show an estimate of the light that is still unshot",
-     [](SolveOptions& options) -> bool& { return options.progressive.ambient; }},
-    {"--overshoot", "progressive: also shoot what a patch will probably receive later",
-     [](SolveOptions& options) -> bool& { return options.progressive.overshoot; }},
-}};
+std::vector<MethodOption> options() {
+    return {factors_option(false), one_shot_option(),
+            flag_option("--ambient", "show an estimate of the light that is still unshot",
+                        &ProgressiveOptions::ambient),
+            flag_option("--overshoot", "also shoot what a patch will probably receive later",
+                        &ProgressiveOptions::overshoot)};
+}
 
-constexpr std::array factors{FactorKind::hemicube};
+void adapt(MethodWork& work, const SolveOptions& options) {
+    adapt_to_factors(work, options);
+    work.ends_by_itself = is_one_shot(options);
+}
 
 } // namespace
 
@@ -209,8 +213,8 @@ const Method progressive_method{
     .make = make_progressive,
     .strategy = nullptr,
     .work = {.pairs = true},
-    .flags = flags,
-    .factors = factors,
+    .options = options,
+    .adapt = adapt,
 };
 
 } // namespace hemilux

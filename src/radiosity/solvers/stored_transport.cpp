@@ -28,7 +28,7 @@
 #include "radiosity/solution/error_spread.h"
 #include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/check_input.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
 #include "radiosity/stored_transport/batch_light.h"
 #include "radiosity/stored_transport/direct_light.h"
 #include "radiosity/stored_transport/importance.h"
@@ -151,7 +151,7 @@ class StoredTransportSolver final : public Solver {
     static RayPlan first_plan(const SolverInput& input, bool small_emitters) {
         const double each = input.options.rays / (small_emitters ? 2 * batches : batches);
         return {input.mesh, input.needs, each, small_emitters ? each : 0,
-                RayGoal{input.options.growing_steps, input.options.aim}};
+                RayGoal{!input.options.stop.steps, input.options.stop.error.value_or(0)}};
     }
 
     /// A few rays find the parts of the scene that light can reach, which alone get more.
@@ -357,6 +357,10 @@ const Method stored_transport_method{
     .most_plain_patches = plain::most_patches_of_stored_transport,
     .role = Role::standard,
     .aims = true,
+    .bytes =
+        [](const SolveOptions& options, double patches) {
+            return bytes_per_factor * patches * std::min(patches, options.rays);
+        },
     .former_name = "gathering",
 };
 

@@ -1,7 +1,7 @@
 #include "radiosity/solving/left_out.h"
 
 #include "radiosity/scene/needs.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
 
 namespace hemilux {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "geometry/frame.h"
 #include "geometry/polygon_sampler.h"
+#include "radiosity/rays/patch_start.h"
 #include "radiosity/rays/receivers.h"
-#include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/solver.h"
@@ -100,12 +100,10 @@ class Search {
     [[nodiscard]] std::vector<std::uint32_t> receivers_of(std::uint32_t shooter,
                                                           std::size_t rays) const {
         Rng rng(hash_words({seed_, round_, shooter}));
-        const Patch& from = mesh_.patches()[shooter];
-        const PolygonSampler origins(from.shape);
-        const Frame frame = Frame::from_normal(from.normal);
+        const auto start = PatchStart::in_any_axes(mesh_, shooter);
         std::vector<Ray> drawn;
         for (std::size_t k = 0; k < rays; ++k)
-            drawn.push_back(cosine_ray(from, origins, frame, rng));
+            drawn.push_back(start.cosine_ray(rng));
         std::vector<std::uint32_t> receivers;
         find_receivers(drawn, mesh_, tracer_, receivers);
         return receivers;

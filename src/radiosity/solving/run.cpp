@@ -1,5 +1,6 @@
+#include "radiosity/solving/run.h"
+
 #include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
 #include "radiosity/solving/time_limit.h"
 
 #include <algorithm>

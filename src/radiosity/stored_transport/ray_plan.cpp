@@ -1,14 +1,12 @@
 #include "radiosity/stored_transport/ray_plan.h"
 
 #include "radiosity/saving/state.h"
-#include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/stored_transport/ray_allocation.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 namespace hemilux {
@@ -16,9 +14,6 @@ namespace {
 
 /// Rays per patch at which the run ends whatever the error.
 constexpr double most_rays = 1u << 20;
-
-/// Errors of well-distributed points fall about as rays^-.7, their squares so:
-constexpr double fall = 1.5;
 
 /// Of all rays in a step towards an error: more at once would trust the first few rays too much.
 constexpr double most_growth = 4;
@@ -29,9 +24,6 @@ constexpr double aim_below = .97;
 /// Of all rays in a step towards an error, the least; and from one number to the next that is
 /// tried.
 constexpr double least_step = 1.1, try_next = 1.04;
-
-/// The share of the weights that is measured; and what a patch's area counts.
-constexpr double trust = .5, area_exponent = .42;
 
 /// Of the mean of shadow rays, what a patch gets that no light has reached: few, but not none, as
 /// an emitter may shine through a gap that all of them have missed.
@@ -55,9 +47,6 @@ constexpr double most_of_first = 3.0 / 4;
 /// of the error comes from which kind is known of the target's own rays, and less of others'.
 constexpr double least_of_kind = 1.0 / 4;
 
-/// Black emitters count as if they reflected this: their rays tell where their light goes.
-constexpr double least_reflectance = .1;
-
 /// Throws StateError for rays that cannot have been allocated with this mean (ray_allocation.h): a
 /// patch has at most sqrt(2) times `most_share_of_rays` of what is expected for it, and all have
 /// more than a small part of the mean.
@@ -79,48 +68,25 @@ void check_allocated(std::span<const std::uint32_t> rays, double mean, double mo
 
 RayPlan::RayPlan(const Mesh& mesh, const Needs& needs, double random, double to_emitters,
                  const RayGoal& goal)
-    : mesh_(mesh), goal_(goal) {
-    const auto patches = mesh.patches();
+    : weights_(mesh, needs), goal_(goal) {
     first_.random = std::clamp(random, 1.0, most_rays);
     first_.to_emitters = to_emitters > 0 ? first_.random : 0;
-    now_.rays.random.resize(patches.size());
-    now_.rays.to_emitters.resize(patches.size());
-    double largest = 0; // hardly a ray from the huge surface of a sky meets the scene
-    for (const Patch& patch : patches)
-        if (!mesh.material(patch).is_far)
-            largest = std::max(largest, patch.area);
-    for (std::uint32_t i = 0; i < patches.size(); ++i) {
-        reflectance_.push_back(mesh.material(i).reflectance);
-        const double reflectance = glm::length(reflectance_[i]);
-        const double counted = std::min(patches[i].area, largest);
-        const double area = needs.power(i) ? std::pow(counted, area_exponent) : 0;
-        prior_emitter_weights_.push_back(area * reflectance);
-        prior_weights_.push_back(area * std::max(reflectance, least_reflectance));
-    }
+    now_.rays.random.resize(mesh.patches().size());
+    now_.rays.to_emitters.resize(mesh.patches().size());
     before_ = now_;
-    weights_ = learned_weights_ = prior_weights_;
-    emitter_weights_ = prior_emitter_weights_;
 }
 
 void RayPlan::begin() {
-    for (std::size_t i = 0; i < weights_.size(); ++i) {
-        now_.rays.random[i] = weights_[i] > 0 ? 1 : 0;
-        now_.rays.to_emitters[i] = first_.to_emitters > 0 && emitter_weights_[i] > 0 ? 1 : 0;
+    for (std::size_t i = 0; i < now_.rays.random.size(); ++i) {
+        now_.rays.random[i] = weights_.random()[i] > 0 ? 1 : 0;
+        now_.rays.to_emitters[i] = first_.to_emitters > 0 && weights_.to_emitters()[i] > 0 ? 1 : 0;
     }
-}
-
-void RayPlan::leave_out(const std::vector<bool>& lit) {
-    if (std::ranges::none_of(lit, std::identity{})) // nothing is known yet
-        return;
-    for (std::size_t i = 0; i < lit.size(); ++i)
-        if (!lit[i])
-            weights_[i] = emitter_weights_[i] = 0;
 }
 
 void RayPlan::aim(std::span<const double> importance) {
     aim_.clear();
     for (const double each : importance) // as variances in weigh_emitters()
-        aim_.push_back(std::pow(each, 1 / (1 + fall)));
+        aim_.push_back(std::pow(each, 1 / (1 + variance_fall)));
 }
 
 /// By patch, over the mean of those that are to get more: as important as it is, but where a patch
@@ -171,16 +137,15 @@ void RayPlan::grow(const ErrorSoFar& known, double room, const Workers& workers)
     }
     workers.for_chunks(2, 1, [&](std::size_t kind, std::size_t) {
         if (kind == 0)
-            now_.rays.random = allocate(weights_, now_.random, before_.rays.random);
+            now_.rays.random = allocate(weights_.random(), now_.random, before_.rays.random);
         else
             now_.rays.to_emitters =
-                allocate(emitter_weights_, now_.to_emitters, before_.rays.to_emitters);
+                allocate(weights_.to_emitters(), now_.to_emitters, before_.rays.to_emitters);
     });
     const auto of_unlit =
         std::bit_floor(static_cast<std::uint32_t>(share_of_unlit * now_.to_emitters));
-    for (std::size_t i = 0; i < emitter_weights_.size(); ++i)
-        if (emitter_weights_[i] == 0 && prior_emitter_weights_[i] > 0 &&
-            (!has_target() || aim_[i] > 0))
+    for (std::size_t i = 0; i < now_.rays.to_emitters.size(); ++i)
+        if (weights_.is_left_out(i) && (!has_target() || aim_[i] > 0))
             now_.rays.to_emitters[i] = std::max(of_unlit, before_.rays.to_emitters[i]);
 }
 
@@ -199,13 +164,13 @@ void RayPlan::choose(const ErrorSoFar& known) {
 }
 
 /// So many rays in all go to the two kinds so that the error is least, as far as variances fall
-/// with the power `fall` of the rays; none is taken back.
+/// with the power `variance_fall` of the rays; none is taken back.
 void RayPlan::split(double rays, const ErrorSoFar& known) {
     now_.random = rays;
     if (!(before_.to_emitters > 0))
         return;
     const auto due = [](double variance, double rays_before) {
-        return std::pow(variance * std::pow(rays_before, fall), 1 / (1 + fall));
+        return std::pow(variance * std::pow(rays_before, variance_fall), 1 / (1 + variance_fall));
     };
     const double random =
         due(std::max(known.variance - known.variance_from_emitters, 0.0), before_.random);
@@ -222,83 +187,13 @@ void RayPlan::split(double rays, const ErrorSoFar& known) {
 double RayPlan::predicted(const ErrorSoFar& known) const {
     const double of_emitters =
         known.variance > 0 ? std::min(known.variance_from_emitters / known.variance, 1.0) : 0;
-    double left = (1 - of_emitters) * std::pow(before_.random / now_.random, fall);
+    double left = (1 - of_emitters) * std::pow(before_.random / now_.random, variance_fall);
     if (now_.to_emitters > 0)
-        left += of_emitters * std::pow(before_.to_emitters / now_.to_emitters, fall);
+        left += of_emitters * std::pow(before_.to_emitters / now_.to_emitters, variance_fall);
     return known.relative * std::sqrt(left);
 }
 
 bool RayPlan::at_most() const { return std::max(now_.random, now_.to_emitters) >= most_rays; }
-
-/// The mean over its neighbours; of the patch itself where it has none.
-double RayPlan::of_neighbours(std::uint32_t patch, std::span<const double> known) const {
-    double sum = 0, count = 0;
-    for_alike_neighbours(mesh_, patch, [&](std::uint32_t j) {
-        sum += known[j];
-        ++count;
-    });
-    return count > 0 ? sum / count : known[patch];
-}
-
-/// What is known counts as much as what was thought before; both have the same sum.
-void RayPlan::mix(std::span<const double> known, std::span<const double> prior,
-                  std::vector<double>& weights) {
-    const double sum = std::accumulate(known.begin(), known.end(), 0.0);
-    const double prior_sum = std::accumulate(prior.begin(), prior.end(), 0.0);
-    if (!(sum > 0)) {
-        weights.assign(prior.begin(), prior.end());
-        return;
-    }
-    for (std::size_t i = 0; i < weights.size(); ++i)
-        weights[i] = trust * known[i] * prior_sum / sum + (1 - trust) * prior[i];
-}
-
-/// A ray is most important where it takes most from the error. A patch counts by its area and its
-/// reflectance, and the variance of random rays is the spread of the light that comes from all
-/// sides, as far as it is known; half of the weight does not trust that.
-void RayPlan::learn(std::span<const Vec3> variance) {
-    std::vector<double> known(variance.size()), smooth(variance.size());
-    for (std::size_t i = 0; i < known.size(); ++i)
-        known[i] =
-            prior_weights_[i] * std::sqrt(glm::dot(reflectance_[i] * reflectance_[i], variance[i]));
-    for (std::uint32_t i = 0; i < known.size(); ++i)
-        smooth[i] = prior_weights_[i] > 0 ? of_neighbours(i, known) : 0;
-    mix(smooth, prior_weights_, learned_weights_);
-}
-
-void RayPlan::weigh(std::span<const Vec3> variance, const std::vector<bool>& lit) {
-    if (std::ranges::none_of(lit, std::identity{})) // nothing is known yet
-        return;
-    if (!has_learned_)
-        learn(variance);
-    has_learned_ = true;
-    for (std::size_t i = 0; i < weights_.size(); ++i)
-        weights_[i] = lit[i] ? learned_weights_[i] : 0;
-}
-
-/// With a variance that falls as v n^-fall, the sum over patches is least for n as
-/// v^(1 / (1 + fall)), v being what one ray alone would leave.
-void RayPlan::weigh_emitters(std::span<const double> variance, const std::vector<bool>& lit) {
-    if (std::ranges::none_of(lit, std::identity{}))
-        return;
-    std::vector<double> known(variance.size()), prior = prior_emitter_weights_;
-    for (std::size_t i = 0; i < known.size(); ++i) {
-        if (variance[i] < 0)
-            prior_emitter_weights_[i] = prior[i] = 0;
-        if (!lit[i])
-            prior[i] = 0;
-        if (prior[i] > 0)
-            known[i] =
-                std::pow(variance[i] * std::pow(now_.rays.to_emitters[i], fall), 1 / (1 + fall));
-    }
-    // A patch may have missed what its neighbours have found.
-    std::vector<double> smooth(known.size());
-    for (std::uint32_t i = 0; i < known.size(); ++i) {
-        const double mean = of_neighbours(i, known);
-        smooth[i] = prior[i] > 0 ? std::max(mean, .5 * (mean + known[i])) : 0;
-    }
-    mix(smooth, prior, emitter_weights_);
-}
 
 /// What was planned, and what is known of the patches; the rest follows from the scene.
 void RayPlan::save(StateWriter& state) const {
@@ -308,17 +203,15 @@ void RayPlan::save(StateWriter& state) const {
         state.add(std::span<const std::uint32_t>(stage->rays.random));
         state.add(std::span<const std::uint32_t>(stage->rays.to_emitters));
     }
-    for (const std::vector<double>* weights : {&weights_, &learned_weights_, &emitter_weights_})
-        state.add(std::span<const double>(*weights));
-    state.add(std::uint64_t{has_learned_});
+    weights_.save(state);
 }
 
 void RayPlan::load(StateReader& state) {
     for (RayBudget* stage : {&before_, &now_}) {
         for (double* mean : {&stage->random, &stage->to_emitters})
             state.get(*mean, {0, most_growth * most_rays});
-        stage->rays.random.resize(weights_.size());
-        stage->rays.to_emitters.resize(weights_.size());
+        stage->rays.random.resize(weights_.random().size());
+        stage->rays.to_emitters.resize(weights_.random().size());
         state.get(std::span(stage->rays.random));
         state.get(std::span(stage->rays.to_emitters));
         const double most_expected = has_target() ? double(aim_.size()) : 1;
@@ -327,15 +220,7 @@ void RayPlan::load(StateReader& state) {
     }
     if (before_.random > now_.random || before_.to_emitters > now_.to_emitters)
         throw StateError("the plan of rays does not grow");
-    // What is learned shares out the weights that the patches have by themselves.
-    const auto sum_of = [](std::span<const double> prior) {
-        constexpr double rounding = 1 + 1e-9;
-        return rounding * std::accumulate(prior.begin(), prior.end(), 0.0);
-    };
-    state.get(std::span(weights_), {0, sum_of(prior_weights_)});
-    state.get(std::span(learned_weights_), {0, sum_of(prior_weights_)});
-    state.get(std::span(emitter_weights_), {0, sum_of(prior_emitter_weights_)});
-    has_learned_ = state.flag();
+    weights_.load(state);
 }
 
 } // namespace hemilux

@@ -16,12 +16,15 @@
 // --guide visible or learned rays follow what is seen, which the wall does not mislead
 // (visibility_guide.h).
 
+#include "radiosity/guiding/guide.h"
+#include "radiosity/guiding/patch_boxes.h"
 #include "radiosity/guiding/pyramids.h"
 #include "radiosity/guiding/visibility_guide.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/shooting/shooting.h"
+#include "radiosity/solving/method.h"
 
 #include <algorithm>
 #include <array>
@@ -76,7 +79,7 @@ class HemisphereStrategy final : public Strategy {
     [[nodiscard]] static std::unique_ptr<LeafDensities>
     find_densities(const SolverInput& input, const Hemisphere& hemisphere, const Workers& workers) {
         const SolveOptions& options = input.options;
-        if (options.guide == Guide::pyramid && !options.literal)
+        if (guide_of(options) == Guide::pyramid)
             return std::make_unique<PyramidMap>(input.mesh, hemisphere, options.threshold, workers,
                                                 input.monitor, input.needs);
         return std::make_unique<DensityMap>(
@@ -149,11 +152,34 @@ class HemisphereStrategy final : public Strategy {
 
 std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisphere& hemisphere,
                                           const Workers& workers) {
-    const Guide guide = input.options.literal ? Guide::density : input.options.guide;
+    const Guide guide = guide_of(input.options);
     const bool by_visibility = guide == Guide::visible || guide == Guide::learned;
     if (by_visibility && input.needs.densities)
         return make_visibility_guide(input, hemisphere, workers, guide == Guide::learned);
     return std::make_unique<HemisphereStrategy>(input, hemisphere, workers);
+}
+
+std::vector<MethodOption> options() {
+    MethodOption guide = choice_option<Guide>("--guide", "what guides it [density]",
+                                              {guide_names.begin(), guide_names.end()});
+    guide.on_page = false;
+    guide.makes_variants = true;
+    return {guide};
+}
+
+double bytes(const SolveOptions& options, double patches) {
+    const Hemisphere hemisphere(options.depth);
+    const double cells = double(Hemisphere::cells_up_to(options.depth));
+    switch (guide_of(options)) {
+    case Guide::density: // by vertex; the array is copied as it grows
+        return 2 * patches * double(hemisphere.vertices().size());
+    case Guide::pyramid:
+        return patches * (cells + 2 * sizeof(PatchBoxes::Node));
+    case Guide::visible:
+    case Guide::learned: // by leaf: its byte, and the importance and number of its hits
+        break;
+    }
+    return 18 * patches * (cells - double(Hemisphere::cells_up_to(options.depth - 1)));
 }
 
 constexpr std::array<std::string_view, 4> division_options{"--depth", "--threshold", "--guide",
@@ -173,8 +199,9 @@ const Method hemisphere_method{
     .work = {.densities = true, .passes = true},
     .plain = plain::hemisphere,
     .role = Role::paper,
-    .guided = true,
     .aims = true,
+    .options = options,
+    .bytes = bytes,
     .implied_by = division_options,
 };
 

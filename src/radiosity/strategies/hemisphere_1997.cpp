@@ -33,6 +33,7 @@
 #include "radiosity/plain/plain.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/shooting/shooting.h"
+#include "radiosity/solving/method.h"
 
 #include <algorithm>
 #include <array>
@@ -52,7 +53,7 @@ class Hemisphere1997 final : public Strategy {
   public:
     Hemisphere1997(const SolverInput& input, const Workers& workers)
         : input_(input), workers_(workers), printed_(input.options.literal),
-          numbers_(input.options.subdivision_1997),
+          numbers_(input.options.own.of<Subdivision1997Options>()),
           subdivision_(input.mesh, input.needs, numbers_) {
         if (!printed_)
             find(static_cast<int>(numbers_.stored_steps)); // later steps will find no more
@@ -125,19 +126,23 @@ std::unique_ptr<Strategy> make_hemisphere_1997(const SolverInput& input, const H
     return std::make_unique<Hemisphere1997>(input, workers);
 }
 
-constexpr std::array<MethodNumber, 3> numbers{{
-    {"--stored-steps", "hemisphere-1997: n, steps that divide triangles by counts [2]",
-     Subdivision1997::stored_choices,
-     [](SolveOptions& options) -> std::uint32_t& { return options.subdivision_1997.stored_steps; }},
-    {"--estimated-steps", "hemisphere-1997: m, steps after them, by estimated counts [1]",
-     Subdivision1997::estimated_choices,
-     [](SolveOptions& options) -> std::uint32_t& {
-         return options.subdivision_1997.estimated_steps;
-     }},
-    {"--parts", "hemisphere-1997: parts of a patch, each with a hemisphere [4]",
-     Subdivision1997::part_choices,
-     [](SolveOptions& options) -> std::uint32_t& { return options.subdivision_1997.parts; }},
-}};
+std::vector<MethodOption> options() {
+    using Own = Subdivision1997Options;
+    return {number_option("--stored-steps", "n, steps that divide triangles by counts [2]",
+                          &Own::stored_steps, Subdivision1997::stored_choices),
+            number_option("--estimated-steps", "m, steps after them, by estimated counts [1]",
+                          &Own::estimated_steps, Subdivision1997::estimated_choices),
+            number_option("--parts", "parts of a patch, each with a hemisphere [4]", &Own::parts,
+                          Subdivision1997::part_choices)};
+}
+
+void check(const SolveOptions& options, std::size_t) {
+    Subdivision1997::check(options.own.of<Subdivision1997Options>());
+}
+
+double bytes(const SolveOptions& options, double patches) {
+    return patches * Subdivision1997::bytes_of_patch(options.own.of<Subdivision1997Options>());
+}
 
 } // namespace
 
@@ -154,8 +159,9 @@ const Method hemisphere_1997_method{
     .plain = plain::hemisphere_1997,
     .role = Role::forerunner,
     .aims = true,
-    .numbers = numbers,
-    .check = [](const SolveOptions& options) { Subdivision1997::check(options.subdivision_1997); },
+    .options = options,
+    .check = check,
+    .bytes = bytes,
 };
 
 } // namespace hemilux

@@ -3,7 +3,8 @@
 
 #include "io/scene_files/obj.h"
 #include "radiosity/rays/make_tracer.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
+#include "radiosity/solving/run.h"
 #include "support/families/builders.h"
 #include "support/families/families.h"
 #include "support/scenes.h"
@@ -26,7 +27,7 @@ HardScene with_long_runs(Scene scene, double error) {
     for (int k = 0; k < runs; ++k) {
         SolveOptions options;
         options.seed = 1'000'003 + static_cast<std::uint64_t>(k);
-        options.aim = error;
+        options.stop.error = error;
         Monitor monitor;
         const SolverInput input{mesh, *made.tracer, options, monitor};
         const auto solver = find_method("matrix")->make(input);

@@ -2,6 +2,7 @@
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/solution/solve_error.h"
+#include "radiosity/solving/run.h"
 #include "support/families/watchdog.h"
 
 #include <algorithm>
@@ -132,9 +133,7 @@ JudgedRun judge_run(const PreparedScene& scene, const Method& method, const Stop
     SolveOptions options;
     options.seed = seed;
     options.threads = threads;
-    options.growing_steps = !stop.steps;
-    options.aim = stop.error.value_or(0);
-    options.expected_steps = expected_steps(stop);
+    options.stop = stop;
     options.memory = std::uint64_t{4} << 30;
     const auto start = std::chrono::steady_clock::now();
     Monitor monitor;

@@ -3,7 +3,7 @@
 // one by one and together.
 
 #include "radiosity/rays/make_tracer.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/solving/method.h"
 #include "support/families/hard_scene.h"
 
 #include <cstdint>

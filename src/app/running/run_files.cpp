@@ -1,0 +1,119 @@
+#include "app/running/run_files.h"
+
+#include "app/settings/exit_code.h"
+#include "io/files/atomic_file.h"
+#include "io/files/input_file.h"
+#include "io/meshes/lightmap.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hemilux {
+
+namespace {
+
+using RoleAndPath = std::pair<std::string, std::string>;
+
+/// The files of --lightmap.
+std::vector<std::string> lightmap_paths(const SolveSettings& settings) {
+    std::vector<std::string> paths;
+    for (const Output& output : settings.outputs)
+        if (settings.lightmap && output.kind == OutputKind::glb) {
+            if (output.path == standard_output)
+                throw UsageError("--lightmap takes its name from the .glb file; -o -.glb has none");
+            paths.push_back(lightmap_path(output.path));
+        }
+    if (settings.lightmap && paths.empty())
+        throw UsageError("--lightmap is for .glb files; add -o scene.glb");
+    return paths;
+}
+
+/// What the run leaves behind, but for checkpoints.
+std::vector<RoleAndPath> results_of(const SolveSettings& settings) {
+    std::vector<RoleAndPath> results;
+    for (const Output& output : settings.outputs)
+        results.emplace_back("output", output.path);
+    for (const std::string& path : lightmap_paths(settings))
+        results.emplace_back("file of --lightmap", path);
+    for (const auto& [role, path] : {std::pair("file of --points-output", settings.points.output),
+                                     std::pair("file of --error-map", settings.error_map),
+                                     std::pair("file of --stats", settings.statistics),
+                                     std::pair("file of --report", settings.report),
+                                     std::pair("file of --steps-log", settings.steps_log)})
+        if (!path.empty())
+            results.emplace_back(role, path);
+    return results;
+}
+
+void check_points(const SolveSettings& settings) {
+    if (settings.points.path.empty() != settings.points.output.empty())
+        throw UsageError(settings.points.path.empty()
+                             ? "--points-output is the table of --points; add --points FILE"
+                             : "--points needs a file for its table; add --points-output "
+                               "light.csv (or /dev/stdout)");
+}
+
+void check_every_step(const SolveSettings& settings) {
+    if (!settings.every_step)
+        return;
+    if (std::ranges::none_of(settings.outputs, is_picture, &Output::kind))
+        throw UsageError("--every-step is for pictures; add -o picture.png");
+    if (std::ranges::find(settings.outputs, standard_output, &Output::path) !=
+        settings.outputs.end())
+        throw UsageError("--every-step names a file for each step; -o - has no name");
+}
+
+void list_inputs(const SolveSettings& settings, RunFiles& files) {
+    files.read("scene", settings.scene.path);
+    if (!settings.scene.config.empty())
+        files.read("file of --config", settings.scene.config);
+    if (!settings.reference.empty())
+        files.read("reference", settings.reference);
+    if (!settings.points.path.empty())
+        files.read("file of --points", settings.points.path);
+    for (const std::string& path : settings.target.points)
+        files.read("file of --for", path);
+    // A run may renew the checkpoint that it goes on from.
+    const auto& [checkpoint, resumed, every] = settings.checkpoint;
+    if (!resumed.empty() && resumed != checkpoint &&
+        identity_of(resumed) != identity_of(checkpoint))
+        files.read("file of --resume", resumed);
+}
+
+void check_readable(const SolveSettings& settings) {
+    for (const std::string& path : {settings.reference, settings.points.path})
+        if (!path.empty())
+            check_input(path, InputKind::stream);
+    for (const std::string& path : settings.target.points)
+        check_input(path, InputKind::regular);
+    if (is_same_stream(settings.reference, settings.points.path))
+        throw UsageError("--reference and --points: '" + settings.points.path +
+                         "' is a pipe, which can be read once");
+}
+
+} // namespace
+
+RunFiles check_files(const SolveSettings& settings) {
+    std::vector<RoleAndPath> written = results_of(settings);
+    check_points(settings);
+    if (written.empty())
+        throw UsageError("nothing would be written; add an output such as -o picture.png");
+    check_every_step(settings);
+    if (!settings.checkpoint.path.empty())
+        written.emplace_back("checkpoint", settings.checkpoint.path);
+    RunFiles files;
+    for (const auto& [role, path] : written)
+        files.write(role, path);
+    for (const Output& output : settings.outputs)
+        if (settings.every_step && is_picture(output.kind))
+            files.write_steps(output.path);
+    list_inputs(settings, files);
+    for (const auto& [role, path] : written)
+        check_writable(path);
+    check_readable(settings);
+    return files;
+}
+
+} // namespace hemilux

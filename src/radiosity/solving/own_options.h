@@ -1,0 +1,34 @@
+#pragma once
+// What single methods are told besides what all of them are: each declares a type of its own, as
+// ProgressiveOptions, and nobody else needs to know it.
+
+#include <any>
+#include <map>
+#include <typeindex>
+
+namespace hemilux {
+
+/// Holds one value of each type that a method asks for.
+class OwnOptions {
+  public:
+    /// The value of this type; as it is by default where nobody has set it.
+    template <class Options>
+    [[nodiscard]] const Options& of() const {
+        static const Options defaults{};
+        const auto found = values_.find(typeid(Options));
+        return found == values_.end() ? defaults : *std::any_cast<Options>(&found->second);
+    }
+    /// The same, to be set. It stays where it is as long as this object.
+    template <class Options>
+    [[nodiscard]] Options& of() {
+        std::any& value = values_[typeid(Options)];
+        if (!value.has_value())
+            value = Options{};
+        return *std::any_cast<Options>(&value);
+    }
+
+  private:
+    std::map<std::type_index, std::any> values_;
+};
+
+} // namespace hemilux
