@@ -47,6 +47,7 @@ const std::vector<std::string> rooms{
     "io/gltf",
     "io/results",
     "io/pictures",
+    "io/rendering",
     "io/meshes",
     "io/drawings",
     "app/settings",

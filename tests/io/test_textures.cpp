@@ -2,7 +2,7 @@
 
 #include "io/files/error.h"
 #include "io/pictures/image.h"
-#include "io/pictures/render.h"
+#include "io/rendering/render.h"
 #include "io/pictures/zlib.h"
 #include "io/scene_files/obj.h"
 #include "io/textures/texture_files.h"
