@@ -43,6 +43,7 @@ const std::vector<std::string> rooms{
     "radiosity/division",
     "io/files",
     "io/textures",
+    "io/polygons",
     "io/scene_files",
     "io/gltf",
     "io/results",

@@ -5,8 +5,8 @@
 #include "io/gltf/lights.h"
 #include "io/gltf/primitives.h"
 #include "io/gltf/texture_maps.h"
+#include "io/polygons/polygon_division.h"
 #include "io/scene_files/emitter_shapes.h"
-#include "io/scene_files/polygon_division.h"
 #include "radiosity/sides/shells.h"
 
 #include <algorithm>
