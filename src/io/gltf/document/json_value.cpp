@@ -1,4 +1,4 @@
-#include "io/gltf/json_value.h"
+#include "io/gltf/document/json_value.h"
 
 #include "io/files/error.h"
 #include "io/files/text_words.h"
