@@ -44,7 +44,7 @@ class PictureGather {
         unsigned sample, count;
     };
     /// Direct light is slow.unshadowed times the share of it that arrives: the ratio of sums over
-    /// `direct` of places around, as the few rays of one place tell it badly.
+    /// `direct` of places around, as the few rays of one place estimate it badly.
     struct Light {
         DirectLight direct;
         SlowLight slow;

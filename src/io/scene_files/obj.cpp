@@ -186,8 +186,8 @@ void ObjReader::check_memory() const {
                                            materials_.materials.size()));
 }
 
-/// What there is to say where doubles hardly tell the scene's places from each other, because it is
-/// so far from the origin; else nothing.
+/// What there is to say where doubles hardly distinguish the scene's places from each other,
+/// because it is so far from the origin; else nothing.
 std::string ObjReader::rounding_of_places() const {
     constexpr double noticeable = 1e-7; // of the scene's size
     Box bounds;

@@ -55,7 +55,7 @@ constexpr double most_of_first = 3.0 / 4;
 /// of the error comes from which kind is known of the target's own rays, and less of others'.
 constexpr double least_of_kind = 1.0 / 4;
 
-/// Black emitters count as if they reflected this: their rays tell where their light goes.
+/// Black emitters count as if they reflected this: their rays show where their light goes.
 constexpr double least_reflectance = .1;
 
 /// Throws StateError for rays that cannot have been allocated with this mean (ray_allocation.h): a

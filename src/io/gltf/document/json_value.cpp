@@ -11,7 +11,7 @@
 namespace hemilux::gltf {
 namespace {
 
-constexpr double largest_whole = 9007199254740992; // 2^53: doubles tell whole numbers apart
+constexpr double largest_whole = 9007199254740992; // 2^53: doubles distinguish whole numbers
 
 /// Of a value in a message.
 std::string shortened(const nlohmann::json& node) {
