@@ -62,7 +62,7 @@ class EmbreeRays {
     std::vector<RTCRayHit16> sixteens;
 };
 
-/// The primitives that were struck, in `out`; with a scene of counting_filter how many there are.
+/// The primitives that were hit, in `out`; with a scene of counting_filter how many there are.
 void embree_trace(const EmbreeScene& scene, const EmbreeQuery& query, const EmbreeRays& rays,
                   std::span<std::uint32_t> out);
 /// Refuses everything and counts what does not belong to the facet that the ray starts on.

@@ -2,10 +2,10 @@
 //
 //     hemilux_escapes [--rays N] [--threads N] [--seed N] [--scene FILE.obj ...]
 //
-// N rays (a million unless told) through the fast tracer in each mesh: a sphere of triangles and a
+// N rays (a million by default) through the fast tracer in each mesh: a sphere of triangles and a
 // box of slivers, or with --scene the closed parts of that scene. Half of the rays leave patches
 // cosine distributed; half are aimed exactly at vertices and at points of edges, which is where
-// tracers leak. Ends with 1 if a ray has struck nothing.
+// tracers leak. Ends with 1 if a ray has hit nothing.
 #include "bvh/wide/wide_bvh.h"
 #include "closed_meshes.h"
 #include "io/scene_files/obj.h"
@@ -44,7 +44,7 @@ class Inside {
             area_before_.push_back(area += patch.area);
     }
 
-    /// A chunk's rays, always the same for the same stream. Returns how many struck nothing.
+    /// A chunk's rays, always the same for the same stream. Returns how many hit nothing.
     [[nodiscard]] std::size_t chunk(std::uint64_t stream) const {
         Rng rng(stream);
         return shoot(rays_a_chunk / 2, [&] { return cosine_ray(rng); }) +

@@ -11,7 +11,7 @@
 // the details.
 #include "bvh/wide/wide_bvh.h"
 #include "clock.h"
-#include "io/pictures/render.h"
+#include "io/rendering/render.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/method.h"

@@ -6,7 +6,7 @@
 // Prints: the estimated error after each step that doubles the rays, at last where the picture is.
 
 #include "bvh/wide/wide_bvh.h"
-#include "io/pictures/render.h"
+#include "io/rendering/render.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/method.h"

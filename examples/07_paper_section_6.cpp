@@ -8,7 +8,7 @@
 // and its memory, as a table in Markdown. FOLDER gets the pictures.
 
 #include "bvh/wide/wide_bvh.h"
-#include "io/pictures/render.h"
+#include "io/rendering/render.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/method.h"

@@ -104,10 +104,10 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     program.program().add_answer(
         "--print", "man|bash|zsh|fish", "Print the manual page, or the completions of a shell",
         [&program](const std::string& name) { return printed(program, name); });
-    program.program().end_help_with("hemilux SUBCOMMAND --help tells more.");
+    program.program().end_help_with("hemilux SUBCOMMAND --help says more.");
     for (const std::string& subcommand : program.commands())
         if (!words.empty() && words.front() == subcommand)
-            advice = "\nhemilux " + words.front() + " --help tells what can be asked for.";
+            advice = "\nhemilux " + words.front() + " --help says what can be asked for.";
     const ConfigWords config(std::move(words), program.described());
     if (const std::string text = parsed(program, config); !text.empty()) {
         if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
@@ -135,7 +135,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
 
 /// Every error ends here, as one message and an exit code.
 int guarded_main(int argc, const char* const* argv) {
-    std::string advice = "\nhemilux --help tells what can be asked for.";
+    std::string advice = "\nhemilux --help says what can be asked for.";
     std::optional<StartedRanks> started;
     const auto fail = [&](int code, const char* message, const char* more = "") {
         std::fprintf(stderr, "hemilux: %s%s\n", printable_message(message).c_str(), more);

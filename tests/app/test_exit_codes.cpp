@@ -16,6 +16,8 @@ TEST_CASE("help and version go to stdout and end with 0") {
         CHECK_THAT(help.out, Contains("hemilux"));
     }
     const std::string help = place.hemilux("solve --help").out;
+    CHECK_THAT(help, Contains("(not with --two-sided)") && Contains("(not with --sides)"));
+    CHECK_THAT(help, !Contains("Excludes"));
     for (const char* text : {"--method", "--literal", "--steps-log", "Examples:", "Exit codes:",
                              "hemisphere ", "matrix ", "progressive-monte-carlo ", "stratified "})
         CHECK_THAT(help, Contains(text));

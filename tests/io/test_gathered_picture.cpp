@@ -1,7 +1,7 @@
 // Pictures whose light is gathered at their pixels, against light in closed form.
 #include "bvh/bvh.h"
 #include "io/files/error.h"
-#include "io/pictures/render.h"
+#include "io/rendering/render.h"
 #include "radiosity/scene/mesh.h"
 #include "support/catch.h"
 #include "support/closed_forms.h"

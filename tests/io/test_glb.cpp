@@ -1,6 +1,6 @@
 #include "geometry/box.h"
 #include "io/files/error.h"
-#include "io/gltf/container.h"
+#include "io/gltf/document/container.h"
 #include "io/gltf/gltf.h"
 #include "io/meshes/glb.h"
 #include "radiosity/scene/mesh.h"

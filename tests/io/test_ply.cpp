@@ -16,6 +16,13 @@ using namespace hemilux::test;
 
 namespace {
 
+/// With the radiosity of patches, smoothed over corners.
+void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity) {
+    const CornerClasses classes = find_corner_classes(mesh);
+    hemilux::write_ply(path, mesh, classes,
+                       {baked_light(mesh, classes, radiosity, Bake::radiosity)});
+}
+
 struct Vertex {
     Vec3 position;
     std::array<float, 3> colour;
@@ -111,9 +118,10 @@ TEST_CASE("a PLY for viewers holds what a picture shows, and the light beside it
     const Mesh mesh(furnace_box(1, 0.5));
     const CornerClasses classes = find_corner_classes(mesh);
     const Vec3 light(0.5, 0.25, 2);
-    write_ply(folder.path("a.ply"), mesh, classes,
-              {std::vector<Vec3>(classes.position.size(), light), Bake::irradiance, Display(0.5)},
-              PlyColours::shown);
+    hemilux::write_ply(
+        folder.path("a.ply"), mesh, classes,
+        {std::vector<Vec3>(classes.position.size(), light), Bake::irradiance, Display(0.5)},
+        PlyColours::shown);
     const std::string file = content_of(folder.path("a.ply")), end = "end_header\n";
     std::size_t at = file.find(end) + end.size();
     CHECK_THAT(file, Catch::Contains("property uchar red\nproperty uchar green\n"

@@ -1,8 +1,8 @@
-#include "io/scene_files/polygon_division.h"
+#include "io/polygons/polygon_division.h"
 
 #include "geometry/frame.h"
 #include "geometry/polygon.h"
-#include "io/scene_files/ear_clipping.h"
+#include "io/polygons/ear_clipping.h"
 #include "radiosity/sampling/rng.h"
 #include "support/catch.h"
 

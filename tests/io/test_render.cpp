@@ -1,5 +1,5 @@
 #include "bvh/bvh.h"
-#include "io/pictures/render.h"
+#include "io/rendering/render.h"
 #include "io/results/smooth.h"
 #include "radiosity/scene/mesh.h"
 #include "support/catch.h"

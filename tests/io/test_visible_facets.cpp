@@ -1,6 +1,6 @@
 // What is filled row by row is what rays of the camera see.
 #include "bvh/bvh.h"
-#include "io/pictures/visible_facets.h"
+#include "io/rendering/visible_facets.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
 #include "support/catch.h"

@@ -19,13 +19,13 @@ using test::Model;
 
 namespace {
 
-/// Chances of all emitters, as told by a fine sweep through [0, 1) and as met in it.
+/// Chances of all emitters, as stated by a fine sweep through [0, 1) and as met in it.
 struct Sweep {
     static constexpr int steps = 40'000;
-    std::vector<double> told, met;
+    std::vector<double> stated, met;
 
     Sweep(const EmitterChoice& choice, const EmitterChoice::Cut& cut, std::size_t emitters)
-        : told(emitters), met(emitters) {
+        : stated(emitters), met(emitters) {
         for (int k = 0; k < steps;) {
             std::array<double, samples_per_block> u;
             for (double& each : u)
@@ -34,7 +34,7 @@ struct Sweep {
             choice.choose(cut, u.data(), choices);
             for (const auto& [e, chance] : choices) {
                 met[e] += 1.0 / steps;
-                told[e] = chance;
+                stated[e] = chance;
             }
         }
     }
@@ -124,7 +124,7 @@ TEST_CASE("Shadow rays go to every emitter that may be seen, by what it may brin
         }
         for (std::size_t e = 0; e < patches.size(); ++e)
             if (sweep.met[e] > 0)
-                CHECK(sweep.told[e] == Approx(expected[e] / sum).epsilon(1e-9));
+                CHECK(sweep.stated[e] == Approx(expected[e] / sum).epsilon(1e-9));
             else
                 CHECK(expected[e] / sum < 2.0 / Sweep::steps);
     }
@@ -143,10 +143,10 @@ TEST_CASE("Direct light is unbiased where emitters are drawn by clusters", "[slo
         choice.weigh(i, cut);
         if (cut.dark())
             continue;
-        const auto [told, met] = Sweep(choice, cut, emitters.size());
+        const auto [stated, met] = Sweep(choice, cut, emitters.size());
         for (std::size_t e = 0; e < met.size(); ++e)
-            CHECK(met[e] == Approx(told[e]).margin(2.0 / Sweep::steps));
-        CHECK(std::accumulate(told.begin(), told.end(), 0.0) == Approx(1).epsilon(.01));
+            CHECK(met[e] == Approx(stated[e]).margin(2.0 / Sweep::steps));
+        CHECK(std::accumulate(stated.begin(), stated.end(), 0.0) == Approx(1).epsilon(.01));
     }
     const Vec3 of_one = power_of(whole, direct_light(whole, 1u << 14));
     const Vec3 of_many = power_of(fine, direct_light(fine, 64));

@@ -180,7 +180,7 @@ TEST_CASE("Stored transport on one page agrees with its engine", "[slow]") {
                                         {.steps = {}, .seconds = {}, .error = 1e-3});
     const std::size_t patches = model.mesh.patches().size(), runs = 12;
     std::vector<test::MeanTest> means(3 * patches);
-    double squares = 0, told = 0;
+    double squares = 0, reported = 0;
     for (std::uint64_t seed = 1; seed <= runs; ++seed) {
         SolveOptions options = with_rays(512);
         options.seed = seed;
@@ -191,7 +191,7 @@ TEST_CASE("Stored transport on one page agrees with its engine", "[slow]") {
         const double off = true_error(model.mesh, s.radiosity, engine.radiosity).all;
         const double error = estimated_error(model.mesh, s);
         squares += off * off;
-        told += error * error;
+        reported += error * error;
         CHECK(s.energy.imbalance() < 1e-9);
     }
     double least = 1;
@@ -199,8 +199,8 @@ TEST_CASE("Stored transport on one page agrees with its engine", "[slow]") {
         if (means[k].standard_error() > 0)
             least = std::min(least, means[k].p_value(engine.radiosity[k / 3][int(k % 3)]));
     CHECK(least > test::sidak(test::significance, means.size()));
-    CHECK(std::sqrt(squares / told) > .5);
-    CHECK(std::sqrt(squares / told) < 1.5);
+    CHECK(std::sqrt(squares / reported) > .5);
+    CHECK(std::sqrt(squares / reported) < 1.5);
 }
 
 TEST_CASE("Pages have the engine's bits on 3576 patches", "[slow]") {

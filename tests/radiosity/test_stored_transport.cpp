@@ -40,16 +40,16 @@ std::vector<RayCounts> traced(const Model& model, std::size_t sets, std::uint32_
     return result;
 }
 
-/// Relative errors of one run: the true one, and as it is told.
+/// Relative errors of one run: the true one, and as it is reported.
 struct RunErrors {
-    double off, told;
+    double off, reported;
 
     RunErrors(const Model& model, const Solution& exact, std::uint64_t seed, std::uint32_t steps) {
         SolveOptions options;
         options.seed = seed;
         const Solution s = test::solve(model, stored_transport(), options, test::steps(steps));
         off = true_error(model.mesh, s.radiosity, exact.radiosity).all;
-        told = estimated_error(model.mesh, s);
+        reported = estimated_error(model.mesh, s);
     }
 };
 
@@ -239,7 +239,7 @@ TEST_CASE("Stored transport agrees with the matrix and knows its error", "[slow]
             const RunErrors error(model, exact, 70 + std::uint64_t(run), 5);
             CHECK(error.off < .02);
             log_ratio +=
-                std::log(std::hypot(error.told, .0015) / std::hypot(error.off, 1e-9)) / runs;
+                std::log(std::hypot(error.reported, .0015) / std::hypot(error.off, 1e-9)) / runs;
         }
         CAPTURE(std::exp(log_ratio));
         CHECK(std::exp(log_ratio) > .8);
@@ -249,17 +249,17 @@ TEST_CASE("Stored transport agrees with the matrix and knows its error", "[slow]
 TEST_CASE("Stored transport finds the light of many emitters that touch a wall") {
     const Model model(test::curtain_at_wall(12));
     const Solution exact = test::reference(model, .003);
-    double squares = 0, told = 0;
+    double squares = 0, reported = 0;
     constexpr int runs = 4;
     for (int run = 0; run < runs; ++run) {
         const RunErrors error(model, exact, 80 + std::uint64_t(run), 4);
         squares += error.off * error.off / runs;
-        told += error.told / runs;
+        reported += error.reported / runs;
     }
-    CAPTURE(std::sqrt(squares), told);
+    CAPTURE(std::sqrt(squares), reported);
     CHECK(std::sqrt(squares) < .009);
-    CHECK(told / std::sqrt(squares) > .7);
-    CHECK(told / std::sqrt(squares) < 2.2); // its error has few parts
+    CHECK(reported / std::sqrt(squares) > .7);
+    CHECK(reported / std::sqrt(squares) < 2.2); // its error has few parts
 }
 
 TEST_CASE("Stored transport closes the balance of energy of closed rooms") {

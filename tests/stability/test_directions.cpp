@@ -58,37 +58,37 @@ struct Closed {
     }
 };
 
-struct Told {
+struct Answer {
     std::uint32_t facet, count;
     bool front, blocked;
-    bool operator==(const Told&) const = default;
+    bool operator==(const Answer&) const = default;
 };
 
-Told ask_one(const Tracer& tracer, const Ray& ray) {
+Answer ask_one(const Tracer& tracer, const Ray& ray) {
     const auto hit = tracer.closest(ray);
     if (hit)
         REQUIRE(std::isfinite(hit->t + hit->u + hit->v));
     return {hit ? hit->facet : none, tracer.count(ray), hit && hit->front, tracer.occluded(ray)};
 }
 
-std::vector<Told> ask_stream(const Tracer& tracer, const std::vector<Ray>& rays) {
+std::vector<Answer> ask_stream(const Tracer& tracer, const std::vector<Ray>& rays) {
     std::vector<FacetHit> hits(rays.size());
     std::vector<std::uint8_t> blocked(rays.size());
     tracer.closest_stream(rays, hits);
     tracer.occluded_stream(rays, std::vector<std::uint32_t>(rays.size(), none), blocked);
-    std::vector<Told> told;
+    std::vector<Answer> answer;
     for (std::size_t k = 0; k < rays.size(); ++k)
-        told.push_back({hits[k].facet, tracer.count(rays[k]), hits[k].front, blocked[k] != 0});
-    return told;
+        answer.push_back({hits[k].facet, tracer.count(rays[k]), hits[k].front, blocked[k] != 0});
+    return answer;
 }
 
 /// All answers to rays from one origin, which are the same whoever is asked and how.
-std::vector<Told> ask_all(const Closed& room, const std::vector<Ray>& rays) {
-    std::vector<Told> right;
+std::vector<Answer> ask_all(const Closed& room, const std::vector<Ray>& rays) {
+    std::vector<Answer> right;
     for (const Ray& ray : rays)
         right.push_back(ask_one(room.brute, ray));
     for (const Tracer* const tracer : room.tracers()) {
-        std::vector<Told> single;
+        std::vector<Answer> single;
         for (const Ray& ray : rays)
             single.push_back(ask_one(*tracer, ray));
         CHECK((single == right));
@@ -101,9 +101,9 @@ std::vector<Told> ask_all(const Closed& room, const std::vector<Ray>& rays) {
 /// or out, in and out.
 void check_inside(const Closed& room, const std::vector<Ray>& rays) {
     std::size_t leaks = 0, wrong_counts = 0;
-    for (const Told& told : ask_all(room, rays)) {
-        leaks += told.facet == none || !told.blocked;
-        wrong_counts += room.convex ? told.count != 1 : told.count % 2 != 1;
+    for (const Answer& answer : ask_all(room, rays)) {
+        leaks += answer.facet == none || !answer.blocked;
+        wrong_counts += room.convex ? answer.count != 1 : answer.count % 2 != 1;
     }
     CHECK(leaks == 0);
     CHECK(wrong_counts == 0);
@@ -152,7 +152,7 @@ TEST_CASE("Rays at vertices and edges of a closed mesh from anywhere inside") {
         const std::vector<Vec3> points = room->nasty_points();
         // The middle of all, which is on diagonals, and points with nothing special about them.
         for (const Vec3& origin : {Vec3(-.25, 0, -.25), Vec3(-.2137, .0411, -.2518)}) {
-            const Told there = ask_one(room->brute, {origin, {.3, .4, .5}});
+            const Answer there = ask_one(room->brute, {origin, {.3, .4, .5}});
             REQUIRE(there.count % 2 == 1);
             for (const bool unit : {false, true})
                 check_inside(*room, aimed(origin, points, unit));
@@ -194,10 +194,10 @@ TEST_CASE("Rays within the plane of the wall that they start on") {
                     if (i != 0 || j != 0)
                         rays.push_back(ray);
                 }
-            for (const Told& told : ask_all(*room, rays)) {
-                CHECK(told.facet != none); // the edge of the next wall
+            for (const Answer& answer : ask_all(*room, rays)) {
+                CHECK(answer.facet != none); // the edge of the next wall
                 if (room->convex)
-                    CHECK(told.count <= 1); // none where that edge belongs to the floor
+                    CHECK(answer.count <= 1); // none where that edge belongs to the floor
             }
         }
     }
@@ -230,8 +230,8 @@ TEST_CASE("Rays along an edge that they start on") {
                 rays.push_back({.5 * (a + b), direction});
                 rays.back().from = patch.facet;
             }
-            const std::vector<Told> told = ask_all(room, rays);
-            for (const Told& one : told)
+            const std::vector<Answer> answer = ask_all(room, rays);
+            for (const Answer& one : answer)
                 CHECK(one.count <= 1);
         }
 }
@@ -242,7 +242,7 @@ TEST_CASE("Rays that are none strike nothing") {
     for (const Vec3& bad : {Vec3(0.0), Vec3(nan, 0, 1), Vec3(0, infinity, 1), Vec3(nan)}) {
         const std::vector<Ray> rays(3, Ray{Vec3(0.0), bad});
         for (const Tracer* const tracer : box().tracers())
-            for (const Told& told : ask_stream(*tracer, rays))
-                CHECK((told == Told{none, 0, false, false}));
+            for (const Answer& answer : ask_stream(*tracer, rays))
+                CHECK((answer == Answer{none, 0, false, false}));
     }
 }

@@ -77,7 +77,7 @@ constexpr double room_size = 4.7; ///< the diagonal
 bool same_rays_everywhere(const Method& method) { return method.name != "progressive"; }
 
 /// The program's result without the folder's name.
-std::string told(const std::string& obj, std::size_t* facets = nullptr) {
+std::string rounding_warning(const std::string& obj, std::size_t* facets = nullptr) {
     const test::TemporaryFolder folder;
     const std::string path = folder.write("s.obj", obj);
     try {
@@ -166,18 +166,18 @@ TEST_CASE("Where doubles no longer tell places apart it is said") {
         return obj_of(placed(room, 1, sizes * room_size * Vec3(.7, -1, .4)));
     };
     std::size_t facets = 0;
-    CHECK(told(at(1e8), &facets).empty());
+    CHECK(rounding_warning(at(1e8), &facets).empty());
     CHECK(facets == room.facets.size());
     // Distinct still, but no longer where they were.
-    CHECK(told(at(1e11)) ==
+    CHECK(rounding_warning(at(1e11)) ==
           "s.obj: all lies near 4.7e+11, where numbers are rounded to 0.0001, and "
           "is 4.5 wide; move it nearer to the origin\n");
     // Some have collapsed: how many is said too.
-    const std::string some = told(at(1e13), &facets);
+    const std::string some = rounding_warning(at(1e13), &facets);
     CHECK(some.find("move it nearer to the origin") != std::string::npos);
     CHECK(some.find("8 faces without area are left out") != std::string::npos);
     CHECK(facets > 0);
-    const std::string all = told(at(1e17));
+    const std::string all = rounding_warning(at(1e17));
     CHECK(all.starts_with("error: "));
     CHECK(all.find("none of the faces has an area: all lies near 4.7e+17, where numbers are "
                    "rounded to 1e+02") != std::string::npos);

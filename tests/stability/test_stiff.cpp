@@ -80,9 +80,9 @@ TEST_CASE("All methods hold in a room of reflectance .99", "[slow]") {
                                   : test::steps(40);
         const Solution s = test::solve(model, *method, options, stop);
         const double off = relative_error(model, s, exact);
-        const double told = estimated_error(model.mesh, s);
-        CAPTURE(method->name, off, told);
+        const double reported = estimated_error(model.mesh, s);
+        CAPTURE(method->name, off, reported);
         CHECK(off < .06);
-        CHECK(off < 3.5 * told + 1e-6);
+        CHECK(off < 3.5 * reported + 1e-6);
     }
 }

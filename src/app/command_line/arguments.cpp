@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <memory>
 #include <sstream>
 #include <utility>
 
@@ -127,6 +128,20 @@ std::string wrapped(const std::string& help) {
     return text;
 }
 
+/// Help whose lines begin with what is typed: options that contradict each other are named in the
+/// descriptions.
+class HelpFormatter : public CLI::Formatter {
+  public:
+    std::string make_option_opts(const CLI::Option* option) const override {
+        const std::string text = CLI::Formatter::make_option_opts(option);
+        return text.substr(0, text.find(" Excludes:"));
+    }
+};
+
+void describe_exclusion(CLI::Option& of, const CLI::Option& other) {
+    of.description(of.get_description() + " (not with " + other.get_name() + ")");
+}
+
 /// A word as a shell takes it.
 std::string quoted(const std::string& word) {
     const auto is_plain = [](unsigned char c) {
@@ -150,6 +165,8 @@ Option Option::required() const {
 
 Option Option::excludes(Option other) const {
     option_->excludes(other.option_);
+    describe_exclusion(*option_, *other.option_);
+    describe_exclusion(*other.option_, *option_);
     return *this;
 }
 
@@ -265,7 +282,9 @@ std::string Command::text_given(std::span<const std::string_view> except) const 
 bool Command::parsed() const { return app_->parsed(); }
 
 Arguments::Arguments(const std::string& program, const std::string& description)
-    : app_(std::make_unique<CLI::App>(description, program)) {}
+    : app_(std::make_unique<CLI::App>(description, program)) {
+    app_->formatter(std::make_shared<HelpFormatter>()); // of its subcommands, too
+}
 
 Arguments::~Arguments() = default;
 

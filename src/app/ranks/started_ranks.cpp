@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As the environment tells: of Open MPI, of MPICH and its kin, of a step of Slurm.
+/// As the environment says: of Open MPI, of MPICH and its kin, of a step of Slurm.
 int count_of_started() {
     for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
         const char* const text = std::getenv(name);

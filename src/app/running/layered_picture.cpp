@@ -3,7 +3,7 @@
 #include "app/settings/view.h"
 #include "io/files/error.h"
 #include "io/meshes/baked_light.h"
-#include "io/pictures/render.h"
+#include "io/rendering/render.h"
 #include "parallel/workers.h"
 #include "radiosity/hemisphere/density.h"
 

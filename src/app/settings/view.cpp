@@ -4,7 +4,7 @@
 #include "app/settings/text.h"
 #include "io/meshes/baked_light.h"
 #include "io/pictures/exr.h"
-#include "io/pictures/render.h"
+#include "io/rendering/render.h"
 #include "radiosity/scene/mesh.h"
 
 #include <cmath>

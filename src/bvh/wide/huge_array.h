@@ -10,7 +10,7 @@
 
 namespace hemilux {
 
-/// Tells the system that this memory is better held in huge pages; it may refuse.
+/// Asks the system to hold this memory in huge pages; it may refuse.
 void advise_huge_pages(void* memory, std::size_t bytes);
 
 template <class T>

@@ -229,7 +229,7 @@ class Builder {
         leaf.slot[k] = slot;
     }
 
-    /// A quad whose halves a ray might both strike: where it is not planar and convex, and the
+    /// A quad whose halves a ray might both hit: where it is not planar and convex, and the
     /// filter would not be uncertain of such rays anyway. Its hits are always decided in doubles.
     ///
     /// A ray that strikes both halves meets one from the front and one from behind, so its sine to

@@ -15,7 +15,7 @@ namespace hemilux::wide {
 
 struct Built {
     HugeArray<Node> nodes;    ///< none: the only leaf is the root
-    HugeArray<Leaf> leaves;   ///< none: nothing to strike
+    HugeArray<Leaf> leaves;   ///< none: nothing to hit
     Vec3 low{0.0}, high{0.0}; ///< of all facets, in the soup's units
     BvhQuality quality;
 };

@@ -1,7 +1,7 @@
 #pragma once
 // The fast tracer: a tree with eight children a node and eight triangles a leaf, traversed in
-// floats by vector instructions; what floats cannot tell is decided in doubles (wide_layout.h). It
-// answers as Bvh and BruteForce do, bit for bit.
+// floats by vector instructions; what floats cannot decide is decided in doubles (wide_layout.h).
+// It answers as Bvh and BruteForce do, bit for bit.
 
 #include "bvh/wide/float_ray.h"
 #include "bvh/wide/wide_build.h"

@@ -1,5 +1,5 @@
 #pragma once
-// One colour per number from 0 up, and the bar that tells which.
+// One colour per number from 0 up, and the bar that says which.
 
 #include "io/drawings/canvas.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // A number per patch in false colour, seen through a camera.
 
-#include "io/pictures/render.h"
+#include "io/rendering/render.h"
 
 #include <string>
 

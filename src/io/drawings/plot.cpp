@@ -147,7 +147,7 @@ double panel_left(std::size_t index) {
 } // namespace
 
 Colour curve_colour(std::size_t index) {
-    // Told apart with every kind of colour vision (Okabe and Ito 2008), without their yellow.
+    // Distinguished with every kind of colour vision (Okabe and Ito 2008), without their yellow.
     static constexpr std::array<Colour, 8> colours{{{0, 114, 178},
                                                     {213, 94, 0},
                                                     {0, 158, 115},

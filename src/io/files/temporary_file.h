@@ -12,7 +12,7 @@ namespace hemilux {
 
 struct TemporaryFile {
     std::string path;
-    int descriptor = -1; ///< open for writing; -1: errno tells why not
+    int descriptor = -1; ///< open for writing; -1: errno says why not
 };
 
 /// Makes a new temporary file; the user's umask takes rights away from the mode.

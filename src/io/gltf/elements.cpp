@@ -2,7 +2,7 @@
 
 #include "io/files/error.h"
 #include "io/files/input_file.h"
-#include "io/gltf/uri.h"
+#include "io/gltf/document/uri.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,8 @@
 #pragma once
 // The bytes of a glTF file's buffers, and the elements of accessors in them (section 3.6).
 
-#include "io/gltf/container.h"
-#include "io/gltf/document.h"
+#include "io/gltf/document/container.h"
+#include "io/gltf/document/document.h"
 
 #include <string>
 #include <string_view>

@@ -3,16 +3,14 @@
 #include "io/files/error.h"
 #include "io/files/text_words.h"
 #include "io/gltf/lights.h"
-#include "io/gltf/primitives.h"
-#include "io/gltf/texture_maps.h"
+#include "io/gltf/scene_meshes.h"
 #include "io/scene_files/emitter_shapes.h"
-#include "io/scene_files/polygon_division.h"
 #include "radiosity/sides/shells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
 
 namespace hemilux {
 namespace gltf {
@@ -25,48 +23,26 @@ constexpr double bytes_per_triangle = 200;
 /// A material is called a metal from here on.
 constexpr double metal = 0.5;
 
-/// A node of the scene with its transform to the world.
-struct Instance {
-    std::size_t node;
-    glm::dmat4 to_world;
-};
-
-std::string name_or(const std::string& name, const char* kind, std::size_t number) {
-    return name.empty() ? kind + (" " + std::to_string(number)) : name;
-}
-
 class Reader {
   public:
     Reader(const std::string& path, const ReadGuard& guard, bool textures)
         : path_(path), guard_(guard), textures_(textures), container_(read_container(path, guard)),
           json_(container_.json, path), document_(read_document(json_.root())),
           buffers_(document_, container_, path_, guard_), maps_(buffers_, guard_),
-          triangles_(buffers_) {}
+          instances_(instances_of(document_)) {}
 
     ReadResult read();
 
   private:
-    void find_instances();
     void count_triangles_of_scene();
     void add_materials();
-    void add_texcoords(const Primitive& primitive, const Triangles& triangles,
-                       const std::array<std::uint32_t, 3>& corners);
     void mark_two_sided();
-    void add_mesh(const Instance& instance);
-    void add_primitive(const Instance& instance, std::size_t mesh, std::size_t number,
-                       std::uint32_t group);
-    [[nodiscard]] const Triangles& triangles_of(std::size_t mesh, std::size_t number);
-    [[nodiscard]] std::uint32_t group_of(const std::string& name);
-    [[nodiscard]] std::uint32_t default_material();
     void add_camera(const Instance& instance);
     void add_lights();
-    void collect_warnings();
+    void collect_warnings(const MeshTally& meshes);
     void warn(std::size_t count, const std::string& one, const std::string& many);
     [[noreturn]] void fail(const std::string& place, const std::string& message) const {
         throw InputError(path_, place + ": " + message);
-    }
-    [[nodiscard]] static std::string place_of(std::size_t mesh, std::size_t primitive) {
-        return "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(primitive);
     }
 
     std::string path_;
@@ -77,28 +53,20 @@ class Reader {
     Document document_;
     Buffers buffers_;
     TextureMaps maps_;
-    TriangleReader triangles_;
     std::vector<Instance> instances_;
-    std::unordered_map<std::string, std::uint32_t> group_index_;
-    /// By mesh and primitive, read when a node shows them first.
-    std::unordered_map<std::size_t, std::vector<std::optional<Triangles>>> read_;
     std::vector<bool> used_; ///< materials
-    std::optional<std::uint32_t> default_material_;
-    std::size_t without_coordinates_ = 0, lines_ = 0, coloured_ = 0, morphed_ = 0, skins_ = 0;
-    PolygonDivision division_;
-    std::vector<Vec3> world_;
     ReadResult result_;
 };
 
 ReadResult Reader::read() {
-    find_instances();
     count_triangles_of_scene();
     add_materials();
     result_.scene.textures.texcoords.resize(maps_.sets());
+    SceneMeshes meshes(buffers_, maps_, result_);
     for (const Instance& instance : instances_) {
         const Node& node = document_.nodes[instance.node];
         if (node.mesh)
-            add_mesh(instance);
+            meshes.add(instance);
         if (node.camera)
             add_camera(instance);
     }
@@ -110,27 +78,10 @@ ReadResult Reader::read() {
     add_lights();
     for (std::vector<Texcoords>& set : result_.scene.textures.texcoords)
         set.resize(result_.scene.facets.size());
-    collect_warnings();
+    collect_warnings(meshes.tally());
     result_.textures = maps_.paths();
     result_.libraries = buffers_.files();
     return std::move(result_);
-}
-
-/// From the roots on, without recursion: a chain of nodes may be long.
-void Reader::find_instances() {
-    std::vector<Instance> open;
-    for (const std::size_t root : document_.roots)
-        open.push_back({root, glm::dmat4(1.0)});
-    std::ranges::reverse(open);
-    while (!open.empty()) {
-        Instance instance = open.back();
-        open.pop_back();
-        const Node& node = document_.nodes[instance.node];
-        instance.to_world = instance.to_world * node.transform;
-        instances_.push_back(instance);
-        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            open.push_back({*child, instance.to_world});
-    }
 }
 
 void Reader::count_triangles_of_scene() {
@@ -175,17 +126,6 @@ void Reader::add_materials() {
             maps_.read(m, result_.scene);
 }
 
-void Reader::add_texcoords(const Primitive& primitive, const Triangles& triangles,
-                           const std::array<std::uint32_t, 3>& corners) {
-    for (std::size_t set = 0; set < maps_.sets(); ++set) {
-        Texcoords& to = result_.scene.textures.texcoords[set].emplace_back();
-        to.fill(glm::vec2(0.0f));
-        if (set < std::min(triangles.texcoords.size(), primitive.texcoords.size()))
-            for (std::size_t k = 0; k < 4; ++k)
-                to[k] = triangles.texcoords[set][corners[std::min<std::size_t>(k, 2)]];
-    }
-}
-
 /// Facets of double-sided materials, on open surfaces.
 void Reader::mark_two_sided() {
     if (std::ranges::none_of(document_.materials, &MaterialInfo::double_sided))
@@ -200,100 +140,15 @@ void Reader::mark_two_sided() {
     }
 }
 
-std::uint32_t Reader::group_of(const std::string& name) {
-    const auto next = static_cast<std::uint32_t>(result_.scene.groups.size());
-    const auto [found, is_new] = group_index_.try_emplace(name, next);
-    if (is_new)
-        result_.scene.groups.push_back(name);
-    return found->second;
-}
-
-/// Of primitives without one: as of an OBJ file that names none.
-std::uint32_t Reader::default_material() {
-    if (!default_material_) {
-        default_material_ = static_cast<std::uint32_t>(result_.scene.materials.size());
-        result_.scene.materials.emplace_back().name = "default";
-        result_.material_source.emplace_back();
-    }
-    return *default_material_;
-}
-
-const Triangles& Reader::triangles_of(std::size_t mesh, std::size_t number) {
-    const std::vector<Primitive>& primitives = document_.meshes[mesh].primitives;
-    std::vector<std::optional<Triangles>>& of_mesh = read_[mesh];
-    of_mesh.resize(primitives.size());
-    if (!of_mesh[number])
-        of_mesh[number] =
-            triangles_.read(primitives[number], place_of(mesh, number),
-                            std::min(maps_.sets(), primitives[number].texcoords.size()));
-    return *of_mesh[number];
-}
-
-void Reader::add_mesh(const Instance& instance) {
-    const Node& node = document_.nodes[instance.node];
-    const MeshInfo& mesh = document_.meshes[*node.mesh];
-    const std::uint32_t group =
-        group_of(!node.name.empty() ? node.name : name_or(mesh.name, "node", instance.node));
-    skins_ += node.has_skin;
-    for (std::size_t p = 0; p < mesh.primitives.size(); ++p)
-        add_primitive(instance, *node.mesh, p, group);
-}
-
-void Reader::add_primitive(const Instance& instance, std::size_t mesh, std::size_t number,
-                           std::uint32_t group) {
-    const Primitive& primitive = document_.meshes[mesh].primitives[number];
-    lines_ += primitive.mode < Mode::triangles;
-    coloured_ += primitive.has_colours;
-    morphed_ += primitive.has_targets;
-    if (!primitive.position || primitive.mode < Mode::triangles)
-        return;
-    const Triangles& triangles = triangles_of(mesh, number);
-    const std::uint32_t material =
-        primitive.material ? static_cast<std::uint32_t>(*primitive.material) : default_material();
-    without_coordinates_ +=
-        result_.scene.textures.on(material) && primitive.texcoords.size() < maps_.sets();
-    Scene& scene = result_.scene;
-    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-    world_.clear();
-    for (const Vec3& point : triangles.points) {
-        const Vec3 world(instance.to_world * glm::dvec4(point, 1.0));
-        if (!(std::max({std::abs(world.x), std::abs(world.y), std::abs(world.z)}) <=
-              largest_number))
-            fail("/nodes/" + std::to_string(instance.node),
-                 "expected a transform that leaves all places within 1e100");
-        world_.push_back(world);
-    }
-    const bool mirrored = glm::determinant(glm::dmat3(instance.to_world)) < 0;
-    for (auto [a, b, c] : triangles.corners) {
-        if (mirrored)
-            std::swap(b, c);
-        const std::uint32_t face = scene.faces++;
-        if (division_.divide(std::array{world_[a], world_[b], world_[c]}).degenerate) {
-            ++result_.degenerate_faces;
-            continue;
-        }
-        scene.facets.push_back(
-            {{first + a, first + b, first + c, first + c}, face, material, group});
-        add_texcoords(primitive, triangles, {a, b, c});
-    }
-    scene.vertices.insert(scene.vertices.end(), world_.begin(), world_.end());
-}
-
-/// It looks along -z of its node, and y is up there (section 3.10.3).
 void Reader::add_camera(const Instance& instance) {
-    const CameraInfo& camera = document_.cameras[*document_.nodes[instance.node].camera];
-    const Vec3 eye(instance.to_world[3]), back(instance.to_world[2]), up(instance.to_world[1]);
-    const double length = glm::length(back);
-    if (result_.camera || !camera.vertical_fov || !(length > 0 && glm::length(up) > 0) ||
-        !std::isfinite(length + glm::length(eye) + glm::length(up)))
+    if (result_.camera)
         return;
-    result_.camera = Camera{.eye = eye,
-                            .target = eye - back / length,
-                            .up = glm::normalize(up),
-                            .vertical_fov_degrees = *camera.vertical_fov * 180 / std::numbers::pi};
-    result_.camera_name =
-        name_or(camera.name.empty() ? document_.nodes[instance.node].name : camera.name, "camera",
-                *document_.nodes[instance.node].camera);
+    result_.camera = camera_of(document_, instance);
+    if (!result_.camera)
+        return;
+    const Node& node = document_.nodes[instance.node];
+    const std::string& name = document_.cameras[*node.camera].name;
+    result_.camera_name = name_or(name.empty() ? node.name : name, "camera", *node.camera);
 }
 
 void Reader::add_lights() {
@@ -329,7 +184,7 @@ void Reader::warn(std::size_t count, const std::string& one, const std::string& 
                                    (count == 1 ? one : std::to_string(count) + " " + many));
 }
 
-void Reader::collect_warnings() {
+void Reader::collect_warnings(const MeshTally& meshes) {
     std::size_t metals = 0, transparent = 0;
     for (std::size_t m = 0; m < used_.size(); ++m) {
         metals += used_[m] && document_.materials[m].metallic > metal;
@@ -344,15 +199,15 @@ void Reader::collect_warnings() {
     warn(maps_.missing(),
          "a texture is not found, or neither PNG nor JPEG; the colour is its factor",
          "textures are not found, or neither PNG nor JPEG; colours are their factors");
-    warn(without_coordinates_, "a textured primitive has no texture coordinates",
+    warn(meshes.without_coordinates, "a textured primitive has no texture coordinates",
          "textured primitives have no texture coordinates");
-    warn(lines_, "a primitive of points or lines is left out",
+    warn(meshes.lines, "a primitive of points or lines is left out",
          "primitives of points or lines are left out");
-    warn(coloured_, "a primitive has colours of vertices, which are not read",
+    warn(meshes.coloured, "a primitive has colours of vertices, which are not read",
          "primitives have colours of vertices, which are not read");
-    warn(morphed_, "a primitive has morph targets, which are not read",
+    warn(meshes.morphed, "a primitive has morph targets, which are not read",
          "primitives have morph targets, which are not read");
-    warn(skins_, "a mesh has a skin; it is read in the pose in which it was modelled",
+    warn(meshes.skins, "a mesh has a skin; it is read in the pose in which it was modelled",
          "meshes have skins; they are read in the pose in which they were modelled");
 }
 

@@ -8,7 +8,7 @@
 // seen from the scene, far outside of it.
 
 #include "geometry/box.h"
-#include "io/gltf/document.h"
+#include "io/gltf/document/document.h"
 #include "radiosity/scene/scene.h"
 
 #include <string>

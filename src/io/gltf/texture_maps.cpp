@@ -1,7 +1,7 @@
 #include "io/gltf/texture_maps.h"
 
 #include "io/files/error.h"
-#include "io/gltf/uri.h"
+#include "io/gltf/document/uri.h"
 
 #include <algorithm>
 #include <cmath>

@@ -72,9 +72,4 @@ void write_ply(const std::string& path, const Mesh& mesh, const CornerClasses& c
     file.commit();
 }
 
-void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity) {
-    const CornerClasses classes = find_corner_classes(mesh);
-    write_ply(path, mesh, classes, {baked_light(mesh, classes, radiosity, Bake::radiosity)});
-}
-
 } // namespace hemilux

@@ -4,7 +4,7 @@
 
 #include "io/meshes/baked_light.h"
 
-#include <span>
+#include <array>
 #include <string>
 
 namespace hemilux {
@@ -21,7 +21,5 @@ inline constexpr std::array<const char*, 2> ply_colour_names = {"linear", "shown
 /// mesh's order. Patches share a vertex where they share its light. Throws OutputError.
 void write_ply(const std::string& path, const Mesh& mesh, const CornerClasses& classes,
                const VertexLight& light, PlyColours colours = PlyColours::linear);
-/// The same with the radiosity of patches, smoothed over corners.
-void write_ply(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity);
 
 } // namespace hemilux

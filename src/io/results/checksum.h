@@ -1,5 +1,5 @@
 #pragma once
-// FNV-1a with 64 bits (Fowler, Noll, Vo): tells any change of a single byte, and others but by a
+// FNV-1a with 64 bits (Fowler, Noll, Vo): shows any change of a single byte, and others but by a
 // chance of 2^-64. No protection against somebody who means harm.
 
 #include <cstdint>

@@ -13,7 +13,7 @@ namespace {
 
 /// Magic, version, length of the text, and the text, padded so that the numbers begin at a multiple
 /// of 64 bytes.
-std::string header(std::size_t rows) {
+std::string npy_header(std::size_t rows) {
     const std::string n = std::to_string(rows);
     std::string text =
         "{'descr': '<f8', 'fortran_order': False, 'shape': (" + n + ", " + n + "), }";
@@ -34,7 +34,7 @@ std::string header(std::size_t rows) {
 void write_npy(const std::string& path, const SparseMatrix& matrix,
                const std::atomic<bool>* interrupted) {
     AtomicFile file(path);
-    file.write(header(matrix.rows()));
+    file.write(npy_header(matrix.rows()));
     std::vector<double> row(matrix.rows());
     std::string bytes;
     for (std::size_t i = 0; i < matrix.rows(); ++i) {

@@ -17,7 +17,7 @@
 namespace hemilux {
 namespace {
 
-constexpr std::string_view header =
+constexpr std::string_view points_header =
     "point,x,y,z,nx,ny,nz,irradiance_r,irradiance_g,irradiance_b,radiosity_r,radiosity_g,"
     "radiosity_b,stderr_r,stderr_g,stderr_b\n";
 
@@ -91,7 +91,7 @@ void write_points_table(const std::string& path, const Mesh& mesh,
                         std::span<const NamedPoint> points, std::span<const Sensor> sensors,
                         std::span<const PointLight> lights) {
     AtomicFile file(path);
-    file.write(header);
+    file.write(points_header);
     std::string text;
     for (std::size_t k = 0; k < points.size(); ++k) {
         text.clear();

@@ -4,7 +4,7 @@
 #include "io/files/little_endian.h"
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
-#include "io/scene_files/polygon_division.h"
+#include "io/polygons/polygon_division.h"
 
 #include <array>
 #include <bit>

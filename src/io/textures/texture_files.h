@@ -25,7 +25,7 @@ class TextureFiles {
     /// Empty where there is no such file or it is of another kind. Throws InputError for a picture
     /// that is broken.
     [[nodiscard]] std::shared_ptr<const Texture> read(const std::string& path);
-    /// The same of bytes that are there; `key` tells them from others.
+    /// The same of bytes that are there; `key` distinguishes them from others.
     [[nodiscard]] std::shared_ptr<const Texture> decode(std::string_view bytes,
                                                         const std::string& key);
 

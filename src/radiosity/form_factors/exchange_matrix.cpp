@@ -140,8 +140,8 @@ Workers ExchangeMatrix::readers(const Workers& workers) const {
 
 /// What the rows are to sum to; less than 0: unknown, as the patch itself has not looked.
 ///
-/// A patch's own rays tell it by how many of them met no patch; the rays between it and others,
-/// those of the others included, tell it too. Each counts by the inverse of its variance. In a
+/// A patch's own rays estimate it by how many of them met no patch; the rays between it and others,
+/// those of the others included, estimate it too. Each counts by the inverse of its variance. In a
 /// closed room the first is known to be all. But a ground under a lamp with a narrow shade loses
 /// nearly all of its rays, and what little is left is known much better from the lamp's side.
 std::vector<double> ExchangeMatrix::due(const Workers& workers) const {

@@ -1,13 +1,13 @@
 #pragma once
 // What all patches exchange with each other, from the rays of all.
 //
-// S_ij = A_i F_ij is symmetric, so rays from i to j and from j to i tell the same number; weighted
-// by the inverse of its variance, S_ij = (c_ij + c_ji) / (N_i / A_i + N_j / A_j), c being counts
-// and N the rays of a patch. Rows must sum to A_i less what the patch's own rays lost. Scaling S_ij
-// by g_i g_j makes them so and leaves S symmetric (Sinkhorn and Knopp 1967). The little that is
-// still missing after some scalings, or too much, is what a patch exchanges with itself: so rows
-// are closed and S is symmetric to the last bits, no energy is made or lost between patches,
-// however reflective, and furnaces are exact.
+// S_ij = A_i F_ij is symmetric, so rays from i to j and from j to i estimate the same number;
+// weighted by the inverse of its variance, S_ij = (c_ij + c_ji) / (N_i / A_i + N_j / A_j), c being
+// counts and N the rays of a patch. Rows must sum to A_i less what the patch's own rays lost.
+// Scaling S_ij by g_i g_j makes them so and leaves S symmetric (Sinkhorn and Knopp 1967). The
+// little that is still missing after some scalings, or too much, is what a patch exchanges with
+// itself: so rows are closed and S is symmetric to the last bits, no energy is made or lost between
+// patches, however reflective, and furnaces are exact.
 //
 // Stored is S before it is scaled, so that the S of several batches is their mean.
 

@@ -24,7 +24,7 @@ struct MatrixQuality {
 /// `lost`: by row.
 [[nodiscard]] MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
                                           std::span<const EscapeFraction> lost);
-/// `samples` tell how much of each row is lost.
+/// `samples` estimate how much of each row is lost.
 [[nodiscard]] MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
                                           const SampledFormFactors& samples);
 

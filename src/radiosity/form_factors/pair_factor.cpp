@@ -16,17 +16,17 @@
 namespace hemilux {
 namespace {
 
-/// A pair that is worth fewer rays gets just these, in two sets of points: too few to judge by.
+/// A pair that deserves fewer rays gets just these, in two sets of points: too few to judge by.
 constexpr double least_importance_to_adapt = 32;
 
-/// Others get from a quarter to four times what they are worth, in four sets, whose agreement is
+/// Others get from a quarter to four times what they deserve, in four sets, whose agreement is
 /// seldom chance: until the variance is that of `importance` points with this relative variance
 /// each.
 constexpr double least_share = 0.25, most_share = 4;
 constexpr std::uint32_t adaptive_sets = 4;
 constexpr double relative_variance = 0.03;
 
-/// Whatever a pair is worth.
+/// Whatever a pair deserves.
 constexpr double most_rays = 8192;
 
 /// From farther than this many radii of the target, a point sees it as almost a point, and the

@@ -10,7 +10,7 @@
 // best number of rays is Phi_i p_t sqrt(V_it), with the same factor for all triangles of all
 // patches: small and bright things want rays, whoever sees them.
 //
-// *Both ways.* A small j is rarely hit from i, but each ray of j that hits i tells i in which
+// *Both ways.* A small j is rarely hit from i, but each ray of j that hits i shows i in which
 // triangle j stands. By reciprocity, A_i F_ij = A_j F_ji, so all rays between the two, whoever shot
 // them, estimate one number; each counts 1 / (D_it + D_js), D being the rays sent so far per area
 // and share of power (balance heuristic, Veach 1997). Hence no crowd between three empty corners is

@@ -23,7 +23,7 @@ class LostRays {
     LostRays(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, std::size_t batches);
 
     /// Goes on until all batches together have `rays` per patch, and eight times as many where
-    /// light is emitted [W/m2, by patch]. Returns how many were traced now; the monitor tells of an
+    /// light is emitted [W/m2, by patch]. Returns how many were traced now; the monitor reports an
     /// interrupt.
     std::uint64_t trace_up_to(double rays, std::span<const Vec3> emission, const Workers& workers,
                               Monitor& monitor);

@@ -119,7 +119,7 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
         });
         more = ratio_or_zero(sums.squares, before);
     }
-    // Where nothing is reflected the weight is 0: there one more step without a product tells h.
+    // Where nothing is reflected the weight is 0: there one more step without a product gives h.
     for (std::size_t i = 0; i < n; ++i)
         h[i] += r[i];
     rows.gather(h);

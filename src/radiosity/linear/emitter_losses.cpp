@@ -5,12 +5,12 @@
 namespace hemilux {
 namespace {
 
-/// An exact share counts as if so many times the emitter's rays had told it.
+/// An exact share counts as if so many times the emitter's rays had found it.
 constexpr double most_rays_more = 1000;
 
 /// Of one emitter.
 struct TwoAccounts {
-    std::vector<double> by_rays, by_factors; ///< lost share, by batch
+    std::vector<double> by_rays, by_factors; ///< escape fraction, by batch
     double sum_by_rays = 0;
 
     TwoAccounts(std::span<const SampledFormFactors> batches, std::size_t emitter) {

@@ -1,9 +1,9 @@
 #pragma once
 // The energy ledger of a solution by stored or explicit transport: emitted = absorbed + escaped.
 //
-// Counts of rays tell how much of the light of a patch is lost: leaves the scene, or falls on backs
-// of faces. A share that was counted as none or as all is not known for certain; its variance is
-// that of a Beta distribution that has seen the counts (Laplace's rule of succession), never 0.
+// Counts of rays estimate how much of the light of a patch is lost: leaves the scene, or falls on
+// backs of faces. A share that was counted as none or as all is not known for certain; its variance
+// is that of a Beta distribution that has seen the counts (Laplace's rule of succession), never 0.
 
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/form_factors/sampled_form_factors.h"
@@ -23,8 +23,9 @@ struct Transport {
     std::span<const Vec3> emission; ///< [W/m2 leaving]
     std::span<const Vec3> reflectance;
     std::span<const EscapeFraction> lost;
-    std::span<const double> rays; ///< that the lost share was found with; 0 where there were none
-    bool closed = false;          ///< no ray can be lost, as the geometry proves
+    std::span<const double>
+        rays;            ///< that the escape fraction was found with; 0 where there were none
+    bool closed = false; ///< no ray can be lost, as the geometry proves
 };
 
 /// `direct` [W/m2 arriving] comes straight from emitters. Its sum over all patches is known twice:

@@ -3,7 +3,7 @@
 //
 // The patch with the largest unshot energy shoots first, all of it at once: rays from random points
 // of the patch in directions that follow the cosine law, each with the same power. No form factor
-// is computed: a patch receives what the rays that strike it bring.
+// is computed: a patch receives what the rays that hit it bring.
 
 #include "radiosity/plain/plain.h"
 #include "radiosity/plain/step.h"

@@ -1,7 +1,7 @@
 // Stored transport, the principle (not of the paper).
 //
-// Each patch looks around along cosine-distributed rays and counts which patches they strike. With
-// S_ij = A_i F_ij = A_j F_ji the counts c of both sides tell one number,
+// Each patch looks around along cosine-distributed rays and counts which patches they hit. With
+// S_ij = A_i F_ij = A_j F_ji the counts c of both sides estimate one number,
 //
 //     S_ij = (c_ij + c_ji) / (N / A_i + N / A_j),   N rays from each patch,
 //

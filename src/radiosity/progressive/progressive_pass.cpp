@@ -200,7 +200,7 @@ void ProgressivePass::note_power_variance(const Vec3& shot, const ShotShares& sh
     }
 }
 
-/// Factors do not tell where the rest of the light went; some rays from the shooter do.
+/// Factors do not say where the rest of the light went; some rays from the shooter do.
 ShotRays ProgressivePass::look_for_losses(std::uint32_t shooter, const Vec3& shot) {
     const double power = mean_of_channels(glm::abs(shot)) * input_.mesh.patches()[shooter].area;
     const double wanted = std::clamp(rays_per_light_ * power / mean_of_channels(emitted_),

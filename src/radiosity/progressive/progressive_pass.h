@@ -3,7 +3,7 @@
 // shot.
 //
 // B is known with three errors. The pairs of patches err each for themselves, and the spread of
-// their points tells by how much; a shooter passes its error on with its light, which matters
+// their points says by how much; a shooter passes its error on with its light, which matters
 // between patches that nearly touch. What a shot brings in all errs together with all that later
 // shots make of it; that error is taken to be spread evenly, as the ambient term of Cohen et al.
 // (1988) spreads light. And what is unshot will add to B, by up to the ambient term or in

@@ -1,11 +1,11 @@
 #pragma once
 // Where the light of a shot of progressive radiosity goes.
 //
-// Two things tell what share of it arrives at patches: the sum of the form factors, and rays from
-// the shooter, some of which are lost. Neither is exact. Both are weighted by the inverse of their
-// variances, the factors are scaled to that, and the rest is lost: so no energy is made between
-// patches, which in bright rooms would be made again in each bounce. Where much hangs on pairs that
-// are looked at by chance, factors are left as they are, right on average.
+// Two things estimate what share of it arrives at patches: the sum of the form factors, and rays
+// from the shooter, some of which are lost. Neither is exact. Both are weighted by the inverse of
+// their variances, the factors are scaled to that, and the rest is lost: so no energy is made
+// between patches, which in bright rooms would be made again in each bounce. Where much hangs on
+// pairs that are looked at by chance, factors are left as they are, right on average.
 
 #include "radiosity/form_factors/sampled_form_factors.h"
 
@@ -52,7 +52,7 @@ class ShotBalance {
     [[nodiscard]] double prior_variance(const FactorSum& factors) const;
 
     bool closed_;
-    ShotRays all_; ///< of all shots: where hardly any is lost, a few rays do not tell
+    ShotRays all_; ///< of all shots: where hardly any is lost, a few rays do not show it
     double shots_ = 0, spread_of_point_ = 0; ///< the latter summed over all shots
 };
 

@@ -14,7 +14,7 @@ namespace {
 /// Fewer pairs are done sooner than other threads would be started.
 constexpr std::size_t receivers_per_chunk = 256;
 
-/// Pairs that are worth less than this many rays are looked at by chance only, and count for those
+/// Pairs that deserve less than this many rays are looked at by chance only, and count for those
 /// that are not.
 constexpr double least_worth = .05;
 

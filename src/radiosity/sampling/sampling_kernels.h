@@ -76,9 +76,6 @@ struct SamplingKernels {
     /// places[k]: the last place with sums[place] <= at[k], or 0. `size` is a power of two.
     void (*find_places)(const double* sums, std::size_t size, std::size_t count, const double* at,
                         std::uint64_t* places);
-    /// places[k]: how many of the sums are less than at[k].
-    void (*count_below)(const float* sums, std::size_t size, std::size_t count, const float* at,
-                        std::uint32_t* places);
     /// Four independent numbers, uniform in (0,1), for each sample and attempt.
     void (*random)(const RandomKeys&, std::size_t count, std::uint32_t attempt, double* a,
                    double* b, double* c, double* d);

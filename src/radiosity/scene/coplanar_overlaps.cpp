@@ -27,7 +27,7 @@ Box box_of(const Polygon& shape) {
     return box;
 }
 
-/// Planes are told apart by their points nearest to a place through which hardly any plane goes:
+/// Planes are distinguished by their points nearest to a place through which hardly any plane goes:
 /// three numbers that do not depend on which side is the front. They are put into cells, and where
 /// rounding may have moved one over a border, into both.
 class PlaneCells {

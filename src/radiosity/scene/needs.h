@@ -2,7 +2,7 @@
 // What a scene needs: work that would not change its solution is left out.
 //
 // A small analysis of the mesh, made once. Methods and tracers ask it before they do their work;
-// docs/decisions.md tells which omission keeps every byte and which the result within its error.
+// docs/decisions.md says which omission keeps every byte and which the result within its error.
 
 #include <cassert>
 #include <cstddef>

@@ -17,7 +17,7 @@ namespace {
 /// Of the rays of importance; those of light have the task's.
 constexpr std::uint64_t stream_of_importance = ~std::uint64_t{1};
 
-/// What each patch is taken to have found besides, at the mean importance: what few rays tell must
+/// What each patch is taken to have found besides, at the mean importance: what few rays find must
 /// not leave it without any.
 constexpr double prior_importance = .5;
 

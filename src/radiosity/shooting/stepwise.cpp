@@ -17,7 +17,7 @@
 namespace hemilux {
 namespace {
 
-/// Seconds that a state may tell of: ten thousand years.
+/// Seconds that a state may name: ten thousand years.
 constexpr double longest_seconds = 3e11;
 
 } // namespace
@@ -152,8 +152,8 @@ std::uint32_t StepwiseSolver::steps_ready() const {
     return ready;
 }
 
-/// As far as it is known; at least 1. Two are needed to tell an error, which then falls as the root
-/// of their number.
+/// As far as it is known; at least 1. Two are needed to estimate an error, which then falls as the
+/// root of their number.
 double StepwiseSolver::steps_to_come() const {
     const StopRule& stop = input_.options.stop;
     const std::uint32_t expected = stop.expected_steps();

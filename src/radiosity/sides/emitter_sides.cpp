@@ -15,7 +15,7 @@ constexpr double hardly_any = 0.1;                 ///< of what the other side s
 constexpr double much_nearer = 1.0 / 8;
 constexpr double near = 1.0 / 3, touching = 1.0 / 10; ///< of a lamp's size
 
-/// What the rays of one side strike.
+/// What the rays of one side hit.
 struct View {
     double others = 0;             ///< other shells, as a share of the rays
     double dark = 0;               ///< what does not shine itself, of any shell

@@ -16,7 +16,7 @@ constexpr double much_area = 0.4, many_edges = 0.05;
 /// Backs that get so much of a surface's light: of a surface that is lit from behind, and of one in
 /// a file that is disordered.
 constexpr double nearly_all = 0.9, the_greater_part = 0.5;
-/// Rays that reached a shell: fewer tell nothing.
+/// Rays that reached a shell: fewer show nothing.
 constexpr double few_rays = 4;
 /// Part of the light of a scene: a surface that gets less is not worth a risk or a warning.
 constexpr double large_part = 1.0 / 20;

@@ -23,7 +23,7 @@ double quantile_of_f(double above, double below) {
                                : std::pow(((1 - a) * (1 - b) + z * root) / below_of_ratio, 3.0);
 }
 
-/// A few batches do not tell more degrees of freedom than these from any number.
+/// A few batches do not show more degrees of freedom than these from any number.
 constexpr double most_freedom = 16;
 
 double freedom_by_patch(const Mesh& mesh, const Solution& solution) {

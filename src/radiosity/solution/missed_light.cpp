@@ -33,7 +33,7 @@ double rays_of_bright(const PatchLight& light) {
 } // namespace
 
 std::vector<Vec3> missed_by_rays(const PatchLight& light) {
-    constexpr double darker = 4; // patches so many times darker, as in a room beyond, tell nothing
+    constexpr double darker = 4; // patches so many times darker, as in a room beyond, show nothing
     const Vec3 bright = bright_radiosity(light);
     const auto arrives = [&](std::uint32_t i) {
         return light.incident[i].x + light.incident[i].y + light.incident[i].z;

@@ -57,13 +57,13 @@ struct Solution {
     /// The same sum for what no ray may have seen so far, by the rule of three, or for light that
     /// is still to be shot: a squared error which counts besides the variance.
     double missed = 0;
-    /// False where no light can reach anything that reflects, as the scene itself tells: then
+    /// False where no light can reach anything that reflects, as the scene itself shows: then
     /// finding none is no lack of knowledge.
     bool may_find_light = true;
     /// How many independent solutions the standard errors come from; 0 if they are the steps.
     double error_batches = 0;
     /// Effective degrees of freedom of the error (error_spread.h), where they are known better than
-    /// from standard_error, which does not tell what patches err together; where level_freedom is
+    /// from standard_error, which does not say what patches err together; where level_freedom is
     /// finite, of the error besides that of the level.
     std::optional<double> effective_freedom;
     EnergyBalance energy;

@@ -72,10 +72,10 @@ std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double m
         if (weights[i] > 0)
             open.push_back({i, rays_of(i, std::exp(low)), rays_of(i, std::exp(high))});
     const double all = mean * static_cast<double>(open.size());
-    std::uint64_t settled = 0;
+    std::uint64_t fixed = 0;
     for (int k = 0; k < 50 && !open.empty(); ++k) {
         const double middle = (low + high) / 2, per_weight = std::exp(middle);
-        std::uint64_t sum = settled;
+        std::uint64_t sum = fixed;
         for (Open& patch : open)
             sum += patch.middle = rays_of(patch.index, per_weight);
         const bool enough = static_cast<double>(sum) <= all;
@@ -84,7 +84,7 @@ std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double m
             (enough ? patch.low : patch.high) = patch.middle;
             if (patch.low < patch.high)
                 return false;
-            settled += rays[patch.index] = patch.low;
+            fixed += rays[patch.index] = patch.low;
             return true;
         });
     }

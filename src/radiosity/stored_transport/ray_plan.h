@@ -41,7 +41,7 @@ class RayPlan {
     RayPlan(const Mesh& mesh, const Needs& needs, double random, double to_emitters,
             const RayGoal& goal);
 
-    /// Plans a few rays of each patch, which tell what light can reach: leave_out.
+    /// Plans a few rays of each patch, which show what light can reach: leave_out.
     void begin();
     /// From the first step on, patches that no light has reached by these rays get no more.
     void leave_out(const std::vector<bool>& lit) { weights_.leave_out(lit); }

@@ -15,7 +15,7 @@ namespace {
 /// The share of the weights that is measured; and what a patch's area counts.
 constexpr double trust = .5, area_exponent = .42;
 
-/// Black emitters count as if they reflected this: their rays tell where their light goes.
+/// Black emitters count as if they reflected this: their rays show where their light goes.
 constexpr double least_reflectance = .1;
 
 } // namespace

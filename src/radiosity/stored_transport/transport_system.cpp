@@ -10,7 +10,7 @@
 namespace hemilux {
 namespace {
 
-/// Of the standard error, what may be left where solving ends: of the batches, which tell no more
+/// Of the standard error, what may be left where solving ends: of the batches, which say no more
 /// than that error, and of the whole.
 constexpr double left_of_sets = .1, left_of_all = 1e-3;
 

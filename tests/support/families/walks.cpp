@@ -46,9 +46,9 @@ std::vector<std::uint32_t> emitters_of(const Mesh& mesh) {
     return emitters;
 }
 
-class Walker {
+class RandomWalk {
   public:
-    Walker(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed)
+    RandomWalk(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed)
         : mesh_(mesh), tracer_(tracer), rng_(seed), emitters_(emitters_of(mesh)) {}
 
     Rng& rng() { return rng_; }
@@ -118,11 +118,11 @@ class Walker {
 
 WalkResult walk(const Mesh& mesh, const Tracer& tracer, std::span<const std::uint32_t> group,
                 std::uint64_t walks, std::uint64_t seed) {
-    Walker walker(mesh, tracer, seed);
+    RandomWalk walk(mesh, tracer, seed);
     const Choice starts = by_area(mesh, group);
     MeanTest mean;
     for (std::uint64_t k = 0; k < walks; ++k)
-        mean.add(walker.reflected(starts.draw(walker.rng())));
+        mean.add(walk.reflected(starts.draw(walk.rng())));
     return {mean.mean(), mean.standard_error()};
 }
 

@@ -14,15 +14,4 @@ inline void find_places(const double* sums, std::size_t size, std::size_t count,
             places[k] += sums[places[k] + half] <= at[k] ? half : 0;
 }
 
-inline void count_below(const float* sums, std::size_t size, std::size_t count, const float* at,
-                        std::uint32_t* __restrict places) {
-    for (std::size_t k = 0; k < count; ++k) {
-        const float limit = at[k];
-        std::uint32_t below = 0;
-        for (std::size_t i = 0; i < size; ++i)
-            below += sums[i] < limit ? 1 : 0;
-        places[k] = below;
-    }
-}
-
 } // namespace hemilux::HEMILUX_KERNELS

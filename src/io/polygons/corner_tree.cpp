@@ -1,6 +1,6 @@
-#include "io/scene_files/corner_tree.h"
+#include "io/polygons/corner_tree.h"
 
-#include "io/scene_files/planar_turn.h"
+#include "io/polygons/planar_turn.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,9 @@
-#include "io/gltf/container.h"
+#include "io/gltf/document/container.h"
 
 #include "io/files/error.h"
 #include "io/files/input_file.h"
 #include "io/files/little_endian.h"
-#include "io/gltf/json_value.h"
+#include "io/gltf/document/json_value.h"
 
 #include <cstdint>
 

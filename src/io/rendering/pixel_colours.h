@@ -1,7 +1,7 @@
 #pragma once
 // What a pixel shows of a textured surface.
 
-#include "io/pictures/visible_facets.h"
+#include "io/rendering/visible_facets.h"
 #include "radiosity/scene/textured_facets.h"
 
 namespace hemilux {

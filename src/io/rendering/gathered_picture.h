@@ -6,7 +6,7 @@
 // pixels of its surface around it. Each such square has one well distributed set of shadow rays.
 
 #include "io/pictures/image.h"
-#include "io/pictures/picture_gather.h"
+#include "io/rendering/picture_gather.h"
 
 #include <span>
 #include <vector>

@@ -8,7 +8,7 @@
 // in order would give a fan of slivers.
 
 #include "geometry/vector.h"
-#include "io/scene_files/corner_tree.h"
+#include "io/polygons/corner_tree.h"
 
 #include <array>
 #include <cstdint>

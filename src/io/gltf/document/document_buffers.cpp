@@ -1,6 +1,6 @@
 // Buffers, their views and the accessors of these (sections 3.6.1 and 3.6.2).
 
-#include "io/gltf/document.h"
+#include "io/gltf/document/document.h"
 
 #include <algorithm>
 #include <utility>

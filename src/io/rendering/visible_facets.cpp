@@ -1,4 +1,4 @@
-#include "io/pictures/visible_facets.h"
+#include "io/rendering/visible_facets.h"
 
 #include "parallel/workers.h"
 #include "radiosity/scene/mesh.h"

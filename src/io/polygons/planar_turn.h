@@ -8,7 +8,7 @@
 namespace hemilux {
 
 /// +1 where the path a, b, c turns left, -1 to the right, 0 where it is straight, or turns back, as
-/// far as can be told when coordinates may be wrong by `rounding`.
+/// far as is known when coordinates may be wrong by `rounding`.
 [[nodiscard]] inline int turn_at(const Vec2& a, const Vec2& b, const Vec2& c, double rounding) {
     const Vec2 d = b - a, e = c - b;
     const double cross = d.x * e.y - d.y * e.x;

@@ -1,4 +1,4 @@
-#include "io/gltf/document.h"
+#include "io/gltf/document/document.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "io/gltf/uri.h"
+#include "io/gltf/document/uri.h"
 
 #include <algorithm>
 #include <array>

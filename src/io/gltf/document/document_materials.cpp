@@ -1,6 +1,6 @@
 // Materials, and the textures and images that they may use (sections 3.8 and 3.9).
 
-#include "io/gltf/document.h"
+#include "io/gltf/document/document.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
-#include "io/scene_files/ear_clipping.h"
+#include "io/polygons/ear_clipping.h"
 
-#include "io/scene_files/planar_turn.h"
+#include "io/polygons/planar_turn.h"
 
 #include <algorithm>
 

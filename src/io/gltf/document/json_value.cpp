@@ -1,4 +1,4 @@
-#include "io/gltf/json_value.h"
+#include "io/gltf/document/json_value.h"
 
 #include "io/files/error.h"
 #include "io/files/text_words.h"
@@ -11,7 +11,7 @@
 namespace hemilux::gltf {
 namespace {
 
-constexpr double largest_whole = 9007199254740992; // 2^53: doubles tell whole numbers apart
+constexpr double largest_whole = 9007199254740992; // 2^53: doubles distinguish whole numbers
 
 /// Of a value in a message.
 std::string shortened(const nlohmann::json& node) {

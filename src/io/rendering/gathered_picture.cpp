@@ -1,7 +1,7 @@
-#include "io/pictures/gathered_picture.h"
+#include "io/rendering/gathered_picture.h"
 
 #include "io/files/error.h"
-#include "io/pictures/pixel_colours.h"
+#include "io/rendering/pixel_colours.h"
 #include "parallel/workers.h"
 #include "radiosity/scene/mesh.h"
 

@@ -4,7 +4,7 @@
 // their buffers; nodes form trees. Section numbers are those of the specification (Khronos 2021).
 
 #include "geometry/vector.h"
-#include "io/gltf/json_value.h"
+#include "io/gltf/document/json_value.h"
 
 #include <glm/mat4x4.hpp>
 

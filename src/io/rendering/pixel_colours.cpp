@@ -1,4 +1,4 @@
-#include "io/pictures/pixel_colours.h"
+#include "io/rendering/pixel_colours.h"
 
 #include "radiosity/scene/mesh.h"
 

@@ -1,6 +1,6 @@
-#include "io/scene_files/self_crossing.h"
+#include "io/polygons/self_crossing.h"
 
-#include "io/scene_files/planar_turn.h"
+#include "io/polygons/planar_turn.h"
 
 #include <algorithm>
 #include <vector>

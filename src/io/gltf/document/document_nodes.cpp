@@ -1,6 +1,6 @@
 // Nodes and which of them the scene shows (sections 3.5.1 and 3.5.2).
 
-#include "io/gltf/document.h"
+#include "io/gltf/document/document.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>

@@ -1,9 +1,9 @@
-#include "io/scene_files/polygon_division.h"
+#include "io/polygons/polygon_division.h"
 
 #include "geometry/box.h"
 #include "geometry/frame.h"
-#include "io/scene_files/planar_turn.h"
-#include "io/scene_files/self_crossing.h"
+#include "io/polygons/planar_turn.h"
+#include "io/polygons/self_crossing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,97 @@
+#include "io/rendering/gather_grid.h"
+
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+constexpr Vec2 pixel_centre(.5);
+
+/// Surfaces whose normals differ by more than this cosine have light of their own.
+constexpr double alike = .9;
+
+/// So far from the other's plane, as a share of their distance, a point still is of its surface.
+constexpr double flatness = .2;
+
+} // namespace
+
+bool is_same_surface(const Vec3& a, const Vec3& normal_a, const Vec3& b, const Vec3& normal_b) {
+    const Vec3 way = b - a;
+    const double off = glm::dot(normal_a, way);
+    return glm::dot(normal_a, normal_b) > alike &&
+           off * off <= flatness * flatness * glm::dot(way, way);
+}
+
+GatherGrid::GatherGrid(const Mesh& mesh, const CameraRays& camera, int width, int height,
+                       const std::function<void()>& check, const Workers& workers)
+    : columns_((width + step - 1) / step), rows_((height + step - 1) / step) {
+    const std::array<Vec2, 1> offsets{pixel_centre};
+    const VisibleFacets visible(mesh, camera,
+                                {columns_, rows_, double(step) / width, double(step) / height},
+                                offsets, workers.threads());
+    const auto columns = static_cast<std::size_t>(columns_);
+    points_.resize(columns * static_cast<std::size_t>(rows_));
+    for (GridPoint& point : points_)
+        point.at.facet = none;
+    workers.for_chunks_with(
+        static_cast<std::size_t>(visible.bands()), 1, [] { return VisibleFacets::Band(); },
+        [&](VisibleFacets::Band& band, std::size_t b, std::size_t) {
+            check();
+            visible.fill(static_cast<int>(b), band);
+            const std::size_t first = b * VisibleFacets::rows_per_band;
+            const std::size_t rows = std::min<std::size_t>(VisibleFacets::rows_per_band,
+                                                           static_cast<std::size_t>(rows_) - first);
+            for (std::size_t k = 0; k < rows * columns; ++k) {
+                if (band.half[k] == nothing_visible)
+                    continue;
+                const Vec2 place(static_cast<double>(k % columns),
+                                 static_cast<double>(first + k / columns));
+                const Vec3 direction = visible.direction(place + pixel_centre);
+                const Hit hit = visible.hit_at(band.half[k], direction);
+                const std::uint32_t patch = mesh.patch_at(hit);
+                points_[first * columns + k].at = {visible.eye() + hit.t * direction,
+                                                   mesh.patches()[patch].normal, hit.facet};
+            }
+        });
+}
+
+double GatherGrid::spacing(int x, int y) const {
+    const GridPoint* const here = point(x, y);
+    double largest = 0;
+    for (const auto& [dx, dy] : {std::pair(1, 0), {0, 1}, {-1, 0}, {0, -1}})
+        if (const GridPoint* const there = point(x + dx, y + dy);
+            there && here->is_of_surface(there->at))
+            largest = std::max(largest, glm::distance(here->at.position, there->at.position));
+    return largest;
+}
+
+void GatherGrid::ask_neighbours(const Workers& workers) {
+    struct Asked {
+        double nearness = 0;
+        std::uint8_t shadow = 0;
+    };
+    std::vector<Asked> asked(points_.size());
+    for_each_point(workers, [&](const GridPoint& here, int x, int y) {
+        double sum = 0, count = 0;
+        Asked& of = asked[number_of(here)];
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                if (const GridPoint* const there = point(x + dx, y + dy);
+                    there && here.is_of_surface(there->at)) {
+                    sum += there->nearness;
+                    ++count;
+                    of.shadow |= there->shadow;
+                }
+        of.nearness = sum / count;
+    });
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+        points_[k].nearness = asked[k].nearness;
+        points_[k].shadow = asked[k].shadow;
+    }
+}
+
+} // namespace hemilux

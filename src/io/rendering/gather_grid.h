@@ -1,0 +1,88 @@
+#pragma once
+// The points of a picture at which light is gathered: one at every second pixel of every second
+// row, where a surface is visible.
+
+#include "io/rendering/visible_facets.h"
+#include "parallel/workers.h"
+#include "radiosity/final_gather/final_gather.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace hemilux {
+
+/// Whether two points with unit normals belong to one surface, which may be bent a little.
+[[nodiscard]] bool is_same_surface(const Vec3& a, const Vec3& normal_a, const Vec3& b,
+                                   const Vec3& normal_b);
+
+/// What the shadow rays of a point found: bits, so that both together say that some were blocked.
+enum Shadow : std::uint8_t { none_blocked = 1, all_blocked = 2 };
+
+struct GridPoint {
+    SurfacePoint at;         ///< facet none: no surface is visible there
+    double nearness = 0;     ///< mean inverse distance of what the rays met, or of lamps
+    double noise = 0;        ///< relative error of the mean of the points around
+    unsigned rays = 0;       ///< gathered by so many
+    std::uint8_t shadow = 0; ///< Shadow, of rays from here and from the points beside it
+
+    [[nodiscard]] bool is_of_surface(const SurfacePoint& point) const {
+        return is_same_surface(point.position, point.normal, at.position, at.normal);
+    }
+};
+
+class GatherGrid {
+  public:
+    /// The distance between points [pixels].
+    static constexpr int step = 2;
+
+    /// The points of a picture of this size. `check` may throw to end it; it is called by several
+    /// threads.
+    GatherGrid(const Mesh& mesh, const CameraRays& camera, int width, int height,
+               const std::function<void()>& check, const Workers& workers);
+
+    [[nodiscard]] int columns() const { return columns_; }
+    [[nodiscard]] int rows() const { return rows_; }
+    /// All points by number, row after row, also those without a surface.
+    [[nodiscard]] std::size_t size() const { return points_.size(); }
+    [[nodiscard]] GridPoint& operator[](std::size_t number) { return points_[number]; }
+    [[nodiscard]] const GridPoint& operator[](std::size_t number) const { return points_[number]; }
+    [[nodiscard]] std::size_t number_of(const GridPoint& point) const {
+        return static_cast<std::size_t>(&point - points_.data());
+    }
+    /// None outside of the picture, and where no surface is visible.
+    [[nodiscard]] const GridPoint* point(int x, int y) const {
+        if (x < 0 || y < 0 || x >= columns_ || y >= rows_)
+            return nullptr;
+        const GridPoint& found =
+            points_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
+                    static_cast<std::size_t>(x)];
+        return found.at.facet == none ? nullptr : &found;
+    }
+    /// Calls visit(point, x, y) for each point with a surface, by several threads; before some rows
+    /// at a time check(), which may throw to end it.
+    template <class Visit, class Check = void (*)()>
+    void for_each_point(
+        const Workers& workers, const Visit& visit, const Check& check = [] {}) const {
+        workers.for_chunks(static_cast<std::size_t>(rows_), 8, [&](std::size_t y, std::size_t end) {
+            check();
+            for (; y < end; ++y)
+                for (int x = 0; x < columns_; ++x)
+                    if (const GridPoint* const here = point(x, static_cast<int>(y)))
+                        visit(*here, x, static_cast<int>(y));
+        });
+    }
+
+    /// From a point with a surface to the next ones on it; the larger of both directions.
+    [[nodiscard]] double spacing(int x, int y) const;
+    /// Joins what each point knows of nearness and shadows with the points beside it: a few rays
+    /// estimate nearness badly, and may miss a shadow.
+    void ask_neighbours(const Workers& workers);
+
+  private:
+    int columns_, rows_;
+    std::vector<GridPoint> points_;
+};
+
+} // namespace hemilux

@@ -1,0 +1,182 @@
+#include "io/rendering/picture_gather.h"
+
+#include "io/files/error.h"
+#include "parallel/workers.h"
+#include "radiosity/rays/shot.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/mesh.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace hemilux {
+namespace {
+
+/// Light of a lamp changes as its inverse square or faster, other light more slowly.
+constexpr double of_emitters = 2;
+
+/// Points that average over fewer steps than these get more rays, or many.
+constexpr double steps_for_more = 7, steps_for_many = 3.5;
+
+/// Relative errors of means from which on points get more rays, or many.
+constexpr double noise_for_more = .05, noise_for_many = .1;
+
+/// Of sums of the same light in another order.
+constexpr double rounding = 1e-9;
+
+/// The bits of x at even places.
+std::uint32_t spread_bits(std::uint32_t x) {
+    x = (x | x << 4) & 0x0f0fu;
+    x = (x | x << 2) & 0x3333u;
+    return (x | x << 1) & 0x5555u;
+}
+
+} // namespace
+
+PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
+                             const CameraRays& camera, int width, int height,
+                             const PictureGatherOptions& options, const Workers& workers)
+    : options_(options), final_gather_(mesh, tracer, light),
+      grid_(
+          mesh, camera, width, height, [this] { give_up_if_asked(); }, workers),
+      light_(grid_) {
+    gather([&](int, int) { return std::max(1u, options_.rays / 4); }, Shadows::traced, workers);
+    grid_.ask_neighbours(workers);
+    find_noise(workers);
+    gather([&](int x, int y) { return more_rays(x, y); }, Shadows::left_out, workers);
+    for (const int stride : {1, reach_points})
+        light_.fit(
+            stride, [this] { give_up_if_asked(); }, workers);
+}
+
+void PictureGather::give_up_if_asked() const {
+    if (options_.give_up && options_.give_up())
+        throw Interrupted();
+}
+
+/// Along a Z-curve, so that each aligned square of points has a net of the sequence (Ahmed and
+/// Wonka 2020). Each block of 256 x 256 points has a sequence of its own for each count.
+GatherSamples PictureGather::samples_of(int x, int y, unsigned count) {
+    const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
+    const std::uint32_t place = spread_bits(column & 255u) | spread_bits(row & 255u) << 1;
+    return {hash_words({column >> 8, row >> 8, count}), place * count, count};
+}
+
+/// By rays_at(x, y) more rays at each point.
+template <class Rays>
+void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& workers) {
+    struct Own {
+        std::vector<std::size_t> places;
+        std::vector<SurfacePoint> points;
+        std::vector<GatherSamples> samples;
+    };
+    const auto columns = static_cast<std::size_t>(grid_.columns());
+    workers.for_chunks_with(
+        grid_.size(), std::max<std::size_t>(16, 8192 / options_.rays), [] { return Own(); },
+        [&](Own& own, std::size_t begin, std::size_t end) {
+            give_up_if_asked();
+            own = {};
+            for (std::size_t k = begin; k < end; ++k) {
+                if (grid_[k].at.facet == none)
+                    continue;
+                const int x = static_cast<int>(k % columns), y = static_cast<int>(k / columns);
+                const unsigned rays = rays_at(x, y);
+                if (rays == 0)
+                    continue;
+                own.places.push_back(k);
+                own.points.push_back(grid_[k].at);
+                own.samples.push_back(samples_of(x, y, rays));
+            }
+            const std::vector<IndirectLight> lights =
+                final_gather_.indirect(own.points, own.samples);
+            const std::vector<DirectLight> direct =
+                final_gather_.direct(own.points, own.samples, shadows);
+            for (std::size_t i = 0; i < lights.size(); ++i) {
+                GridPoint& point = grid_[own.places[i]];
+                point.rays += own.samples[i].count;
+                const double share = double(own.samples[i].count) / point.rays;
+                SlowLight& light = light_.at(own.places[i]);
+                light.indirect = glm::mix(light.indirect, lights[i].irradiance, share);
+                light.unshadowed = glm::mix(light.unshadowed, direct[i].unshadowed, share);
+                point.nearness =
+                    glm::mix(point.nearness,
+                             std::max(lights[i].nearness, of_emitters * direct[i].nearness), share);
+                if (shadows == Shadows::left_out)
+                    continue;
+                if (direct[i].arriving != Vec3(0.0))
+                    point.shadow |= none_blocked;
+                if (mean_of_channels(direct[i].arriving) <
+                    (1 - rounding) * mean_of_channels(direct[i].unshadowed))
+                    point.shadow |= all_blocked;
+            }
+        });
+}
+
+/// Where few points are near enough to average over, or where few rays find most of the light, as
+/// that of a sky through a window.
+unsigned PictureGather::more_rays(int x, int y) const {
+    const GridPoint& here = *grid_.point(x, y);
+    const double width = grid_.spacing(x, y), reach = reach_of(here.nearness);
+    if (reach < steps_for_many * width || width == 0 || here.noise > noise_for_many)
+        return 4 * options_.rays;
+    return reach < steps_for_more * width || here.noise > noise_for_more ? options_.rays : 0;
+}
+
+void PictureGather::find_noise(const Workers& workers) {
+    grid_.for_each_point(workers, [&](const GridPoint& here, int x, int y) {
+        grid_[grid_.number_of(here)].noise = light_.noise_around(here, x, y);
+    });
+}
+
+/// Shadow rays are traced where some were blocked around, and some were not; all rays where no
+/// point is around.
+std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Place> places) const {
+    /// Which of the places, and with which samples.
+    struct Some {
+        std::vector<std::size_t> which;
+        std::vector<SurfacePoint> points;
+        std::vector<GatherSamples> samples;
+
+        void add(std::size_t place, const SurfacePoint& point, const GatherSamples& of) {
+            which.push_back(place);
+            points.push_back(point);
+            samples.push_back(of);
+        }
+    };
+    Some alone, in_penumbra;
+    std::vector<Light> found(places.size());
+    const unsigned each = std::max(1u, options_.rays / (2 * options_.samples)),
+                   of_pixel = each * options_.samples;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const Place& place = places[k];
+        const int x = static_cast<int>(place.pixel.x), y = static_cast<int>(place.pixel.y);
+        auto& [direct, slow] = found[k];
+        const std::optional<SlowLightField::Around> around =
+            light_.interpolate(place.at, place.pixel);
+        if (around)
+            slow = around->light;
+        else
+            alone.add(k, place.at, samples_of(x, y, 4 * options_.rays));
+        if (around && (around->shadow == none_blocked || around->shadow == all_blocked)) {
+            direct.unshadowed = slow.unshadowed;
+            direct.arriving = around->shadow == none_blocked ? slow.unshadowed : Vec3(0.0);
+            continue;
+        }
+        GatherSamples samples = samples_of(x, y, of_pixel);
+        samples.first += each * place.sample;
+        samples.count = each * place.count;
+        in_penumbra.add(k, place.at, samples);
+    }
+    const std::vector<DirectLight> direct =
+        final_gather_.direct(in_penumbra.points, in_penumbra.samples, Shadows::traced);
+    for (std::size_t i = 0; i < direct.size(); ++i)
+        found[in_penumbra.which[i]].direct = direct[i];
+    const std::vector<IndirectLight> lights = final_gather_.indirect(alone.points, alone.samples);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        Light& light = found[alone.which[i]];
+        light.slow = {light.direct.unshadowed, lights[i].irradiance};
+    }
+    return found;
+}
+
+} // namespace hemilux

@@ -1,0 +1,69 @@
+#pragma once
+// The light on what a picture shows, gathered from a solution: shadows at their places, with the
+// edges that patches are too large for.
+//
+// Light straight from small emitters has sharp edges: where some shadow rays of the points around
+// are blocked and some are not, it is found by shadow rays at each pixel. All other light varies
+// slowly. It is gathered at the points of a grid (gather_grid.h), each of which takes other rays of
+// one well distributed sequence (interleaved sampling: Keller and Heidrich 2001), and smoothed over
+// the points around (slow_light.h; Wald et al. 2002). The fewer neighbours are near enough for
+// that, and the more they differ, the more rays a point takes. Pixels read the functions around
+// them that lie on the same surface.
+
+#include "geometry/vector.h"
+#include "io/rendering/gather_grid.h"
+#include "io/rendering/slow_light.h"
+#include "radiosity/final_gather/final_gather.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+struct PictureGatherOptions {
+    /// Cosine-distributed rays of a point: a quarter of them where it has many neighbours to
+    /// average over, up to five times as many where it has few. A pixel at the edge of a shadow
+    /// takes half as many shadow rays. Four times as many halve the noise.
+    unsigned rays = 16;
+    unsigned samples = 4;               ///< of a pixel
+    std::function<bool()> give_up = {}; ///< true ends it with Interrupted
+};
+
+class PictureGather {
+  public:
+    PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
+                  const CameraRays& camera, int width, int height,
+                  const PictureGatherOptions& options, const Workers& workers);
+
+    /// Where samples of a pixel show a surface: `count` of them, the first of which is number
+    /// `sample` of the pixel.
+    struct Place {
+        SurfacePoint at;
+        Vec2 pixel; ///< in pixels
+        unsigned sample, count;
+    };
+    /// Direct light is slow.unshadowed times the share of it that arrives: the ratio of sums over
+    /// `direct` of places around, as the few rays of one place estimate it badly.
+    struct Light {
+        DirectLight direct;
+        SlowLight slow;
+    };
+    /// The light at each place. May be called by several threads.
+    [[nodiscard]] std::vector<Light> irradiance(std::span<const Place> places) const;
+
+  private:
+    [[nodiscard]] static GatherSamples samples_of(int x, int y, unsigned count);
+    template <class Rays>
+    void gather(const Rays& rays_at, Shadows shadows, const Workers& workers);
+    [[nodiscard]] unsigned more_rays(int x, int y) const;
+    void find_noise(const Workers& workers);
+    void give_up_if_asked() const;
+
+    PictureGatherOptions options_;
+    FinalGather final_gather_;
+    GatherGrid grid_;
+    SlowLightField light_; ///< of the grid
+};
+
+} // namespace hemilux

@@ -1,0 +1,147 @@
+#include "io/rendering/slow_light.h"
+
+#include "radiosity/rays/shot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+/// Of the harmonic mean distance: as far as that the light is taken to be about the same.
+constexpr double reach_share = .25;
+
+/// A point has neighbours at so many times their spacing, whatever is near.
+constexpr double least_steps = 2.5;
+
+/// Of the points of a window, those at its ends count half: the window is then as wide as squares
+/// of the sequence of samples are.
+double ends(int step) { return std::abs(step) == reach_points ? .5 : 1; }
+
+/// Of a point for the mean around another; 0 where it is too far away or of another surface.
+/// `most`: inverse of a distance within which none is too far.
+double weight_of(const GridPoint& here, const GridPoint* there, double most) {
+    if (!there || !here.is_of_surface(there->at))
+        return 0;
+    const Vec3 way = there->at.position - here.at.position;
+    const double share = std::min(std::max(here.nearness, there->nearness) / reach_share, most);
+    return 1 - share * share * glm::dot(way, way);
+}
+
+/// A linear function of steps from a point, by weighted least squares.
+struct Fit {
+    double n = 1;
+    Vec2 mean{0.0}, squares{.5}; ///< not 0, so that a few points do not say much of a slope
+    double product = 0;
+    SlowLight sum, by_x, by_y;
+
+    void add(const Vec2& offset, const SlowLight& light, double weight) {
+        n += weight;
+        mean += weight * offset;
+        squares += weight * offset * offset;
+        product += weight * offset.x * offset.y;
+        sum.add(light, weight);
+        by_x.add(light, weight * offset.x);
+        by_y.add(light, weight * offset.y);
+    }
+    /// From sums to the function: its slope, and its value at the point in `sum`.
+    void solve(std::array<SlowLight, 2>& slope) {
+        mean /= n;
+        squares -= n * mean * mean;
+        product -= n * mean.x * mean.y;
+        by_x.add(sum, -mean.x);
+        by_y.add(sum, -mean.y);
+        const double determinant = squares.x * squares.y - product * product;
+        slope = {};
+        slope[0].add(by_x, squares.y / determinant);
+        slope[0].add(by_y, -product / determinant);
+        slope[1].add(by_y, squares.x / determinant);
+        slope[1].add(by_x, -product / determinant);
+        sum = {sum.unshadowed / n, sum.indirect / n};
+        sum.add(slope[0], -mean.x);
+        sum.add(slope[1], -mean.y);
+        sum = {glm::max(sum.unshadowed, 0.0), glm::max(sum.indirect, 0.0)};
+    }
+};
+
+} // namespace
+
+double reach_of(double nearness) { return reach_share / nearness; }
+
+double SlowLightField::noise_around(const GridPoint& here, int x, int y) const {
+    double n = 0, sum = 0, squares = 0;
+    for (int dy = -reach_points; dy <= reach_points; ++dy)
+        for (int dx = -reach_points; dx <= reach_points; ++dx)
+            if (const GridPoint* const there = grid_.point(x + dx, y + dy);
+                there && here.is_of_surface(there->at)) {
+                const double light = mean_of_channels(light_[grid_.number_of(*there)].indirect);
+                ++n;
+                sum += light;
+                squares += light * light;
+            }
+    return sum > 0 ? std::sqrt(std::max(n * squares - sum * sum, 0.0) / n) / sum : 0;
+}
+
+void SlowLightField::fit(int stride, const std::function<void()>& check, const Workers& workers) {
+    std::vector<SlowLight> fitted(light_.size());
+    grid_.for_each_point(
+        workers,
+        [&](const GridPoint& here, int x, int y) {
+            const double most = 1 / (least_steps * grid_.spacing(x, y));
+            const std::size_t number = grid_.number_of(here);
+            Fit fit;
+            fit.sum = light_[number];
+            for (int dy = -reach_points; dy <= reach_points; ++dy)
+                for (int dx = -reach_points; dx <= reach_points; ++dx) {
+                    const GridPoint* const there = grid_.point(x + stride * dx, y + stride * dy);
+                    const double weight = ends(dx) * ends(dy) * weight_of(here, there, most);
+                    if (weight > 0 && there != &here)
+                        fit.add({dx, dy}, light_[grid_.number_of(*there)], weight);
+                }
+            std::array<SlowLight, 2> slope;
+            fit.solve(slope);
+            fitted[number] = fit.sum;
+            constexpr double enough = 10; // points that are wide apart know a slope better
+            if (stride == 1 || fit.n > enough)
+                for (std::size_t k = 0; k < slope.size(); ++k)
+                    slope_[number][k] = {slope[k].unshadowed / double(stride),
+                                         slope[k].indirect / double(stride)};
+        },
+        check);
+    light_ = std::move(fitted);
+}
+
+std::optional<SlowLightField::Around> SlowLightField::interpolate(const SurfacePoint& at,
+                                                                  const Vec2& pixel) const {
+    const double x = pixel.x / GatherGrid::step - .5, y = pixel.y / GatherGrid::step - .5;
+    const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
+    constexpr double least = 1e-3; // on an edge of the square of points both sides count
+    Around around;
+    SlowLight& sum = around.light;
+    double weights = 0;
+    for (int dy = 0; dy <= 1; ++dy)
+        for (int dx = 0; dx <= 1; ++dx) {
+            const GridPoint* const there = grid_.point(left + dx, top + dy);
+            if (!there || !there->is_of_surface(at))
+                continue;
+            const Vec3 way = there->at.position - at.position;
+            const double share = there->nearness / reach_share;
+            const double weight =
+                (least + (1 - std::abs(x - left - dx)) * (1 - std::abs(y - top - dy))) /
+                (1 + share * share * glm::dot(way, way));
+            const std::size_t of = grid_.number_of(*there);
+            sum.add(light_[of], weight);
+            sum.add(slope_[of][0], weight * (x - left - dx));
+            sum.add(slope_[of][1], weight * (y - top - dy));
+            weights += weight;
+            around.shadow |= there->shadow;
+        }
+    if (!(weights > 0))
+        return {};
+    sum.unshadowed = glm::max(sum.unshadowed / weights, 0.0);
+    sum.indirect = glm::max(sum.indirect / weights, 0.0);
+    return around;
+}
+
+} // namespace hemilux

@@ -1,0 +1,73 @@
+#pragma once
+// The light of a picture that varies slowly: all but the shadows of small emitters. It was gathered
+// at the points of a grid by few rays, and is smoothed over those around on the same surface.
+//
+// Such light varies the more slowly the further surfaces are away (Ward, Rubinstein and Clear
+// 1988). So a linear function is fitted to the points within a share of the harmonic mean distance
+// of what their rays met.
+
+#include "geometry/vector.h"
+#include "io/rendering/gather_grid.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace hemilux {
+
+/// Irradiance that varies slowly [W/m2].
+struct SlowLight {
+    Vec3 unshadowed{0.0}; ///< straight from small emitters if nothing stood between
+    Vec3 indirect{0.0};
+
+    void add(const SlowLight& light, double weight) {
+        unshadowed += weight * light.unshadowed;
+        indirect += weight * light.indirect;
+    }
+};
+
+/// Points in each direction over which one averages.
+inline constexpr int reach_points = 4;
+
+/// How far the light about a point is taken to be about the same, in local units.
+[[nodiscard]] double reach_of(double nearness);
+
+class SlowLightField {
+  public:
+    /// The grid outlives this and may still change.
+    explicit SlowLightField(const GatherGrid& grid)
+        : grid_(grid), light_(grid.size()), slope_(grid.size()) {}
+
+    /// That of a point of the grid, by its number.
+    [[nodiscard]] SlowLight& at(std::size_t point) { return light_[point]; }
+
+    /// The relative error of the mean of indirect light around a point, by the spread of the points
+    /// around as if they were independent.
+    [[nodiscard]] double noise_around(const GridPoint& here, int x, int y) const;
+
+    /// Fits a linear function to the points around each, so that light which changes evenly stays
+    /// as it is up to the edge of a surface (local linear regression: Fan 1992). They are `stride`
+    /// apart: what was smoothed with stride 1 has little detail between such points (the algorithme
+    /// a trous: Dammertz et al. 2010). `check` may throw to end it.
+    void fit(int stride, const std::function<void()>& check, const Workers& workers);
+
+    struct Around {
+        SlowLight light;
+        std::uint8_t shadow = 0; ///< Shadow
+    };
+    /// From the four points around a place of the picture [pixels], as far as they are of the same
+    /// surface; none where no point is.
+    [[nodiscard]] std::optional<Around> interpolate(const SurfacePoint& at,
+                                                    const Vec2& pixel) const;
+
+  private:
+    const GatherGrid& grid_;
+    std::vector<SlowLight> light_; ///< by point
+    /// What it changes by from a point to the next one on the right, and in the next row.
+    std::vector<std::array<SlowLight, 2>> slope_;
+};
+
+} // namespace hemilux
