@@ -346,37 +346,42 @@ void PictureGather::fit_light(int stride, const Workers& workers) {
     light_ = std::move(fitted);
 }
 
-/// From the four points around, as far as they are of the same surface.
+/// From the four points around, as far as they are of the same surface; where none is, as on narrow
+/// strips, from the twelve around these.
 std::optional<PictureGather::Around> PictureGather::interpolate(const Place& place) const {
     const double x = place.pixel.x / step - pixel_centre.x,
                  y = place.pixel.y / step - pixel_centre.y;
     const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
     constexpr double least = 1e-3; // on an edge of the square of points both sides count
-    Around around;
-    SlowLight& sum = around.light;
-    double weights = 0;
-    for (int dy = 0; dy <= 1; ++dy)
-        for (int dx = 0; dx <= 1; ++dx) {
-            const Record* const there = record(left + dx, top + dy);
-            if (!there || !there->is_of_surface(place.at))
-                continue;
-            const Vec3 way = there->at.position - place.at.position;
-            const double share = there->nearness / reach_share;
-            const double weight =
-                (least + (1 - std::abs(x - left - dx)) * (1 - std::abs(y - top - dy))) /
-                (1 + share * share * glm::dot(way, way));
-            const std::size_t of = place_of(*there);
-            add(sum, light_[of], weight);
-            add(sum, slope_[of][0], weight * (x - left - dx));
-            add(sum, slope_[of][1], weight * (y - top - dy));
-            weights += weight;
-            around.shadow |= there->shadow;
-        }
-    if (!(weights > 0))
-        return {};
-    sum.unshadowed = glm::max(sum.unshadowed / weights, 0.0);
-    sum.indirect = glm::max(sum.indirect / weights, 0.0);
-    return around;
+    for (int ring = 0; ring <= 1; ++ring) {
+        Around around;
+        SlowLight& sum = around.light;
+        double weights = 0;
+        for (int dy = -ring; dy <= 1 + ring; ++dy)
+            for (int dx = -ring; dx <= 1 + ring; ++dx) {
+                const Record* const there = record(left + dx, top + dy);
+                if (!there || !there->is_of_surface(place.at))
+                    continue;
+                const Vec3 way = there->at.position - place.at.position;
+                const double share = there->nearness / reach_share;
+                const double across = std::max(1 - std::abs(x - left - dx), 0.0),
+                             down = std::max(1 - std::abs(y - top - dy), 0.0);
+                const double weight =
+                    (least + across * down) / (1 + share * share * glm::dot(way, way));
+                const std::size_t of = place_of(*there);
+                add(sum, light_[of], weight);
+                add(sum, slope_[of][0], weight * (x - left - dx));
+                add(sum, slope_[of][1], weight * (y - top - dy));
+                weights += weight;
+                around.shadow |= there->shadow;
+            }
+        if (!(weights > 0))
+            continue;
+        sum.unshadowed = glm::max(sum.unshadowed / weights, 0.0);
+        sum.indirect = glm::max(sum.indirect / weights, 0.0);
+        return around;
+    }
+    return {};
 }
 
 /// Shadow rays are traced where some were blocked around, and some were not; all rays where no
