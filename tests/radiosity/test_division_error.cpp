@@ -2,8 +2,10 @@
 #include "geometry/frame.h"
 #include "parallel/workers.h"
 #include "radiosity/final_gather/division_error.h"
+#include "radiosity/final_gather/final_gather.h"
 #include "radiosity/final_gather/light_within_patches.h"
 #include "radiosity/final_gather/linear_light.h"
+#include "radiosity/final_gather/surface_points.h"
 #include "support/closed_forms.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -13,6 +15,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 using namespace hemilux;
 using test::Model;
@@ -297,6 +300,52 @@ TEST_CASE("where gathered light is right, its error is said to be no less than i
         CHECK(found.error > 0);
         CHECK(found.uncertainty <= 1.0001 * found.error);
     }
+}
+
+TEST_CASE("what has spread is what gathers miss, where patches are right on average") {
+    Scene scene = test::room_with_block();
+    for (Material& material : scene.materials)
+        if (material.reflectance != Vec3(0.0))
+            material.reflectance = Vec3(.8, .7, .6);
+    const Model model(scene);
+    const Solution solution = test::solve(model, *find_method("stored-transport"), {},
+                                          {.steps = {}, .seconds = {}, .error = .002});
+    const StopFlag never;
+    const std::vector<PatchPoint> drawn = PointsOverSurface(model.mesh).draw(24, 1);
+    std::vector<SurfacePoint> points;
+    std::vector<std::uint64_t> streams;
+    for (const PatchPoint& point : drawn) {
+        points.push_back(point.at);
+        streams.push_back(points.size());
+    }
+    constexpr std::size_t estimates = 64;
+    // Of each point the mean, and its variance.
+    const auto mean_and_variance = [&](bool of_paths, std::size_t point) {
+        FinalGather gather(model.mesh, model.bvh, solution);
+        of_paths ? gather.find_missing(false) : gather.find_spread();
+        gather.set_rounds(of_paths ? 16 : 4);
+        const std::vector<Vec3> found =
+            gather.irradiance(std::span(points).subspan(point, 1),
+                              std::span(streams).subspan(point, 1), estimates, Workers(0), never);
+        double sum = 0, squares = 0;
+        for (const Vec3& light : found) {
+            sum += light.y;
+            squares += light.y * light.y;
+        }
+        const double mean = sum / estimates;
+        return std::pair(mean, (squares / estimates - mean * mean) / (estimates - 1));
+    };
+    double z_square = 0, significance = 0;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const auto [missing, its_variance] = mean_and_variance(true, k);
+        const auto [spread, other_variance] = mean_and_variance(false, k);
+        z_square += std::pow(missing - spread, 2) / (its_variance + other_variance);
+        significance += spread * spread / other_variance;
+    }
+    const auto n = static_cast<double>(points.size());
+    CAPTURE(z_square / n, significance / n);
+    CHECK(z_square / n < 1 + 5 * std::sqrt(2 / n)); // of a chi square of n
+    CHECK(significance / n > 10);
 }
 
 TEST_CASE("gathered light holds more of what varies within patches the coarser they are",

@@ -84,9 +84,8 @@ class AutoDivision {
     [[nodiscard]] DivisionErrorOptions error_options(std::uint64_t most_rays, double negligible);
     /// How far gathered light is off, by all that is off.
     void measure_gathered(const DivisionErrorOptions& options);
-    /// How far the light within patches is off; and what has spread of it, which takes more rays.
-    void measure_within(const DivisionErrorOptions& options);
-    void add_spread(const DivisionErrorOptions& options);
+    /// How far the light on patches is off by their division.
+    void measure_division(const DivisionErrorOptions& options);
     template <class Measure>
     DivisionError timed(const Measure& measure);
     void begin_gathered();
@@ -114,8 +113,7 @@ class AutoDivision {
     bool is_gathered_, is_own_;
     std::uint64_t gathers_ = 0;
     double seconds_of_errors_ = 0;
-    bool divides_ = true;  ///< in the next attempt
-    DivisionError within_; ///< of the light within patches, what has spread left out
+    bool divides_ = true; ///< in the next attempt
     Divided divided_;
 };
 
@@ -167,19 +165,10 @@ void AutoDivision::measure_gathered(const DivisionErrorOptions& options) {
     });
 }
 
-void AutoDivision::measure_within(const DivisionErrorOptions& options) {
-    divided_.error.reset();
-    within_ = timed([&](const Workers& workers) {
-        return error_within_patches(mesh_, input_.tracer, divided_.rough, options, workers,
-                                    input_.monitor.interrupted);
-    });
-    within_.rays = 0; // which are counted
-}
-
-void AutoDivision::add_spread(const DivisionErrorOptions& options) {
+void AutoDivision::measure_division(const DivisionErrorOptions& options) {
     divided_.error = timed([&](const Workers& workers) {
-        return with_spread(within_, mesh_, input_.tracer, divided_.rough, options, workers,
-                           input_.monitor.interrupted);
+        return division_error(mesh_, input_.tracer, divided_.rough, options, workers,
+                              input_.monitor.interrupted);
     });
 }
 
@@ -188,8 +177,7 @@ void AutoDivision::add_spread(const DivisionErrorOptions& options) {
 void AutoDivision::begin_gathered() {
     options_.error = division_error(mesh_, input_.tracer, divided_.rough,
                                     {.seed = hash_words({settings_.options.seed, 6})},
-                                    Workers(settings_.options.threads), input_.monitor.interrupted,
-                                    &*divided_.gathered)
+                                    Workers(settings_.options.threads), input_.monitor.interrupted)
                          .error;
     lower_goals();
 }
@@ -211,7 +199,7 @@ bool AutoDivision::is_enough(double sampling) {
         lower_goals();
         return false;
     }
-    const double division = divided_.error.value_or(within_).error;
+    const double division = divided_.error->error;
     if (std::hypot(division, sampling) <= whole_)
         return true;
     const auto left = [&](double other) {
@@ -226,23 +214,17 @@ bool AutoDivision::is_enough(double sampling) {
 }
 
 /// The first of several errors to be small enough errs low, so another one confirms it. That of
-/// gathered light varies less. What has spread is found out where nothing else speaks against it.
+/// gathered light varies less.
 bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
                                 std::span<const double> square) {
-    const auto options = [&] { return error_options(most_rays, sampling / 2); };
-    if (is_gathered_) {
-        measure_gathered(options());
-        return !is_over() && is_enough(sampling);
-    }
-    for (unsigned time = 0; time < 2; ++time) {
-        DivisionErrorOptions where_it_is_large = options();
-        where_it_is_large.square = square;
-        measure_within(where_it_is_large);
+    for (unsigned time = 0; time < (is_gathered_ ? 1 : 2); ++time) {
+        DivisionErrorOptions options = error_options(most_rays, sampling / 2);
+        options.square = square;
+        is_gathered_ ? measure_gathered(options) : measure_division(options);
         if (is_over() || !is_enough(sampling))
             return false;
     }
-    add_spread(options());
-    return !is_over() && is_enough(sampling);
+    return true;
 }
 
 void AutoDivision::divide_once(Division& division) {
@@ -280,8 +262,6 @@ void AutoDivision::divide_until_enough() {
             break;
         division.doubt();
     }
-    if (!is_gathered_ && !divided_.error && !is_over())
-        add_spread(error_options(rays_of_error(divided_.rough.rays_energy), 0));
     divided_.slope = division.slopes();
 }
 
@@ -296,12 +276,8 @@ Divided AutoDivision::divide() {
     if (!is_over()) {
         const double most = is_gathered_ ? whole_ : share_of_division * whole_;
         const DivisionErrorOptions options = error_options(0, most);
-        is_gathered_ ? measure_gathered(options) : measure_within(options);
-        divided_.linear = divided_.gathered.value_or(within_).error > most;
-        if (!is_gathered_ && !divided_.linear) {
-            add_spread(options);
-            divided_.linear = divided_.error->error > most;
-        }
+        is_gathered_ ? measure_gathered(options) : measure_division(options);
+        divided_.linear = (is_gathered_ ? divided_.gathered : divided_.error)->error > most;
     }
     if (is_gathered_ && mesh_.patches().size() >= options_.most_patches) {
         // Less than half of what is off is not worth its rays.

@@ -99,8 +99,7 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
         options.seed = hash_words({settings.options.seed, 1});
         options.negligible = std::max(statistics.error_sampling / 2,
                                       settings.divide_auto ? 0 : resolved_on_fixed_patches);
-        of_patches = division_error(mesh, tracer, solution, options, workers, interrupted,
-                                    gathered ? &*gathered : nullptr);
+        of_patches = division_error(mesh, tracer, solution, options, workers, interrupted);
         statistics.rays_division_error += of_patches->rays;
         const double before = statistics.seconds_division_error;
         statistics.seconds_division_error = (before > 0 ? before : 0) + watch.seconds();

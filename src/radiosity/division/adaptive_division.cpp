@@ -50,7 +50,7 @@ unsigned rays_of_estimate(double error) {
 constexpr double negligible_share = .05;
 
 /// Of what is allowed, what the noise of slopes may be; and rounds of rays for it.
-constexpr double share_of_noise = .1;
+constexpr double share_of_noise = .2;
 constexpr double most_rounds_of_slopes = 8;
 
 } // namespace

@@ -34,7 +34,7 @@ struct Manner {
     double well_known;
 };
 constexpr Manner of_patches{64, 64, .15}, of_divided{640, 64, .15}, of_gathered{16, 16, .25},
-    of_spread{16, 4, .25};
+    of_spread{16, 8, .2};
 
 /// So many points times the length of gathers at the most, in a round.
 constexpr std::size_t longest_round = 4096;
@@ -204,26 +204,6 @@ DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double
     return result;
 }
 
-/// Of light that is gathered from the solution, but for `other`.
-DivisionError missing_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                            bool reads_near, const OtherError& other, const Manner& manner,
-                            DivisionErrorOptions options, const Workers& workers,
-                            const StopFlag& interrupted) {
-    const double size = reflected_square(mesh, solution);
-    if (!(size > 0))
-        return {};
-    FinalGather gather(mesh, tracer, solution);
-    gather.find_missing(reads_near);
-    options.square = {};
-    return error_at_points(mesh, solution, size, missing_at, gather, other, manner, options,
-                           workers, interrupted);
-}
-
-DivisionError without(const DivisionError& all, const OtherError& other) {
-    const double square = std::max(all.error * all.error - other.square, 0.0);
-    return {std::sqrt(square), all.uncertainty, 0, 0};
-}
-
 /// Errors that do not depend on each other.
 void add(DivisionError& sum, const DivisionError& error) {
     const double both = std::hypot(sum.error, error.error);
@@ -246,10 +226,16 @@ double reflected_square(const Mesh& mesh, const Solution& solution) {
 }
 
 DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                             bool reads_near, const DivisionErrorOptions& options,
-                             const Workers& workers, const StopFlag& interrupted) {
-    DivisionError found = missing_error(mesh, tracer, solution, reads_near, {}, of_gathered,
-                                        options, workers, interrupted);
+                             bool reads_near, DivisionErrorOptions options, const Workers& workers,
+                             const StopFlag& interrupted) {
+    const double size = reflected_square(mesh, solution);
+    if (!(size > 0))
+        return {};
+    FinalGather gather(mesh, tracer, solution);
+    gather.find_missing(reads_near);
+    options.square = {};
+    DivisionError found = error_at_points(mesh, solution, size, missing_at, gather, {}, of_gathered,
+                                          options, workers, interrupted);
     // Where it is hardly known it is reported nearly as large as it may be.
     constexpr double share = .8;
     found.error =
@@ -257,9 +243,9 @@ DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer, const Solut
     return found;
 }
 
-DivisionError error_within_patches(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                                   const DivisionErrorOptions& options, const Workers& workers,
-                                   const StopFlag& interrupted) {
+DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                             const DivisionErrorOptions& options, const Workers& workers,
+                             const StopFlag& interrupted) {
     const double size = reflected_square(mesh, solution);
     if (!(size > 0))
         return {};
@@ -272,39 +258,21 @@ DivisionError error_within_patches(const Mesh& mesh, const Tracer& tracer, const
         return light - (radiosity_at(mesh, solution, point.patch, point.at.position) -
                         mesh.material(point.patch).emission);
     };
-    return error_at_points(mesh, solution, size, off_at, gather, {seen, seen * known.scatter()},
-                           options.square.empty() ? of_patches : of_divided, options, workers,
-                           interrupted);
-}
-
-DivisionError with_spread(DivisionError within, const Mesh& mesh, const Tracer& tracer,
-                          const Solution& solution, const DivisionErrorOptions& options,
-                          const Workers& workers, const StopFlag& interrupted,
-                          const DivisionError* gathered) {
-    const double size = reflected_square(mesh, solution);
-    if (!(size > 0))
-        return within;
-    const KnownVariance known = known_variance(mesh, solution, size);
-    const double rho = mean_reflectance(mesh), reflected = known.common * rho * rho;
-    const OtherError of_sampling{reflected, reflected * known.scatter()};
-    const double least = std::max(within.error, std::sqrt(known.own + known.common));
-    if (gathered) {
-        add(within, without(*gathered, of_sampling));
-    } else if (least > 0) {
-        DivisionErrorOptions options_of_spread = options;
-        options_of_spread.seed = hash_words({options.seed, 1});
-        options_of_spread.negligible = std::max(share_of_spread * least, options.negligible);
-        add(within, missing_error(mesh, tracer, solution, false, of_sampling, of_spread,
-                                  options_of_spread, workers, interrupted));
-    }
-    return within;
-}
-
-DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                             const DivisionErrorOptions& options, const Workers& workers,
-                             const StopFlag& interrupted, const DivisionError* gathered) {
-    return with_spread(error_within_patches(mesh, tracer, solution, options, workers, interrupted),
-                       mesh, tracer, solution, options, workers, interrupted, gathered);
+    DivisionError all = error_at_points(
+        mesh, solution, size, off_at, gather, {seen, seen * known.scatter()},
+        options.square.empty() ? of_patches : of_divided, options, workers, interrupted);
+    const double least = std::max(all.error, std::sqrt(known.own + known.common));
+    if (interrupted || !(least > 0))
+        return all;
+    DivisionErrorOptions of_others = options;
+    of_others.seed = hash_words({options.seed, 1});
+    of_others.negligible = std::max(share_of_spread * least, options.negligible);
+    of_others.square = {};
+    FinalGather of_paths(mesh, tracer, solution);
+    of_paths.find_spread();
+    add(all, error_at_points(mesh, solution, size, missing_at, of_paths, {}, of_spread, of_others,
+                             workers, interrupted));
+    return all;
 }
 
 std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,

@@ -8,7 +8,14 @@
 // patches lack in detail and the noise of each patch's own value; the latter is known and taken
 // off. It does not hold how far the light that the solution sends is off itself (Lischinski, Smits
 // and Greenberg 1994 bound that part). In most rooms it is smaller by a reflection, in bright ones
-// it is the larger part, so it is measured too: as gathered_error().
+// it is the larger part, so it is measured too.
+//
+// What has spread, T e with e = B* - B and T one reflection, is T (r + T r + ...) with the residual
+// r(y) of one gather, g(y) - B(y). The mean of r over a patch is the error of its value, which is
+// that of sampling; the rest, r(y) - r(y') with y' uniform on the patch of y, is of the division.
+// So paths go on from point to point by the rays of gathers, and each vertex y adds that difference
+// by one ray and one shadow ray of the same random numbers from y and from y'. Its noise falls with
+// the size of patches.
 
 #include "bvh/tracer.h"
 
@@ -52,37 +59,20 @@ struct DivisionErrorOptions {
 /// meets, as those of pictures do.
 [[nodiscard]] DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer,
                                            const Solution& solution, bool reads_near,
-                                           const DivisionErrorOptions& options,
-                                           const Workers& workers, const StopFlag& interrupted);
+                                           DivisionErrorOptions options, const Workers& workers,
+                                           const StopFlag& interrupted);
 
 /// The sum over patches of weight, area and reflected radiosity squared, to which errors are
 /// relative.
 [[nodiscard]] double reflected_square(const Mesh& mesh, const Solution& solution);
 
-/// Of the light within patches: how far a solution, with a step at least, is from the light that is
-/// gathered from it, but for the known variance of its values. Where it was interrupted the error
-/// is not known.
-[[nodiscard]] DivisionError error_within_patches(const Mesh& mesh, const Tracer& tracer,
-                                                 const Solution& solution,
-                                                 const DivisionErrorOptions& options,
-                                                 const Workers& workers,
-                                                 const StopFlag& interrupted);
-
-/// What has spread: `within` and the error of light that is gathered from the solution, but for
-/// that of its values, which do not depend on each other. `gathered`: the latter, where it is
-/// known.
-[[nodiscard]] DivisionError with_spread(DivisionError within, const Mesh& mesh,
-                                        const Tracer& tracer, const Solution& solution,
-                                        const DivisionErrorOptions& options, const Workers& workers,
-                                        const StopFlag& interrupted,
-                                        const DivisionError* gathered = nullptr);
-
-/// Both, one after the other.
+/// How far a solution, with a step at least, is off by the division of the patches: within them, by
+/// gathers there but for the known variance of its values, and by what has spread to others, which
+/// do not depend on each other. Where it was interrupted the error is not known.
 [[nodiscard]] DivisionError division_error(const Mesh& mesh, const Tracer& tracer,
                                            const Solution& solution,
                                            const DivisionErrorOptions& options,
-                                           const Workers& workers, const StopFlag& interrupted,
-                                           const DivisionError* gathered = nullptr);
+                                           const Workers& workers, const StopFlag& interrupted);
 
 /// Of each patch the root mean square of what its light is off: within the patch, as far as
 /// light_within_patches() finds it, and by its standard error. Relative to that of the reflected

@@ -98,6 +98,7 @@ void FinalGather::gather(const SurfacePoint& point, std::uint64_t seed, std::siz
             batch.sees_emission.push_back(any && !by_shadow_rays);
             batch.seeds.push_back(hash_words({seed, e, k}));
             batch.in_gather.push_back(by_paths);
+            batch.ends.push_back(false);
         }
         if (by_shadow_rays && !by_paths)
             add_shadow_rays(point, numbers, 0, shadow_rays, place, batch);
@@ -158,21 +159,28 @@ bool FinalGather::end_ray(const Batch& batch, const Met& met, unsigned bounce,
     const bool reflects = material.reflectance != Vec3(0.0);
     const bool near = reflects && is_near(met, bounce);
     const auto sent = [&] { return radiosity_at(mesh_, light_, met.patch, met.point); };
+    const auto left_out = [&] { return left_out_of(batch, met.ray, met.patch); };
     const auto& [place, share] = batch.from_patch[met.ray];
     if (find_ == Find::light) {
-        const Vec3 light = near ? material.emission : sent();
-        found[place] += share * (light - left_out_of(batch, met.ray, met.patch));
+        found[place] += share * ((near ? material.emission : sent()) - left_out());
         return near;
     }
-    if (!batch.in_gather[met.ray])
-        found[place] += share * (material.emission - left_out_of(batch, met.ray, met.patch));
+    const bool in_gather = batch.in_gather[met.ray];
+    if (find_ == Find::spread) {
+        if (!in_gather)
+            found[place] += share * (sent() - left_out());
+        return reflects && !batch.ends[met.ray];
+    }
+    if (!in_gather)
+        found[place] += share * (material.emission - left_out());
     else if (!near)
         found[place] -= share * (sent() - material.emission);
     return reflects;
 }
 
 /// One ray at random, and one to an emitter where such are taken, of a path that goes on.
-void FinalGather::go_on(const Batch& from, const Met& met, bool in_gather, Batch& next) const {
+void FinalGather::go_on(const Batch& from, const Met& met, bool in_gather, Batch& next,
+                        std::span<Vec3> found) const {
     const std::uint64_t seed = from.seeds[met.ray];
     const Patch& on = mesh_.patches()[met.patch];
     const auto& [place, share] = from.from_patch[met.ray];
@@ -182,20 +190,42 @@ void FinalGather::go_on(const Batch& from, const Met& met, bool in_gather, Batch
         std::min(std::max({rho.x, rho.y, rho.z}), find_ == Find::light ? 1 : most_kept);
     if (Rng(hash_words({seed, 2})).uniform() >= kept)
         return;
-    const Vec3 light = share * rho / kept;
     const SurfacePoint at{met.point, on.normal, on.facet, met.patch};
-    Rng rng(seed);
-    const bool any = !in_gather && !emitters_.empty();
-    if (any)
+    Continuation step{.seed = seed,
+                      .place = place,
+                      .light = share * rho / kept,
+                      .in_gather = in_gather,
+                      .ends = false,
+                      .any = !in_gather && !emitters_.empty()};
+    if (step.any)
         weigh(at, next);
-    const bool by_shadow_rays = any && !next.cut.dark() && next.cut.pays();
-    Ray further{met.point, Frame::from_normal(on.normal).to_world(sample_cosine(rng))};
-    further.from = on.facet;
+    add_rays(at, step, next);
+    if (find_ != Find::spread || in_gather)
+        return;
+    // The light of another point of the patch, which is as right on average, by the same numbers.
+    SurfacePoint other = at;
+    Rng rng(hash_words({seed, 3}));
+    const double u = rng.uniform(), v = rng.uniform();
+    other.position = PolygonSampler(on.shape).sample({u, v});
+    found[place] -= share / kept *
+                    (radiosity_at(mesh_, light_, met.patch, at.position) -
+                     radiosity_at(mesh_, light_, met.patch, other.position));
+    step.light = -step.light;
+    step.ends = true;
+    add_rays(other, step, next);
+}
+
+void FinalGather::add_rays(const SurfacePoint& at, const Continuation& step, Batch& next) const {
+    Rng rng(step.seed);
+    const bool by_shadow_rays = step.any && !next.cut.dark() && next.cut.pays();
+    Ray further{at.position, Frame::from_normal(at.normal).to_world(sample_cosine(rng))};
+    further.from = at.facet;
     next.random.push_back(further);
-    next.from_patch.push_back({place, light});
-    next.sees_emission.push_back(any && !by_shadow_rays);
-    next.seeds.push_back(hash_words({seed, 1}));
-    next.in_gather.push_back(in_gather);
+    next.from_patch.push_back({step.place, step.light});
+    next.sees_emission.push_back(step.any && !by_shadow_rays);
+    next.seeds.push_back(hash_words({step.seed, 1}));
+    next.in_gather.push_back(step.in_gather);
+    next.ends.push_back(step.ends);
     if (!by_shadow_rays)
         return;
     EmitterChoice::Choices choices;
@@ -206,14 +236,14 @@ void FinalGather::go_on(const Batch& from, const Met& met, bool in_gather, Batch
     const Emitter& emitter = emitters_[index];
     const double u = rng.uniform(), v = rng.uniform();
     Ray shadow{};
-    const double factor = look_from(met.point, on.normal, on.facet, emitter.side, emitter.points,
+    const double factor = look_from(at.position, at.normal, at.facet, emitter.side, emitter.points,
                                     {u, v}, emitter.near, shadow);
     if (!(factor > 0))
         return;
     next.shadow.push_back(shadow);
     next.targets.push_back(emitter.side.facet);
     next.to_emitter.push_back(
-        {place, factor / chance * light * mesh_.material(emitter.side).emission});
+        {step.place, factor / chance * step.light * mesh_.material(emitter.side).emission});
 }
 
 void FinalGather::send(Batch& batch, std::span<Vec3> found) const {
@@ -241,7 +271,7 @@ void FinalGather::send(Batch& batch, std::span<Vec3> found) const {
         std::ranges::stable_sort(further, {}, &Met::patch);
         Batch next;
         for (const Met& met : further)
-            go_on(batch, met, batch.in_gather[met.ray] && is_near(met, bounce), next);
+            go_on(batch, met, batch.in_gather[met.ray] && is_near(met, bounce), next, found);
         rays_ += batch.random.size();
         if (bounce == 0)
             met_first = std::move(batch.receivers);

@@ -83,6 +83,10 @@ class FinalGather {
     /// that read no patch, less what it would be by the solution. Right on average; light straight
     /// from emitters has no part in it, as a gather has that right. `reads_near`: as indirect(),
     /// which reads each patch that a ray meets.
+    /// The part of it that comes of how light varies within patches, with what light is on average
+    /// on each patch taken to be right: paths read the solution at each vertex, and what is off
+    /// there is compared with what is off at another point of the patch by the same random numbers.
+    void find_spread() { find_ = Find::spread; }
     void find_missing(bool reads_near) {
         find_ = reads_near ? Find::missing_however_near : Find::missing;
     }
@@ -93,7 +97,7 @@ class FinalGather {
     FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light, unsigned random_rays,
                 unsigned shadow_rays, const std::vector<std::uint32_t>& emitters);
 
-    enum class Find { light, missing, missing_however_near };
+    enum class Find { light, missing, missing_however_near, spread };
     struct Emitter {
         Patch side; ///< of a whole facet
         PolygonSampler points;
@@ -114,6 +118,7 @@ class FinalGather {
         std::vector<std::uint64_t> seeds; ///< of random rays, for what follows from them
         /// Of random rays: nothing is to be found before their path has left the gather.
         std::vector<bool> in_gather;
+        std::vector<bool> ends; ///< of random rays: their path does not go on
         EmitterChoice::Cut cut;
         std::uint32_t weighed = none; ///< the patch that the cut is of
 
@@ -140,7 +145,16 @@ class FinalGather {
     [[nodiscard]] bool is_near(const Met& met, unsigned bounce) const;
     /// Adds what is found where a ray ends. True: its path goes on.
     bool end_ray(const Batch& batch, const Met& met, unsigned bounce, std::span<Vec3> found) const;
-    void go_on(const Batch& from, const Met& met, bool in_gather, Batch& next) const;
+    void go_on(const Batch& from, const Met& met, bool in_gather, Batch& next,
+               std::span<Vec3> found) const;
+    struct Continuation {
+        std::uint64_t seed;
+        std::uint32_t place;
+        Vec3 light;
+        bool in_gather, ends;
+        bool any; ///< light comes straight from emitters
+    };
+    void add_rays(const SurfacePoint& at, const Continuation& step, Batch& next) const;
     [[nodiscard]] Vec3 left_out_of(const Batch& batch, std::size_t ray, std::uint32_t patch) const {
         return batch.sees_emission[ray] ? Vec3(0.0) : left_out_[patch];
     }
