@@ -27,7 +27,7 @@ constexpr std::size_t most_patches_by_default = 20'000;
 constexpr double share_of_time = .5;
 
 /// Where light is gathered, what sampling may leave on patches: at first, as gathers average over
-/// them; and of the whole error at last, a sixth of its square.
+/// them; and of the whole error.
 constexpr double first_sampling_of_gathered = .05, sampling_of_gathered = .4;
 
 /// A goal is set lower by a factor in this range, with some room.
@@ -82,12 +82,12 @@ class AutoDivision {
     void run_to(double error, const StopRule& most);
     /// Of an error that is found out now, at points of its own.
     [[nodiscard]] DivisionErrorOptions error_options(std::uint64_t most_rays, double negligible);
-    /// How far gathered light is off, by all that is off.
-    void measure_gathered(const DivisionErrorOptions& options);
-    /// How far the light on patches is off by their division.
-    void measure_division(const DivisionErrorOptions& options);
-    template <class Measure>
-    DivisionError timed(const Measure& measure);
+    /// How far the light that is given out is off by the division.
+    void measure(const DivisionErrorOptions& options);
+    [[nodiscard]] double measured() const {
+        return is_gathered_ ? gathered_error(*divided_.spread, mesh_, divided_.rough).error
+                            : divided_.error->error;
+    }
     void begin_gathered();
     void lower_goals();
     void divide_once(Division& division);
@@ -149,27 +149,17 @@ DivisionErrorOptions AutoDivision::error_options(std::uint64_t most_rays, double
             .negligible = is_gathered_ ? resolved_gathered_error(settings_) : negligible};
 }
 
-template <class Measure>
-DivisionError AutoDivision::timed(const Measure& measure) {
+void AutoDivision::measure(const DivisionErrorOptions& options) {
     const Stopwatch watch;
-    const DivisionError found = measure(Workers(settings_.options.threads));
+    const Workers workers(settings_.options.threads);
+    const DivisionError found =
+        is_gathered_ ? spread_error(mesh_, input_.tracer, divided_.rough, gathers_near(settings_),
+                                    options, workers, input_.monitor.interrupted)
+                     : division_error(mesh_, input_.tracer, divided_.rough, options, workers,
+                                      input_.monitor.interrupted);
+    (is_gathered_ ? divided_.spread : divided_.error) = found;
     statistics_.rays_division_error += found.rays;
     seconds_of_errors_ += watch.seconds();
-    return found;
-}
-
-void AutoDivision::measure_gathered(const DivisionErrorOptions& options) {
-    divided_.gathered = timed([&](const Workers& workers) {
-        return gathered_error(mesh_, input_.tracer, divided_.rough, gathers_near(settings_),
-                              options, workers, input_.monitor.interrupted);
-    });
-}
-
-void AutoDivision::measure_division(const DivisionErrorOptions& options) {
-    divided_.error = timed([&](const Workers& workers) {
-        return division_error(mesh_, input_.tracer, divided_.rough, options, workers,
-                              input_.monitor.interrupted);
-    });
 }
 
 /// Light on patches may vary so much as it does on those that there are, but for what gathered
@@ -184,22 +174,21 @@ void AutoDivision::begin_gathered() {
 
 /// Of patches, by less than gathered light is to gain: its error falls faster than theirs.
 void AutoDivision::lower_goals() {
-    const double step = std::clamp(std::sqrt(safe * whole_ / divided_.gathered->error),
-                                   least_step_of_gathered, most_step);
-    options_.error *= step;
-    divided_.sampling = std::max(step * *divided_.sampling, sampling_of_gathered * whole_);
+    options_.error *=
+        std::clamp(std::sqrt(safe * whole_ / measured()), least_step_of_gathered, most_step);
+    divided_.sampling = sampling_of_gathered * whole_;
 }
 
 /// What is left is aimed at with some room, as what was found is known to a tenth.
 bool AutoDivision::is_enough(double sampling) {
     constexpr double least_sampling = .6;
     if (is_gathered_) {
-        if (divided_.gathered->error <= whole_)
+        if (measured() <= whole_)
             return true;
         lower_goals();
         return false;
     }
-    const double division = divided_.error->error;
+    const double division = measured();
     if (std::hypot(division, sampling) <= whole_)
         return true;
     const auto left = [&](double other) {
@@ -220,7 +209,7 @@ bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
     for (unsigned time = 0; time < (is_gathered_ ? 1 : 2); ++time) {
         DivisionErrorOptions options = error_options(most_rays, sampling / 2);
         options.square = square;
-        is_gathered_ ? measure_gathered(options) : measure_division(options);
+        measure(options);
         if (is_over() || !is_enough(sampling))
             return false;
     }
@@ -276,15 +265,17 @@ Divided AutoDivision::divide() {
     if (!is_over()) {
         const double most = is_gathered_ ? whole_ : share_of_division * whole_;
         const DivisionErrorOptions options = error_options(0, most);
-        is_gathered_ ? measure_gathered(options) : measure_division(options);
-        divided_.linear = (is_gathered_ ? divided_.gathered : divided_.error)->error > most;
+        measure(options);
     }
-    if (is_gathered_ && mesh_.patches().size() >= options_.most_patches) {
-        // Less than half of what is off is not worth its rays.
-        if (divided_.linear)
-            divided_.sampling = std::clamp(.5 * divided_.gathered->error,
-                                           sampling_of_gathered * whole_, *divided_.sampling);
-        divided_.linear = false;
+    if (!is_over() && is_gathered_) {
+        divided_.linear = divided_.spread->error > safe * whole_;
+        // Less than half of what is off is not worth its rays, where it is not divided.
+        const bool stays = divided_.linear && mesh_.patches().size() >= options_.most_patches;
+        divided_.sampling =
+            std::max(sampling_of_gathered * whole_, stays ? .5 * divided_.spread->error : 0);
+        divided_.linear = divided_.linear && !stays;
+    } else if (!is_over()) {
+        divided_.linear = divided_.error->error > share_of_division * whole_;
     }
     if (is_gathered_ && divided_.linear)
         begin_gathered();
@@ -293,7 +284,7 @@ Divided AutoDivision::divide() {
     if (!is_own_) {
         forget_run();
         divided_.error.reset();
-        divided_.gathered.reset();
+        divided_.spread.reset();
     }
     if (divided_.begun)
         divided_.rough = {}; // which has it

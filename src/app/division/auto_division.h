@@ -41,8 +41,8 @@ struct Divided {
     std::optional<double> sampling = {};
     /// The error of the division, if that run does not go on.
     std::optional<DivisionError> error = {};
-    /// In its place the error of gathered light, where that is given out.
-    std::optional<DivisionError> gathered = {};
+    /// In its place what the division leaves on gathered light, where that is given out.
+    std::optional<DivisionError> spread = {};
 };
 
 using BeginSolver = std::function<std::unique_ptr<Solver>()>;

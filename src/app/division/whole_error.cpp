@@ -46,7 +46,10 @@ double whole_error(const SolveSettings& settings) {
     return settings.stop.error.value_or(gives_gathered_light(settings) ? usual_gathered : usual);
 }
 
-double resolved_gathered_error(const SolveSettings& settings) { return whole_error(settings) / 4; }
+double resolved_gathered_error(const SolveSettings& settings) {
+    constexpr double share = .4; // squared it adds little to what is known of the whole
+    return share * whole_error(settings);
+}
 
 bool gathers_near(const SolveSettings& settings) {
     return std::ranges::any_of(settings.outputs, is_picture, &Output::kind);
@@ -70,14 +73,12 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
     if (!solution.weight.empty() && !settings.divide_auto) // rays are for the target's own patches
         return;
     const bool is_gathered = settings.divide_auto && gives_gathered_light(settings);
-    std::optional<DivisionError> of_patches, gathered;
-    if (solution.steps == divided.before.steps) {
+    std::optional<DivisionError> of_patches, spread = divided.spread;
+    if (solution.steps == divided.before.steps)
         of_patches = divided.error;
-        gathered = divided.gathered;
-    }
     if (settings.divide_auto && solution.weight.empty())
         statistics.estimated_error_of = is_gathered ? ErrorOf::gathered : ErrorOf::surfaces;
-    if (!of_patches && !gathered && (solution.steps == 0 || interrupted)) {
+    if (!of_patches && !spread && (solution.steps == 0 || interrupted)) {
         if (settings.divide_auto) // the whole error is not known
             statistics.estimated_error = statistics.estimated_error_uncertainty =
                 std::numeric_limits<double>::quiet_NaN();
@@ -88,12 +89,12 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
     DivisionErrorOptions options{
         .most_rays = (solution.rays_energy + solution.rays_density + statistics.rays_divide) /
                      share_of_rays};
-    if (is_gathered && !gathered) {
+    if (is_gathered && !spread) {
         options.seed = hash_words({settings.options.seed, 5});
         options.negligible = resolved_gathered_error(settings);
-        gathered = gathered_error(mesh, tracer, solution, gathers_near(settings), options, workers,
-                                  interrupted);
-        statistics.rays_division_error += gathered->rays;
+        spread = spread_error(mesh, tracer, solution, gathers_near(settings), options, workers,
+                              interrupted);
+        statistics.rays_division_error += spread->rays;
     }
     if (!of_patches) {
         options.seed = hash_words({settings.options.seed, 1});
@@ -104,6 +105,9 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
         const double before = statistics.seconds_division_error;
         statistics.seconds_division_error = (before > 0 ? before : 0) + watch.seconds();
     }
+    std::optional<DivisionError> gathered;
+    if (is_gathered)
+        gathered = gathered_error(*spread, mesh, solution);
     enter(statistics, *of_patches, settings.divide_auto, gathered);
 }
 

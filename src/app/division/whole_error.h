@@ -15,7 +15,7 @@ namespace hemilux {
 /// Whether all light that is given out is gathered at points or for pictures, none as patches have
 /// it. The whole error is then that of gathered light.
 [[nodiscard]] bool gives_gathered_light(const SolveSettings& settings);
-/// Errors of gathered light below this are not resolved.
+/// Of the division errors of gathered light below this are not resolved.
 [[nodiscard]] double resolved_gathered_error(const SolveSettings& settings);
 /// Whether it is gathered for pictures, whose rays read the patches that they meet however near.
 [[nodiscard]] bool gathers_near(const SolveSettings& settings);

@@ -32,9 +32,11 @@ struct Manner {
     /// Relative uncertainty of the squared error at which it is known well enough: where few places
     /// hold it, what is known of its spread is uncertain itself.
     double well_known;
+    /// What is negligible is found out all the same where so many rays do.
+    std::uint64_t cheap_rays;
 };
-constexpr Manner of_patches{64, 64, .15}, of_divided{640, 64, .15}, of_gathered{16, 16, .25},
-    of_spread{16, 8, .2};
+constexpr Manner of_patches{64, 64, .15, 0}, of_divided{640, 64, .15, 0},
+    of_spread{32, 32, .2, 300'000};
 
 /// So many points times the length of gathers at the most, in a round.
 constexpr std::size_t longest_round = 4096;
@@ -149,8 +151,8 @@ void set_error(DivisionError& result, const Rounds& rounds, const OtherError& ot
     result.uncertainty = relative(square + sigma) - result.error;
 }
 
-/// What the gather misses is off.
-Vec3 missing_at(const PatchPoint&, const Vec3& missing) { return missing; }
+/// What the gather lacks is off.
+Vec3 lacking_at(const PatchPoint&, const Vec3& lacking) { return lacking; }
 
 /// What the noise of gathers alone leaves of uncertainty, about.
 double uncertainty_by_noise(double noise_square, std::size_t points) {
@@ -182,8 +184,8 @@ DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double
         noise.add(sums.noise / size);
         if (rounds.count < least_rounds)
             continue;
-        const double enough =
-            std::max(manner.well_known * (rounds.mean() - other.square), negligible);
+        const double enough = std::max(manner.well_known * (rounds.mean() - other.square),
+                                       gather.rays() < manner.cheap_rays ? 0 : negligible);
         if (rounds.uncertainty() <= enough)
             break;
         const double by_noise = uncertainty_by_noise(noise.mean(), rounds.count * points);
@@ -225,22 +227,41 @@ double reflected_square(const Mesh& mesh, const Solution& solution) {
     return sum;
 }
 
-DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                             bool reads_near, DivisionErrorOptions options, const Workers& workers,
-                             const StopFlag& interrupted) {
+DivisionError spread_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                           bool reads_near, DivisionErrorOptions options, const Workers& workers,
+                           const StopFlag& interrupted) {
     const double size = reflected_square(mesh, solution);
     if (!(size > 0))
         return {};
     FinalGather gather(mesh, tracer, solution);
-    gather.find_missing(reads_near);
+    gather.find_spread(reads_near);
     options.square = {};
-    DivisionError found = error_at_points(mesh, solution, size, missing_at, gather, {}, of_gathered,
-                                          options, workers, interrupted);
+    return error_at_points(mesh, solution, size, lacking_at, gather, {}, of_spread, options,
+                           workers, interrupted);
+}
+
+DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
+                             const Solution& solution) {
+    // Gathers read many patches, and what each errs for itself averages out: a few modes are left
+    // of as many as there are degrees of freedom. What rays may have missed is common to all.
+    constexpr double modes = 4;
+    const KnownVariance known = known_variance(mesh, solution, reflected_square(mesh, solution));
+    const double all_known = known.own + known.common, sampled = estimated_error(mesh, solution);
+    const double sampling =
+        mean_reflectance(mesh) * std::sqrt(std::max(sampled * sampled - all_known, 0.0) +
+                                           all_known * std::min(1.0, modes / known.freedom));
+    if (getenv("DBG"))
+        fprintf(stderr, "  D %.4f +- %.4f sampling %.4f freedom %.1f rho %.2f\n", spread.error,
+                spread.uncertainty, estimated_error(mesh, solution),
+                error_spread(mesh, solution).freedom, mean_reflectance(mesh));
+    DivisionError all = spread;
     // Where it is hardly known it is reported nearly as large as it may be.
     constexpr double share = .8;
-    found.error =
-        std::max({found.error, found.uncertainty, share * (found.error + found.uncertainty)});
-    return found;
+    all.error =
+        std::max({spread.error, spread.uncertainty, share * (spread.error + spread.uncertainty)});
+    add(all,
+        {.error = sampling, .uncertainty = sampling * error_spread(mesh, solution).uncertainty()});
+    return all;
 }
 
 DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
@@ -267,11 +288,7 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
     DivisionErrorOptions of_others = options;
     of_others.seed = hash_words({options.seed, 1});
     of_others.negligible = std::max(share_of_spread * least, options.negligible);
-    of_others.square = {};
-    FinalGather of_paths(mesh, tracer, solution);
-    of_paths.find_spread();
-    add(all, error_at_points(mesh, solution, size, missing_at, of_paths, {}, of_spread, of_others,
-                             workers, interrupted));
+    add(all, spread_error(mesh, tracer, solution, false, of_others, workers, interrupted));
     return all;
 }
 

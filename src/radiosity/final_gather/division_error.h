@@ -10,12 +10,12 @@
 // and Greenberg 1994 bound that part). In most rooms it is smaller by a reflection, in bright ones
 // it is the larger part, so it is measured too.
 //
-// What has spread, T e with e = B* - B and T one reflection, is T (r + T r + ...) with the residual
-// r(y) of one gather, g(y) - B(y). The mean of r over a patch is the error of its value, which is
-// that of sampling; the rest, r(y) - r(y') with y' uniform on the patch of y, is of the division.
-// So paths go on from point to point by the rays of gathers, and each vertex y adds that difference
-// by one ray and one shadow ray of the same random numbers from y and from y'. Its noise falls with
-// the size of patches.
+// What has spread is T (b - B) with T one reflection and b the light. Patches send their means M
+// on, so b - M is r + T r + ... with the residual r(y) = g(y) - M of a gather that reads M. The
+// mean of r over a patch is the error of its value, which is that of sampling; the rest, r(y) -
+// r(y') with y' uniform on the patch of y, is of the division. So paths go on from point to point
+// by the rays of gathers, and each vertex y adds that difference by one ray and one shadow ray of
+// the same random numbers from y and from y'. Its noise falls with the size of patches.
 
 #include "bvh/tracer.h"
 
@@ -51,16 +51,17 @@ struct DivisionErrorOptions {
     std::span<const double> square = {};
 };
 
-/// The error of light that is gathered from the solution, as pictures and --points show it. At such
-/// points it is how much what reaches them from other patches is off: product of two independent
-/// differences between paths of rays, which read no patch, and gathers (the two-bounce form of the
-/// above). So it holds all of the error, that of sampling too, and is smaller by a reflection than
-/// that of the patches, whose errors average out. `reads_near`: gathers read each patch that a ray
-/// meets, as those of pictures do.
-[[nodiscard]] DivisionError gathered_error(const Mesh& mesh, const Tracer& tracer,
-                                           const Solution& solution, bool reads_near,
-                                           DivisionErrorOptions options, const Workers& workers,
-                                           const StopFlag& interrupted);
+/// How far light that is gathered from the solution, as pictures and --points show it, is off by
+/// the division of patches: what has spread. `reads_near`: gathers read each patch that a ray
+/// meets, as those of pictures do. Where it was interrupted the error is not known.
+[[nodiscard]] DivisionError spread_error(const Mesh& mesh, const Tracer& tracer,
+                                         const Solution& solution, bool reads_near,
+                                         DivisionErrorOptions options, const Workers& workers,
+                                         const StopFlag& interrupted);
+/// The whole error of gathered light: `spread`, and what a reflection leaves at the most of the
+/// error of sampling.
+[[nodiscard]] DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
+                                           const Solution& solution);
 
 /// The sum over patches of weight, area and reflected radiosity squared, to which errors are
 /// relative.

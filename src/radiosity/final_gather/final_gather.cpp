@@ -86,7 +86,7 @@ void FinalGather::gather(const SurfacePoint& point, std::uint64_t seed, std::siz
     const bool by_shadow_rays = any && !batch.cut.dark() && batch.cut.pays();
     const Frame frame = Frame::from_normal(point.normal);
     const std::uint32_t random_rays = random_rays_ * rounds_, shadow_rays = shadow_rays_ * rounds_;
-    const bool by_paths = find_ != Find::light;
+    const bool finds_light = find_ == Find::light;
     for (std::size_t e = 0; e < estimates; ++e, ++place) {
         SobolBlocks<5> numbers(hash_words({seed, e}));
         for (std::uint32_t k = 0; k < random_rays; ++k) {
@@ -97,10 +97,10 @@ void FinalGather::gather(const SurfacePoint& point, std::uint64_t seed, std::siz
             batch.from_patch.push_back({place, Vec3(1.0 / random_rays)});
             batch.sees_emission.push_back(any && !by_shadow_rays);
             batch.seeds.push_back(hash_words({seed, e, k}));
-            batch.in_gather.push_back(by_paths);
+            batch.in_gather.push_back(!finds_light);
             batch.ends.push_back(false);
         }
-        if (by_shadow_rays && !by_paths)
+        if (by_shadow_rays && finds_light)
             add_shadow_rays(point, numbers, 0, shadow_rays, place, batch);
     }
 }
@@ -149,7 +149,7 @@ void FinalGather::weigh(const SurfacePoint& point, Batch& batch) const {
 }
 
 bool FinalGather::is_near(const Met& met, unsigned bounce) const {
-    return find_ != Find::missing_however_near && bounce < most_bounces &&
+    return find_ != Find::spread_however_near && bounce < most_bounces &&
            met.distance * met.distance < near_sides * near_sides * mesh_.patches()[met.patch].area;
 }
 
@@ -158,24 +158,17 @@ bool FinalGather::end_ray(const Batch& batch, const Met& met, unsigned bounce,
     const Material& material = mesh_.material(met.patch);
     const bool reflects = material.reflectance != Vec3(0.0);
     const bool near = reflects && is_near(met, bounce);
-    const auto sent = [&] { return radiosity_at(mesh_, light_, met.patch, met.point); };
-    const auto left_out = [&] { return left_out_of(batch, met.ray, met.patch); };
+    const Vec3 left_out = left_out_of(batch, met.ray, met.patch);
     const auto& [place, share] = batch.from_patch[met.ray];
     if (find_ == Find::light) {
-        found[place] += share * ((near ? material.emission : sent()) - left_out());
+        const Vec3 light =
+            near ? material.emission : radiosity_at(mesh_, light_, met.patch, met.point);
+        found[place] += share * (light - left_out);
         return near;
     }
-    const bool in_gather = batch.in_gather[met.ray];
-    if (find_ == Find::spread) {
-        if (!in_gather)
-            found[place] += share * (sent() - left_out());
-        return reflects && !batch.ends[met.ray];
-    }
-    if (!in_gather)
-        found[place] += share * (material.emission - left_out());
-    else if (!near)
-        found[place] -= share * (sent() - material.emission);
-    return reflects;
+    if (!batch.in_gather[met.ray])
+        found[place] += share * (light_.radiosity[met.patch] - left_out);
+    return reflects && !batch.ends[met.ray];
 }
 
 /// One ray at random, and one to an emitter where such are taken, of a path that goes on.
@@ -200,16 +193,17 @@ void FinalGather::go_on(const Batch& from, const Met& met, bool in_gather, Batch
     if (step.any)
         weigh(at, next);
     add_rays(at, step, next);
-    if (find_ != Find::spread || in_gather)
+    if (find_ == Find::light || in_gather)
         return;
     // The light of another point of the patch, which is as right on average, by the same numbers.
     SurfacePoint other = at;
     Rng rng(hash_words({seed, 3}));
     const double u = rng.uniform(), v = rng.uniform();
     other.position = PolygonSampler(on.shape).sample({u, v});
-    found[place] -= share / kept *
-                    (radiosity_at(mesh_, light_, met.patch, at.position) -
-                     radiosity_at(mesh_, light_, met.patch, other.position));
+    if (from.in_gather[met.ray]) // which reads the linear function there
+        found[place] -= share / kept *
+                        (radiosity_at(mesh_, light_, met.patch, at.position) -
+                         radiosity_at(mesh_, light_, met.patch, other.position));
     step.light = -step.light;
     step.ends = true;
     add_rays(other, step, next);

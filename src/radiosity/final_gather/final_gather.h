@@ -79,16 +79,14 @@ class FinalGather {
     /// From now on irradiance() also says what each cosine-distributed ray met: a patch, `escaped`
     /// or `absorbed` (receivers.h), in the order of the estimates, rounds * random_rays of each.
     void record_receivers(std::vector<std::uint32_t>& receivers) { receivers_ = &receivers; }
-    /// From now on irradiance() finds what a gather misses instead: the irradiance itself, by paths
-    /// that read no patch, less what it would be by the solution. Right on average; light straight
-    /// from emitters has no part in it, as a gather has that right. `reads_near`: as indirect(),
-    /// which reads each patch that a ray meets.
-    /// The part of it that comes of how light varies within patches, with what light is on average
-    /// on each patch taken to be right: paths read the solution at each vertex, and what is off
-    /// there is compared with what is off at another point of the patch by the same random numbers.
-    void find_spread() { find_ = Find::spread; }
-    void find_missing(bool reads_near) {
-        find_ = reads_near ? Find::missing_however_near : Find::missing;
+    /// From now on irradiance() finds instead what it lacks because light varies within patches: by
+    /// as much it would be larger if only the mean light of each patch were right. Paths go on from
+    /// where its rays read patches. At each vertex y they find the light that arrives there by the
+    /// means of patches, less that at another point y' of its patch by the same random numbers:
+    /// what y has more than the mean of its patch. `reads_near`: of gathers as those of indirect(),
+    /// which read patches however near.
+    void find_spread(bool reads_near) {
+        find_ = reads_near ? Find::spread_however_near : Find::spread;
     }
     /// Traced so far.
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
@@ -97,7 +95,7 @@ class FinalGather {
     FinalGather(const Mesh& mesh, const Tracer& tracer, PatchLight light, unsigned random_rays,
                 unsigned shadow_rays, const std::vector<std::uint32_t>& emitters);
 
-    enum class Find { light, missing, missing_however_near, spread };
+    enum class Find { light, spread, spread_however_near };
     struct Emitter {
         Patch side; ///< of a whole facet
         PolygonSampler points;
