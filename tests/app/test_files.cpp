@@ -175,6 +175,21 @@ TEST_CASE("a pipe may be the scene or the reference") {
     CHECK(place.has("b.csv"));
 }
 
+TEST_CASE("a pipe to which nobody writes is not waited for", "[slow]") {
+    const Workplace place;
+    place.write_room();
+    REQUIRE(mkfifo(place.path("pipe.obj").c_str(), 0600) == 0);
+    const std::string arguments = GENERATE(
+        "solve pipe.obj", "solve room.obj --config pipe.obj", "solve room.obj --reference pipe.obj",
+        "solve room.obj --points pipe.obj --points-output light.csv");
+    CAPTURE(arguments);
+    const auto result = place.hemilux(arguments + " -o a.csv");
+    CHECK(result.code == 2);
+    CHECK_THAT(result.err,
+               Contains("pipe.obj: expected a file, this is a pipe that nobody writes"));
+    CHECK(!place.has("a.csv"));
+}
+
 TEST_CASE("an error in a scene from a pipe names the line, and the pipe is not opened again") {
     const Workplace place;
     // A closed room of reflectance 1 that emits has no solution.

@@ -162,6 +162,32 @@ TEST_CASE("the shadow of a thin thing is found") {
     CHECK(darkest == Approx(.6).margin(.12));
 }
 
+TEST_CASE("a strip narrower than a pixel is not dotted where a lamp is half hidden") {
+    Scene scene;
+    scene.materials = {{"strip", Vec3(.5), Vec3(0)},
+                       {"lamp", Vec3(0), Vec3(lamp_emission)},
+                       {"black", Vec3(0), Vec3(0)}};
+    scene.groups = {"default"};
+    constexpr double pixel = 4.0 / width, low = .25 * pixel, high = .65 * pixel;
+    test::add_quad(scene, {-2, 0, low}, {-2, 0, high}, {2, 0, high}, {2, 0, low}, 1, 1, 0);
+    test::add_quad(scene, {-.5, 1, -.5}, {.5, 1, -.5}, {.5, 1, .5}, {-.5, 1, .5}, 1, 1, 1);
+    // Its edge is at x = 0, half way up: the lamp is partly hidden from x = -0.5 to 0.5.
+    test::add_quad(scene, {0, .5, -2}, {2, .5, -2}, {2, .5, 2}, {0, .5, 2}, 1, 1, 2);
+    scene.faces = 3;
+    const Model model(std::move(scene));
+    const Image few = picture_of(model, from_above),
+                many = picture_of(model, from_above, {.gather = 1024});
+    constexpr int row = height / 2, first = width / 2 - 10, last = width / 2 + 10;
+    double square = 0, size = 0;
+    for (int x = first; x < last; ++x) {
+        REQUIRE(many.at(x, row).x > 0);
+        square += std::pow(few.at(x, row).x - many.at(x, row).x, 2);
+        size += std::pow(many.at(x, row).x, 2);
+    }
+    CAPTURE(std::sqrt(square / size));
+    CHECK(std::sqrt(square / size) < .25);
+}
+
 TEST_CASE("gathered light rises up to the edge of a surface") {
     // A wall that shines stands along an edge of the ground, which runs askew through the picture.
     Scene scene = lamp_over_ground();

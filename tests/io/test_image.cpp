@@ -153,14 +153,20 @@ TEST_CASE("exposure brings walls to .8, whatever the lamp and the background") {
     for (glm::vec3& pixel : image.pixels)
         pixel = glm::vec3(0.4f);
     CHECK(auto_exposure(image) == Approx(2));
-    for (int i = 0; i < 10; ++i)
-        image.at(i, 0) = glm::vec3(1000); // a lamp over a twentieth of the picture
+    for (int i = 0; i < 9; ++i)
+        image.at(i, 0) = glm::vec3(1000); // a sun over a twentieth of what is lit
     for (int i = 0; i < 20; ++i)
         image.at(i, 5) = glm::vec3(0);
     CHECK(auto_exposure(image) == Approx(2));
     for (int i = 0; i < 20; ++i)
-        image.at(i, 1) = image.at(i, 2) = glm::vec3(1000); // lamps over a quarter
-    CHECK(auto_exposure(image) == Approx(0.8 / 2.4));
+        image.at(i, 1) = image.at(i, 2) = glm::vec3(1000); // suns over a quarter
+    CHECK(auto_exposure(image) == Approx(0.8 / 4.8));
+    Image emission(20, 10);
+    for (std::size_t k = 0; k < image.pixels.size(); ++k)
+        if (image.pixels[k].r == 1000)
+            emission.pixels[k] = glm::vec3(999.999f); // that was lamps
+    CHECK(auto_exposure(image, emission) == Approx(2));
+    CHECK(auto_exposure(image, image) == auto_exposure(image));
 }
 
 TEST_CASE("a file appears complete or not at all") {

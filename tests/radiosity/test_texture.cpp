@@ -6,6 +6,7 @@
 #include "radiosity/scene/mesh.h"
 #include "support/catch.h"
 
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -101,6 +102,25 @@ TEST_CASE("means over triangles are those of many points", "[texture]") {
             for (int c = 0; c < 3; ++c) // five standard errors of numbers from 0 to 1
                 CHECK(std::abs(mean[c] - sum[c]) < 5 * .3 / std::sqrt(n));
         }
+}
+
+TEST_CASE("the means of small triangles make up that of the picture", "[texture]") {
+    constexpr std::uint32_t width = 64, height = 48;
+    std::vector<std::uint8_t> bytes;
+    for (std::uint32_t k = 0; k < 3 * width * height; ++k)
+        bytes.push_back(static_cast<std::uint8_t>(hash_words({k})));
+    const Texture texture(width, height, bytes, srgb_to_linear());
+    constexpr int n = 37;
+    Vec3 sum(0.0);
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const Vec2 a = Vec2(x, y) / double(n), b = Vec2(x + 1, y) / double(n),
+                       c = Vec2(x + 1, y + 1) / double(n), d = Vec2(x, y + 1) / double(n);
+            sum += texture.mean_over(std::array{a, b, c}, {}) +
+                   texture.mean_over(std::array{a, c, d}, {});
+        }
+    for (int channel = 0; channel < 3; ++channel)
+        CHECK(sum[channel] / (2 * n * n) == Approx(texture.mean()[channel]).epsilon(1e-12));
 }
 
 TEST_CASE("polygons without area and huge ones have means too", "[texture]") {

@@ -71,7 +71,7 @@ Camera camera_of(const Comparison& comparison) {
 
 void write_pictures(const Comparison& comparison, std::span<const MethodRuns> results,
                     WriteReport& report) {
-    const ViewSettings& view = comparison.settings.view;
+    ViewSettings view = comparison.settings.view;
     const Reference& reference = comparison.reference;
     const Camera camera = camera_of(comparison);
     const PictureTime time(comparison.monitor.interrupted);
@@ -80,7 +80,9 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
                            comparison.settings.options.threads, time);
     };
     const Image truth = picture(reference.radiosity);
-    const Display display = display_of(view, truth);
+    choose_exposure(view, truth, comparison.mesh, comparison.tracer, camera,
+                    comparison.settings.options.threads);
+    const Display display = display_of(view);
     const auto write = [&](const std::string& name, const Image& image, const Display& shown) {
         const std::string path = path_in(comparison, name);
         report.attempt(path, [&] { write_png(path, image, shown, comparison.settings.from); });

@@ -84,11 +84,12 @@ class Picture {
                         gather_ > 0 ? nullptr : &classes_.get(), gather_, solution.slope);
         if (gather_ > 0)
             seconds_gather_ = watch.seconds();
+        choose_exposure(view_, image, mesh, tracer, camera_, statistics.threads);
         return image;
     }
 
     const SolveSettings& settings_;
-    const ViewSettings& view_;
+    ViewSettings view_;
     const Provenance& from_;
     unsigned gather_; ///< rays at a point; 0: pictures interpolate
     const Results& results_;

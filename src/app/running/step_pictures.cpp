@@ -29,8 +29,8 @@ void StepPictures::write(std::span<const Vec3> radiosity, std::uint32_t step) {
             if (!image)
                 image = render_view(view_, mesh_, tracer_, radiosity, *view_.camera,
                                     settings_.options.threads, time);
-            if (!view_.exposure)
-                view_.exposure = auto_exposure(*image);
+            choose_exposure(view_, *image, mesh_, tracer_, *view_.camera,
+                            settings_.options.threads);
             write_picture({path, output.kind}, *image, view_, settings_.from);
         });
     }

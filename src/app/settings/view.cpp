@@ -63,12 +63,17 @@ void write_picture(const Output& output, const Image& image, const ViewSettings&
         add_exr_channels(channels, "", image);
         return write_exr(output.path, image.width, image.height, std::move(channels), from);
     }
-    write_png(output.path, image, display_of(view, image), from);
+    write_png(output.path, image, display_of(view), from);
 }
 
-Display display_of(const ViewSettings& view, const Image& image) {
-    return {std::exp2(view.stops) * (view.exposure ? *view.exposure : auto_exposure(image)),
-            view.tone};
+void choose_exposure(ViewSettings& view, const Image& picture, const Mesh& mesh,
+                     const Tracer& tracer, const Camera& camera, unsigned threads) {
+    if (!view.exposure)
+        view.exposure = exposure_of(picture, mesh, tracer, camera, threads);
+}
+
+Display display_of(const ViewSettings& view) {
+    return {std::exp2(view.stops) * view.exposure.value_or(1), view.tone};
 }
 
 Display display_of(const ViewSettings& view, const Mesh& mesh, const CornerClasses& classes,

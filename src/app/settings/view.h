@@ -43,12 +43,16 @@ class PictureTime {
                                 const CornerClasses* classes = nullptr, unsigned gather = 0,
                                 std::span<const Slope> slope = {});
 
-/// A .png or .hdr file, or the light alone in an .exr file. Throws OutputError.
+/// A .png file, by the exposure of the view, or the light alone in an .hdr or .exr file. Throws
+/// OutputError.
 void write_picture(const Output& output, const Image& image, const ViewSettings& view,
                    const Provenance& from);
 
-/// How a picture is shown: with the factor given, or one chosen for it.
-[[nodiscard]] Display display_of(const ViewSettings& view, const Image& image);
+/// Chooses the exposure for what render_view() made, where none was given.
+void choose_exposure(ViewSettings& view, const Image& picture, const Mesh& mesh,
+                     const Tracer& tracer, const Camera& camera, unsigned threads);
+/// How pictures are shown, once their exposure is known.
+[[nodiscard]] Display display_of(const ViewSettings& view);
 /// The same of the light of a mesh's vertices, by class of corners.
 [[nodiscard]] Display display_of(const ViewSettings& view, const Mesh& mesh,
                                  const CornerClasses& classes, std::span<const Vec3> of_class);

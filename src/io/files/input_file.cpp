@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #if defined(__linux__)
@@ -48,21 +49,60 @@ void check_type(const std::string& path, mode_t mode, InputKind kind) {
                                (kind == InputKind::regular ? " and no regular file" : ""));
 }
 
-/// Closes itself.
-class Descriptor {
+/// A file or pipe that is open. Of a pipe it waits for what its writer has still to say, but not
+/// for a writer to come: there may never be one.
+class Source {
   public:
-    explicit Descriptor(const std::string& path)
-        : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY)) {
+    explicit Source(const std::string& path)
+        : path_(path), number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK)) {
         if (number_ < 0)
             fail_to_read(path);
     }
-    ~Descriptor() { ::close(number_); }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    [[nodiscard]] int number() const { return number_; }
+    ~Source() { ::close(number_); }
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
+
+    void check(InputKind kind) {
+        struct stat status {};
+        if (::fstat(number_, &status) != 0)
+            fail_to_read(path_);
+        check_type(path_, status.st_mode, kind);
+        waits_for_writer_ = S_ISFIFO(status.st_mode);
+    }
+    /// The number of bytes read; 0 at the end.
+    std::size_t read(char* to, std::size_t size) {
+        for (;;) {
+            const ssize_t count = ::read(number_, to, size);
+            if (count == 0 && waits_for_writer_) {
+                wait_for_writer();
+                continue;
+            }
+            if (count >= 0) {
+                waits_for_writer_ = false;
+                return static_cast<std::size_t>(count);
+            }
+            if (errno == EAGAIN) { // there is a writer
+                waits_for_writer_ = false;
+                pollfd bytes{.fd = number_, .events = POLLIN, .revents = 0};
+                ::poll(&bytes, 1, -1);
+            } else if (errno != EINTR)
+                fail_to_read(path_);
+        }
+    }
 
   private:
+    void wait_for_writer() {
+        constexpr int patience = 2000, step = 10; // milliseconds
+        if (waited_ >= patience)
+            throw InputError(path_, "expected a file, this is a pipe that nobody writes to");
+        ::poll(nullptr, 0, step);
+        waited_ += step;
+    }
+
+    const std::string& path_;
     int number_;
+    bool waits_for_writer_ = false;
+    int waited_ = 0;
 };
 
 } // namespace
@@ -87,11 +127,8 @@ bool is_input(const std::string& path, InputKind kind) {
 
 std::string read_input(const std::string& path, InputKind kind, const InputCheck& check) {
     check_input(path, kind);
-    const Descriptor file(path);
-    struct stat status {};
-    if (::fstat(file.number(), &status) != 0)
-        fail_to_read(path);
-    check_type(path, status.st_mode, kind);             // it may have been replaced since
+    Source source(path);
+    source.check(kind);                                 // it may have been replaced since
     constexpr std::size_t least = std::size_t{1} << 14; // most files are small
     constexpr std::size_t most = std::size_t{1} << 24;
     std::string content;
@@ -99,10 +136,8 @@ std::string read_input(const std::string& path, InputKind kind, const InputCheck
     for (;;) {
         if (used == content.size())
             content.resize(used + std::clamp(used / 2, least, most));
-        const ssize_t count = ::read(file.number(), content.data() + used, content.size() - used);
-        if (count < 0 && errno != EINTR)
-            fail_to_read(path);
-        used += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+        const std::size_t count = source.read(content.data() + used, content.size() - used);
+        used += count;
         if (count == 0)
             break;
         if (check)

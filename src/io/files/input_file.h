@@ -1,6 +1,7 @@
 #pragma once
 // The one place that opens files to be read. What can never end or would wait for ever is refused
-// before it is opened: folders, devices, sockets and files that the kernel makes up (/proc).
+// before it is opened: folders, devices, sockets and files that the kernel makes up (/proc); and a
+// pipe to which nobody writes.
 
 #include <functional>
 #include <string>

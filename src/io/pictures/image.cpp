@@ -91,16 +91,20 @@ float linear_from_srgb(float encoded) {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-double auto_exposure(const Image& image) {
-    constexpr double percentile = 0.9;
-    constexpr double contrast = 6;
+double auto_exposure(const Image& image, const Image& emission) {
+    constexpr double percentile = 0.95;
+    constexpr double contrast = 12;
     constexpr double aim = 0.8;
+    constexpr float rounding = 1e-5f; // of the difference of two like numbers
     std::vector<float> lit;
-    for (const glm::vec3& pixel : image.pixels)
-        if (const float y = luminance(pixel); y > 0 && std::isfinite(y))
+    for (std::size_t k = 0; k < image.pixels.size(); ++k) {
+        const float all = luminance(image.pixels[k]);
+        const float y = emission.pixels.empty() ? all : all - luminance(emission.pixels[k]);
+        if (y > rounding * all && std::isfinite(y))
             lit.push_back(y);
+    }
     if (lit.empty())
-        return 1;
+        return emission.pixels.empty() ? 1 : auto_exposure(image);
     const auto value_at = [&](double share) {
         const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(lit.size() - 1));
         std::nth_element(lit.begin(), lit.begin() + rank, lit.end());

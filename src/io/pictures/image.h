@@ -41,10 +41,16 @@ struct Image {
 /// The inverse of srgb_from_linear().
 [[nodiscard]] float linear_from_srgb(float encoded);
 
-/// The factor that brings the bright part of a picture to 0.8: of the lit pixels the 90th
-/// percentile of luminance, but at most 6 times the median, so that lamps in view may clip. It is 1
-/// for a black picture.
-[[nodiscard]] double auto_exposure(const Image& image);
+/// The factor that brings the bright part of what surfaces reflect to 0.8. With Y the luminances of
+/// the pixels without what is emitted there, as far as they are not 0, it is
+///
+///   0.8 / min(percentile_95(Y), 12 percentile_50(Y)):
+///
+/// so lamps and skies in view have no part in it, a twentieth of the picture may be brighter, and
+/// the darker half is not lost beside a patch of sun. It is 1 for a black picture. Where nothing is
+/// reflected all light counts. `emission` is of the size of the picture, or empty where nothing is
+/// emitted.
+[[nodiscard]] double auto_exposure(const Image& image, const Image& emission = {});
 
 /// Writes 8 bits per channel through the sRGB curve, as `display` shows the light; with tEXt chunks
 /// Software, Command and Seed where the provenance is known. Throws OutputError.

@@ -100,26 +100,33 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first) {
     }
 }
 
+/// Parts of pixels count where the pixel itself is one: a strip narrower than a pixel shows nothing
+/// else.
 glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
     const Vec3& normal = mesh_.patches()[part.patch].normal;
     glm::vec3 arriving(0.0f), unshadowed(0.0f);
     const auto add = [&](const Part& from, float weight) {
+        if (from.share == 0 || (from.patch != part.patch &&
+                                !is_same_surface(Vec3(part.position), normal, Vec3(from.position),
+                                                 mesh_.patches()[from.patch].normal)))
+            return;
+        weight *= from.share;
         arriving += weight * from.direct;
         unshadowed += weight * from.unshadowed;
     };
-    if (part.share < 1) // itself is not among those around
-        add(part, part.share);
-    for (int dy = std::max(-half_window, -y); dy <= std::min(half_window, height_ - 1 - y); ++dy)
-        for (int dx = std::max(-half_window, -part.x);
-             dx <= std::min(half_window, width_ - 1 - part.x); ++dx) {
-            const Part& there = whole_[index(part.x + dx, y + dy)];
-            if (there.share == 0 ||
-                (there.patch != part.patch &&
-                 !is_same_surface(Vec3(part.position), normal, Vec3(there.position),
-                                  mesh_.patches()[there.patch].normal)))
-                continue;
-            add(there, weight_at(dx) * weight_at(dy));
-        }
+    const int left = std::max(part.x - half_window, 0),
+              right = std::min(part.x + half_window, width_ - 1);
+    for (int row = std::max(y - half_window, 0); row <= std::min(y + half_window, height_ - 1);
+         ++row) {
+        for (int x = left; x <= right; ++x)
+            add(whole_[index(x, row)], weight_at(x - part.x) * weight_at(row - y));
+        if (part.share == 1)
+            continue;
+        const std::vector<Part>& parts = parts_[static_cast<std::size_t>(row)];
+        for (auto there = std::ranges::lower_bound(parts, left, {}, &Part::x);
+             there != parts.end() && there->x <= right; ++there)
+            add(*there, weight_at(there->x - part.x) * weight_at(row - y));
+    }
     glm::vec3 light(0.0f);
     for (int c = 0; c < 3; ++c)
         if (unshadowed[c] > 0)

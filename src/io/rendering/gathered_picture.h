@@ -47,7 +47,7 @@ class GatheredPicture {
     std::span<const Vec2> offsets_;
     int width_, height_;
     std::vector<Part> whole_;              ///< by pixel; share 0 where it shows nothing or several
-    std::vector<std::vector<Part>> parts_; ///< by row
+    std::vector<std::vector<Part>> parts_; ///< by row, from left to right
 };
 
 } // namespace hemilux

@@ -154,4 +154,18 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
         .render(options.give_up, Workers(options.threads));
 }
 
+double exposure_of(const Image& picture, const Mesh& mesh, const Tracer& tracer,
+                   const Camera& camera, unsigned threads) {
+    std::vector<Vec3> emission;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
+        emission.push_back(mesh.material(i).emission);
+    return auto_exposure(picture, render(mesh, tracer, emission, camera,
+                                         {.width = picture.width,
+                                          .height = picture.height,
+                                          .samples = 1,
+                                          .textures = true,
+                                          .smooth = false,
+                                          .threads = threads}));
+}
+
 } // namespace hemilux

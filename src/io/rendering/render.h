@@ -35,4 +35,8 @@ struct RenderOptions {
 [[nodiscard]] Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
                            const Camera& camera, const RenderOptions& options = {});
 
+/// The exposure by auto_exposure() for a picture that render() made.
+[[nodiscard]] double exposure_of(const Image& picture, const Mesh& mesh, const Tracer& tracer,
+                                 const Camera& camera, unsigned threads = 0);
+
 } // namespace hemilux

@@ -117,31 +117,35 @@ std::optional<SlowLightField::Around> SlowLightField::interpolate(const SurfaceP
     const double x = pixel.x / GatherGrid::step - .5, y = pixel.y / GatherGrid::step - .5;
     const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
     constexpr double least = 1e-3; // on an edge of the square of points both sides count
-    Around around;
-    SlowLight& sum = around.light;
-    double weights = 0;
-    for (int dy = 0; dy <= 1; ++dy)
-        for (int dx = 0; dx <= 1; ++dx) {
-            const GridPoint* const there = grid_.point(left + dx, top + dy);
-            if (!there || !there->is_of_surface(at))
-                continue;
-            const Vec3 way = there->at.position - at.position;
-            const double share = there->nearness / reach_share;
-            const double weight =
-                (least + (1 - std::abs(x - left - dx)) * (1 - std::abs(y - top - dy))) /
-                (1 + share * share * glm::dot(way, way));
-            const std::size_t of = grid_.number_of(*there);
-            sum.add(light_[of], weight);
-            sum.add(slope_[of][0], weight * (x - left - dx));
-            sum.add(slope_[of][1], weight * (y - top - dy));
-            weights += weight;
-            around.shadow |= there->shadow;
-        }
-    if (!(weights > 0))
-        return {};
-    sum.unshadowed = glm::max(sum.unshadowed / weights, 0.0);
-    sum.indirect = glm::max(sum.indirect / weights, 0.0);
-    return around;
+    for (int ring = 0; ring <= 1; ++ring) {
+        Around around;
+        SlowLight& sum = around.light;
+        double weights = 0;
+        for (int dy = -ring; dy <= 1 + ring; ++dy)
+            for (int dx = -ring; dx <= 1 + ring; ++dx) {
+                const GridPoint* const there = grid_.point(left + dx, top + dy);
+                if (!there || !there->is_of_surface(at))
+                    continue;
+                const Vec3 way = there->at.position - at.position;
+                const double share = there->nearness / reach_share;
+                const double across = std::max(1 - std::abs(x - left - dx), 0.0),
+                             down = std::max(1 - std::abs(y - top - dy), 0.0);
+                const double weight =
+                    (least + across * down) / (1 + share * share * glm::dot(way, way));
+                const std::size_t of = grid_.number_of(*there);
+                sum.add(light_[of], weight);
+                sum.add(slope_[of][0], weight * (x - left - dx));
+                sum.add(slope_[of][1], weight * (y - top - dy));
+                weights += weight;
+                around.shadow |= there->shadow;
+            }
+        if (!(weights > 0))
+            continue;
+        sum.unshadowed = glm::max(sum.unshadowed / weights, 0.0);
+        sum.indirect = glm::max(sum.indirect / weights, 0.0);
+        return around;
+    }
+    return {};
 }
 
 } // namespace hemilux

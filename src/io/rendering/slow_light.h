@@ -59,7 +59,7 @@ class SlowLightField {
         std::uint8_t shadow = 0; ///< Shadow
     };
     /// From the four points around a place of the picture [pixels], as far as they are of the same
-    /// surface; none where no point is.
+    /// surface; where none is, as on narrow strips, from the twelve around these.
     [[nodiscard]] std::optional<Around> interpolate(const SurfacePoint& at,
                                                     const Vec2& pixel) const;
 

@@ -5,7 +5,7 @@
 // The integral over a polygon follows from its border (Green's theorem): with F(x, y) the integral
 // of the row at y from 0 to x, it is the sum over the edges of the integral of F dy. Within a texel
 // F is linear in x, so the trapezoid rule is exact there. Only texels on the border are visited,
-// and sums along rows stand for those inside.
+// and sums along rows stand for those inside. Instead of 0 the rows may begin at any column.
 
 #include "geometry/vector.h"
 
@@ -42,11 +42,14 @@ class Texture {
 
   private:
     [[nodiscard]] Vec3 texel(std::size_t column, std::size_t row) const;
+    [[nodiscard]] Vec3 sum_between(std::size_t first, std::size_t column, std::size_t row) const;
     [[nodiscard]] Vec3 sum_before(std::size_t column, std::size_t row) const;
-    [[nodiscard]] Vec3 row_integral(double x, std::int64_t column, std::size_t row,
-                                    Wrap wrap) const;
+    /// `start` is a column: above 0 for polygons within the picture and right of it.
+    [[nodiscard]] Vec3 row_integral(double x, std::int64_t column, std::size_t row, Wrap wrap,
+                                    std::size_t start) const;
     [[nodiscard]] Vec3 at(const Vec2& place, Wraps wraps) const;
-    [[nodiscard]] Vec3 edge_integral(const Vec2& from, const Vec2& to, Wraps wraps) const;
+    [[nodiscard]] Vec3 edge_integral(const Vec2& from, const Vec2& to, Wraps wraps,
+                                     std::size_t start) const;
     [[nodiscard]] Vec3 sampled_mean(std::span<const Vec2> polygon, Wraps wraps) const;
 
     static constexpr std::size_t block = 16; ///< columns between sums that are kept
