@@ -28,7 +28,7 @@ bool names_option(const std::string& word, const OptionText& option) {
     });
 }
 
-std::string joined(const std::vector<std::string>& values) {
+std::string with_commas(const std::vector<std::string>& values) {
     std::string text;
     for (const std::string& value : values)
         text += (text.empty() ? "" : ",") + value;
@@ -46,7 +46,7 @@ std::vector<std::string> words_of(const std::string& path, const ConfigEntry& en
     if (entry.truth)
         return entry.values.front() == "true" ? std::vector{name} : std::vector<std::string>();
     if (!option.repeatable || !entry.list)
-        return {name + "=" + joined(entry.values)};
+        return {name + "=" + with_commas(entry.values)};
     std::vector<std::string> words;
     for (const std::string& value : entry.values)
         words.push_back(name + "=" + value);

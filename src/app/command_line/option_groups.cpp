@@ -131,7 +131,7 @@ std::string either(std::span<const std::string> values) {
     return text;
 }
 
-std::string joined(std::span<const std::string> values) {
+std::string with_bars(std::span<const std::string> values) {
     std::string text;
     for (const std::string& value : values)
         text += (text.empty() ? "" : "|") + value;
@@ -144,7 +144,7 @@ Option add_own_option(Command command, const MethodOption& own, const std::strin
         return command.add_action(
             own.name, [own, &options] { own.set(options, "yes"); }, help);
     return command.add_value(
-        own.name, joined(own.values), help, [own, &options](const std::string& text) {
+        own.name, with_bars(own.values), help, [own, &options](const std::string& text) {
             const auto refuse = [&](const std::string& expected) {
                 throw UsageError(own.name + ": expected " + expected + ", not '" + text + "'");
             };
