@@ -73,7 +73,7 @@ void check_kills(const Workplace& place, int kills, const std::string& run, int 
 
 } // namespace
 
-TEST_CASE("a resumed run ends with the bytes of one that was not interrupted") {
+TEST_CASE("a resumed run ends with the bytes of one that was not interrupted", "[slow]") {
     const Workplace place;
     place.write_room();
     const std::string method = GENERATE("stored-transport", "hemisphere", "hemisphere --literal",
@@ -265,7 +265,7 @@ TEST_CASE("what contradicts a checkpoint is wrong usage") {
     CHECK(place.hemilux("solve room.obj -o a.png --checkpoint no/where").code == 3);
 }
 
-TEST_CASE("runs killed at random moments resume") {
+TEST_CASE("runs killed at random moments resume", "[slow]") {
     const Workplace place;
     place.write_room();
     const std::string method = GENERATE("stored-transport", "hemisphere");

@@ -212,7 +212,7 @@ TEST_CASE("an error in a scene from a pipe names the line, and the pipe is not o
     CHECK_THAT(expected.err, Contains(message.substr(name, message.find('\n', name) - name)));
 }
 
-TEST_CASE("a signal ends a wait for the reader of an output") {
+TEST_CASE("a signal ends a wait for the reader of an output", "[slow]") {
     const Workplace place;
     place.write_room();
     REQUIRE(mkfifo(place.path("pipe.csv").c_str(), 0600) == 0);
@@ -260,7 +260,7 @@ TEST_CASE("a signal ends the reading of a scene or a reference for every subcomm
 }
 #endif
 
-TEST_CASE("a signal ends the rendering of a picture and leaves the other outputs") {
+TEST_CASE("a signal ends the rendering of a picture and leaves the other outputs", "[slow]") {
     const Workplace place;
     place.write_room();
     // One thread writes the table or the drawing first and works on the picture for long.

@@ -36,7 +36,7 @@ TEST_CASE("pictures are gathered, unless --no-gather; those of steps are not") {
     }
 }
 
-TEST_CASE("a signal ends a gathered picture") {
+TEST_CASE("a signal ends a gathered picture", "[slow]") {
     const Workplace place;
     place.write_room();
     Running run(place,

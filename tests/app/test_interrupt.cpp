@@ -101,7 +101,7 @@ TEST_CASE("Ctrl-C before there is a reference ends a comparison without one") {
     CHECK_FALSE(place.has("a/reference.csv"));
 }
 
-TEST_CASE("a terminal gets a progress bar, which is gone at the end") {
+TEST_CASE("a terminal gets a progress bar, which is gone at the end", "[slow]") {
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
     REQUIRE(terminal >= 0);
     REQUIRE(grantpt(terminal) == 0);

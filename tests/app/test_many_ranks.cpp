@@ -91,7 +91,7 @@ TEST_CASE("A checkpoint of three ranks goes on at two, and at one alone") {
     CHECK((place.read("one.csv") == place.read("whole.csv")));
 }
 
-TEST_CASE("What is wrong for all ranks is said once, with the program's exit code") {
+TEST_CASE("What is wrong for all ranks is said once, with the program's exit code", "[slow]") {
     if (!can_start_ranks())
         return;
     const Workplace place;
@@ -112,7 +112,8 @@ TEST_CASE("What is wrong for all ranks is said once, with the program's exit cod
     CHECK(output.code == 3);
 }
 
-TEST_CASE("Where a rank dies all end with one message and exit code 3, and no half output") {
+TEST_CASE("Where a rank dies all end with one message and exit code 3, and no half output",
+          "[slow]") {
     if (!can_start_ranks())
         return;
     const Workplace place;

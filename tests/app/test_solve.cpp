@@ -59,7 +59,7 @@ TEST_CASE("-q is silent and -v tells of every step") {
         CHECK_THAT(printed, Contains(text));
 }
 
-TEST_CASE("the same seed gives the same bytes whatever the number of threads") {
+TEST_CASE("the same seed gives the same bytes whatever the number of threads", "[slow]") {
     const Workplace place;
     place.write_room();
     const std::string common = "solve room.obj --max-edge .2 --steps 3 --size 64x48 -q --seed ";

@@ -217,7 +217,7 @@ TEST_CASE("light that does not change within patches has no error of division", 
     }
 }
 
-TEST_CASE("noise of the patches' values is not taken for an error of division") {
+TEST_CASE("noise of the patches' values is not taken for an error of division", "[slow]") {
     const Model model(test::furnace_box(4, .5));
     const char* method = GENERATE("monte-carlo", "hemisphere");
     const Solution solution =

@@ -81,7 +81,7 @@ TEST_CASE("The printed rules fail the furnace clearly", "[slow]") {
         }
 }
 
-TEST_CASE("A closed room keeps its energy, and colours do not mix") {
+TEST_CASE("A closed room keeps its energy, and colours do not mix", "[slow]") {
     // All walls reflect the same, one emits: sum A B = Phi / (1 - rho), in each channel.
     Scene scene = test::cube_with_lit_floor(3, .5);
     for (Material& m : scene.materials)
@@ -177,7 +177,7 @@ TEST_CASE("A large sphere inside out: backs absorb, two-sided sheets shine on bo
     }
 }
 
-TEST_CASE("The same seed gives the same bytes for any number of threads") {
+TEST_CASE("The same seed gives the same bytes for any number of threads", "[slow]") {
     const Model model(test::room_with_block());
     for (const Method* method : methods())
         for (const bool literal : {false, true}) {

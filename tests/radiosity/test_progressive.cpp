@@ -148,7 +148,7 @@ TEST_CASE("The ambient term makes early solutions better and is gone at the end"
           1e-4);
 }
 
-TEST_CASE("Overshooting gives the same solution with fewer shots in a bright room") {
+TEST_CASE("Overshooting gives the same solution with fewer shots in a bright room", "[slow]") {
     Scene scene = test::room_with_block();
     for (Material& m : scene.materials)
         m.reflectance = glm::mix(m.reflectance, Vec3(.95), .7);

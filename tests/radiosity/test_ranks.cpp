@@ -102,7 +102,8 @@ const StopRule many_steps{.seconds = 1e9};
 
 } // namespace
 
-TEST_CASE("Methods that share their work find the same bytes on any number of ranks and threads") {
+TEST_CASE("Methods that share their work find the same bytes on any number of ranks and threads",
+          "[slow]") {
     const Model open(test::open_scene(), divided), room(test::room_with_block(), divided);
     REQUIRE(room.mesh.patches().size() > 5 * OwnBlocks::usual_block);
     REQUIRE(open.mesh.patches().size() > 5 * OwnBlocks::usual_block);
@@ -142,7 +143,7 @@ TEST_CASE("A run to an error ends at the same step on any number of ranks") {
     }
 }
 
-TEST_CASE("With a target, or where the memory forgets rays, ranks find the same bytes") {
+TEST_CASE("With a target, or where the memory forgets rays, ranks find the same bytes", "[slow]") {
     const Model model(test::room_with_block(), divided);
     Run asked{model, *find_method("stored-transport"), {.rays = 16, .threads = 1}};
     asked.target.assign(model.mesh.patches().size(), 0.0);

@@ -97,7 +97,7 @@ void check_steps(const Model& model, const char* method, const SolveOptions& opt
 
 } // namespace
 
-TEST_CASE("Each triangle of each patch gets N_tr rays, whole steps end to end") {
+TEST_CASE("Each triangle of each patch gets N_tr rays, whole steps end to end", "[slow]") {
     const Model model(black(room_with_block()));
     for (const int depth : {1, 2}) {
         SolveOptions options;

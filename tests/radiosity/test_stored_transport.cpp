@@ -272,7 +272,7 @@ TEST_CASE("Stored transport closes the balance of energy of closed rooms") {
     }
 }
 
-TEST_CASE("With little memory stored transport goes on, and its rays take no more") {
+TEST_CASE("With little memory stored transport goes on, and its rays take no more", "[slow]") {
     const Model model(test::room_with_block());
     const Solution exact = test::reference(model, .004);
     SolveOptions options;

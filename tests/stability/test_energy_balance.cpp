@@ -117,7 +117,7 @@ TEST_CASE("what is missing in a balance is told by the worst channel") {
     CHECK(EnergyBalance{}.imbalance() == 0);
 }
 
-TEST_CASE("All methods account for all light, closed and open, dim and bright") {
+TEST_CASE("All methods account for all light, closed and open, dim and bright", "[slow]") {
     for (const double rho : {.5, .99})
         for (const bool open : {false, true}) {
             const Model model(open ? open_room(rho) : closed_room(rho));
@@ -149,7 +149,7 @@ TEST_CASE("In a closed room of reflectance .999 too") {
     }
 }
 
-TEST_CASE("Emission in one channel only, and of any size") {
+TEST_CASE("Emission in one channel only, and of any size", "[slow]") {
     for (const double size : {1e-30, 1e30})
         for (const bool open : {false, true}) {
             Scene scene = open ? open_room(.8) : closed_room(.8);

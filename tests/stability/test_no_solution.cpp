@@ -153,7 +153,7 @@ TEST_CASE("A closed room of reflectance 1 has no solution: it is named", "[slow]
     }
 }
 
-TEST_CASE("Only the part that is closed is named, and only in its channel") {
+TEST_CASE("Only the part that is closed is named, and only in its channel", "[slow]") {
     Scene scene =
         box_in_a_room({"white", Vec3(.5, 1, .5), Vec3(1.0)}, {"grey", Vec3(.5), Vec3(1.0)});
     const Model enclosed(scene);

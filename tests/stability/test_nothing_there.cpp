@@ -140,14 +140,14 @@ TEST_CASE("a patch that sees nothing beside some that see each other") {
     });
 }
 
-TEST_CASE("fewer rays than triangles, and hardly any at all") {
+TEST_CASE("fewer rays than triangles, and hardly any at all", "[slow]") {
     const double rays = GENERATE(1.0, 1.0 / 24, 1e-6, 3.0);
     CAPTURE(rays);
     by_all_methods(test::furnace_box(2, .5), asked(rays), nothing_more);
     by_all_methods(leaves({{up, .5, 1}, {down_above, .5, 0}}), asked(rays, 3), nothing_more);
 }
 
-TEST_CASE("every depth, and thresholds that divide all or nothing") {
+TEST_CASE("every depth, and thresholds that divide all or nothing", "[slow]") {
     const int depth = GENERATE(0, 1, 5);
     const double threshold = GENERATE(0.0, 1e300);
     CAPTURE(depth, threshold);

@@ -349,7 +349,7 @@ TEST_CASE("Solids that reach into each other", "[slow]") {
     });
 }
 
-TEST_CASE("A light in a closed box stays there") {
+TEST_CASE("A light in a closed box stays there", "[slow]") {
     Scene scene = box(Vec3(0.0), Vec3(1.0), 3, {wall, wall, wall, wall, wall, wall});
     add(scene, solid(Vec3(.3), Vec3(.6), 2, wall));
     add(scene, box(Vec3(.3), Vec3(.6), 2, {lit, lit, lit, lit, lit, lit})); // in one place with it

@@ -109,7 +109,7 @@ std::string obj_of(const Scene& scene) {
 
 } // namespace
 
-TEST_CASE("The unit of length changes no radiosity") {
+TEST_CASE("The unit of length changes no radiosity", "[slow]") {
     const Scene room = oblique_room();
     for (const Method* const method : methods()) {
         if (!same_rays_everywhere(*method))
@@ -126,7 +126,7 @@ TEST_CASE("The unit of length changes no radiosity") {
     }
 }
 
-TEST_CASE("Nor does the place, as far as doubles carry it") {
+TEST_CASE("Nor does the place, as far as doubles carry it", "[slow]") {
     const Scene room = oblique_room();
     for (const Method* const method : methods()) {
         if (!same_rays_everywhere(*method))

@@ -25,7 +25,7 @@ double relative_error(const Model& model, const Solution& s, const Solution& exa
 
 } // namespace
 
-TEST_CASE("Stored transport needs no more rays for bright rooms than for dim ones") {
+TEST_CASE("Stored transport needs no more rays for bright rooms than for dim ones", "[slow]") {
     double rays_when_dim = 0;
     for (const double rho : {.5, .9, .99, .999, .9999}) {
         const Model model(test::cube_with_lit_floor(6, rho));
