@@ -164,6 +164,22 @@ TEST_CASE("info describes a scene on stdout") {
     CHECK_THAT(place.hemilux("info room.obj --max-edge .3").out, Contains("96"));
 }
 
+TEST_CASE("info says how much the light differs within patches, where it can be known") {
+    const Workplace place;
+    place.write_room();
+    const auto within = [&](const std::string& options) {
+        const std::string text = place.hemilux("info room.obj --json " + options).out;
+        return text.substr(text.find("\"error_division\": "));
+    };
+    const auto number = [](const std::string& text) {
+        return std::stod(text.substr(text.find(' ')));
+    };
+    CHECK(number(within("--max-edge .1")) < number(within("")));
+    CHECK(number(within("")) > .05);
+    CHECK_THAT(place.hemilux("info room.obj").out, Contains("within patches"));
+    CHECK_THAT(within("--emission '*=0'"), Contains("null"));
+}
+
 TEST_CASE("a picture after every step shows one view as it gets brighter") {
     const Workplace place;
     place.write_room();

@@ -1,9 +1,11 @@
 // hemilux info: what was read, what is doubtful in it, and what it does not need.
 
 #include "app/commands/commands.h"
+#include "app/division/needed_division.h"
 #include "app/loading/load.h"
 #include "app/loading/sides.h"
 #include "app/settings/exit_code.h"
+#include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "io/files/error.h"
 #include "io/files/printable.h"
@@ -22,6 +24,9 @@ std::string describe(const SceneReport& report, const Scene& scene, const SceneS
     text += report.sides ? describe(*report.sides, scene, asked.sides) : describe_both_sides(scene);
     if (asked.mesh.max_edge > 0 || asked.mesh.two_sided)
         text += "patches             " + std::to_string(report.patches) + " (as divided)\n";
+    if (report.error_division)
+        text += "within patches      light differs by " + percent(*report.error_division) +
+                " (as they are; solve divides them where it is too much)\n";
     return text + describe(report.left_out);
 }
 
@@ -43,6 +48,8 @@ int info(const InfoSettings& settings) {
         const Mesh mesh = divide_scene(std::move(scene), asked);
         report.patches = mesh.patches().size();
         report.left_out = left_out(find_needs(mesh));
+        if (report.info.bad_reflectances.empty())
+            report.error_division = error_within_patches(mesh, 0);
     }
     std::cout << (settings.json ? to_json(report)
                                 : printable_message(describe(report, read.scene, asked)));

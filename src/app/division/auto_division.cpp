@@ -20,9 +20,6 @@ namespace {
 /// What stored transport takes, and the patch with its outputs.
 constexpr std::uint64_t bytes_of_patch = 16'384;
 
-/// Where division was not asked for it ends here: some hundred megabytes, some seconds.
-constexpr std::size_t most_patches_by_default = 20'000;
-
 /// Of the time of a run that the division may take.
 constexpr double share_of_time = .5;
 

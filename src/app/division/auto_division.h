@@ -18,6 +18,9 @@ namespace hemilux {
 /// and which by sampling, at first.
 inline constexpr double share_of_division = .7, share_of_sampling = .5;
 
+/// Where division was not asked for it ends here: some hundred megabytes, some seconds.
+inline constexpr std::size_t most_patches_by_default = 20'000;
+
 /// Whether a plain run on so many patches divides them: where the method is the standard one, and
 /// what was asked for says nothing of patches or single steps.
 [[nodiscard]] bool divides_by_default(const SolveSettings& settings, std::size_t patches);

@@ -14,6 +14,8 @@ struct SceneReport {
     std::size_t patches = 0;          ///< as divided
     std::vector<LeftOut> left_out;    ///< what the scene does not need
     std::vector<std::string> warnings;
+    /// How far light is off within patches, relative to it; empty: not known.
+    std::optional<double> error_division = {};
 };
 
 /// The object's text, one key a line. Sides are null where they were not looked for.

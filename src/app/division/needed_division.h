@@ -1,0 +1,15 @@
+#pragma once
+// Whether a scene needs division, for those who have not solved it yet.
+
+#include <optional>
+
+namespace hemilux {
+
+class Mesh;
+
+/// How far the light is off within the patches of a mesh, relative to it, from a rough solution;
+/// empty where nothing is lit or cannot be solved, and where there are more patches than a plain
+/// run divides. `threads`: 0: one per core.
+[[nodiscard]] std::optional<double> error_within_patches(const Mesh& mesh, unsigned threads);
+
+} // namespace hemilux
