@@ -250,10 +250,6 @@ DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
     const double sampling =
         mean_reflectance(mesh) * std::sqrt(std::max(sampled * sampled - all_known, 0.0) +
                                            all_known * std::min(1.0, modes / known.freedom));
-    if (getenv("DBG"))
-        fprintf(stderr, "  D %.4f +- %.4f sampling %.4f freedom %.1f rho %.2f\n", spread.error,
-                spread.uncertainty, estimated_error(mesh, solution),
-                error_spread(mesh, solution).freedom, mean_reflectance(mesh));
     DivisionError all = spread;
     // Where it is hardly known it is reported nearly as large as it may be.
     constexpr double share = .8;
