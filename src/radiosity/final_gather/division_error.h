@@ -58,7 +58,7 @@ struct DivisionErrorOptions {
                                          const Solution& solution, bool reads_near,
                                          DivisionErrorOptions options, const Workers& workers,
                                          const StopFlag& interrupted);
-/// The whole error of gathered light: `spread`, and what a reflection leaves at the most of the
+/// The whole error of gathered light: `spread`, and what a reflection is taken to leave of the
 /// error of sampling.
 [[nodiscard]] DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
                                            const Solution& solution);
