@@ -60,11 +60,6 @@ Vec3 PolarWarp::sample(Vec2 u) const {
     return sample_wedge(sector_[1], (1.0 - u.x) * area_, u.y);
 }
 
-Vec2 PolarWarp::inverse(const Vec3& direction) const {
-    const Vec2 u = fan_ ? inverse_fan(direction) : inverse_wedges(direction);
-    return glm::clamp(u, 0.0, 1.0);
-}
-
 // ---- arcs and sectors ------------------------------------------------------------------------
 
 PolarWarp::Sector PolarWarp::sector(const Vec3& apex, double side) {
@@ -155,27 +150,6 @@ Vec3 PolarWarp::sample_fan(double target, double radial) const {
                        safe_sqrt(1.0 - radial + radial * height * height));
 }
 
-Vec2 PolarWarp::inverse_fan(const Vec3& direction) const {
-    double before = 0, best = std::numeric_limits<double>::infinity();
-    Vec2 u(0.0);
-    for (const Sector& s : sector_) {
-        // Rounding may put a direction between two sectors: the nearest has it.
-        const Vec2 azimuth = s.azimuth_of(direction);
-        const double angle = angle_of(azimuth);
-        const double outside = std::max({0.0, -angle, angle - s.range});
-        if (s.area > 0 && outside < best) {
-            best = outside;
-            const double r = glm::length(azimuth);
-            const Vec2 on_arc = azimuth_from(std::clamp(angle, 0.0, s.range));
-            const double h = s.first.h_0 * on_arc.x + s.first.h_1 * on_arc.y;
-            const double tilt = h / s.first.m_z;
-            u = {(before + s.first.area(on_arc)) / area_, r * r * (1.0 + tilt * tilt)};
-        }
-        before += s.area;
-    }
-    return u;
-}
-
 // ---- the pole outside ------------------------------------------------------------------------
 
 PolarWarp::Sector PolarWarp::wedge(const Vec3& apex, const Vec3& middle, const Vec3& far,
@@ -233,26 +207,6 @@ Vec3 PolarWarp::sample_wedge(const Sector& wedge, double target, double radial) 
     const double second = at.difference > 0 ? 1.0 - radial : radial; // its share
     return wedge.direction(azimuth, std::sqrt(glm::mix(at.r_squared.x, at.r_squared.y, second)),
                            std::sqrt(glm::mix(at.z_squared.x, at.z_squared.y, second)));
-}
-
-Vec2 PolarWarp::inverse_wedges(const Vec3& direction) const {
-    const bool before =
-        !(sector_[1].area > 0) ||
-        (sector_[0].area > 0 && angle_of(sector_[0].azimuth_of(direction)) <= sector_[0].range);
-    const Sector& wedge = sector_[before ? 0 : 1];
-    const double angle = angle_of(wedge.azimuth_of(direction));
-    const Vec2 azimuth = azimuth_from(std::clamp(angle, 0.0, wedge.range));
-    const double share = wedge.area_before(azimuth) / area_;
-    // r^2 - r1^2 = z1^2 - z^2: the smaller of the two terms has the smaller error.
-    const Crossing at = wedge.crossing(azimuth);
-    const double r_squared = direction.x * direction.x + direction.y * direction.y;
-    const double z_squared = direction.z * direction.z;
-    const bool first_inner = at.difference < 0;
-    const double inner_r = first_inner ? at.r_squared.x : at.r_squared.y;
-    const double inner_z = first_inner ? at.z_squared.x : at.z_squared.y;
-    const double over = r_squared < z_squared ? r_squared - inner_r : inner_z - z_squared;
-    const double thickness = std::abs(at.difference);
-    return {before ? share : 1.0 - share, thickness > 0 ? over / thickness : 0.5};
 }
 
 } // namespace hemilux

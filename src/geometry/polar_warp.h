@@ -29,8 +29,6 @@ class PolarWarp {
     [[nodiscard]] double area() const { return area_; }
     /// The direction for u in [0,1]^2. Requires area() > 0.
     [[nodiscard]] Vec3 sample(Vec2 u) const;
-    /// The u of a direction inside the triangle.
-    [[nodiscard]] Vec2 inverse(const Vec3& direction) const;
 
   private:
     /// An arc from the apex of a sector; m = (h_0, h_1, m_z) along the apex's azimuth, across it
@@ -68,8 +66,6 @@ class PolarWarp {
                                       double side);
     [[nodiscard]] Vec3 sample_fan(double target, double radial) const;
     [[nodiscard]] Vec3 sample_wedge(const Sector& wedge, double target, double radial) const;
-    [[nodiscard]] Vec2 inverse_fan(const Vec3& direction) const;
-    [[nodiscard]] Vec2 inverse_wedges(const Vec3& direction) const;
 
     /// Pole inside: one sector below each edge. Else two wedges, from the first and from the last
     /// vertex in azimuth, which meet at the meridian of the middle one.

@@ -21,8 +21,7 @@ Vec3 edge_normal(const Vec3& a, const Vec3& b) {
 } // namespace
 
 SphericalTriangle::SphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
-    : vertex_{a, b, c}, normal_{edge_normal(a, b), edge_normal(b, c), edge_normal(c, a)},
-      warp_(a, b, c) {
+    : vertex_{a, b, c}, normal_{edge_normal(a, b), edge_normal(b, c), edge_normal(c, a)} {
     set_hull();
 }
 
@@ -91,25 +90,6 @@ bool SphericalTriangle::contains(const Vec3& direction) const {
     return std::all_of(normal_.begin(), normal_.end(), [&](const Vec3& normal) {
         return glm::dot(normal, direction) >= -edge_tolerance;
     });
-}
-
-Vec3 SphericalTriangle::sample(Vec2 u) const {
-    if (warp_.area() > 0)
-        return warp_.sample(u);
-    // Without area: some point between the vertices.
-    const Vec3 edge = glm::mix(vertex_[1], vertex_[2], u.x);
-    return glm::normalize(glm::mix(vertex_[0], edge, u.y));
-}
-
-double SphericalTriangle::density(const Vec3& direction) const {
-    const double total = projected_solid_angle();
-    return total > 0 && contains(direction) ? std::max(0.0, direction.z) / total : 0.0;
-}
-
-std::optional<Vec2> SphericalTriangle::inverse(const Vec3& direction) const {
-    if (!(warp_.area() > 0) || !contains(direction))
-        return std::nullopt;
-    return warp_.inverse(direction);
 }
 
 } // namespace hemilux

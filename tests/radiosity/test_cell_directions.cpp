@@ -4,6 +4,7 @@
 #include "radiosity/hemisphere/cell_directions.h"
 #include "radiosity/sampling/rng.h"
 #include "support/catch.h"
+#include "support/directions.h"
 #include "support/statistics.h"
 
 #include <memory>
@@ -45,12 +46,10 @@ class Stream {
 constexpr std::size_t parts = 6;
 const std::vector<double> even(parts* parts, 1.0 / (parts * parts));
 
-std::size_t part_of(double u, double v) {
-    const auto of = [](double x) {
-        return std::min(static_cast<std::size_t>(x * double(parts)), parts - 1);
-    };
-    return parts * of(u) + of(v);
+std::size_t interval_of(double x) {
+    return std::min(static_cast<std::size_t>(x * double(parts)), parts - 1);
 }
+std::size_t part_of(double u, double v) { return parts * interval_of(u) + interval_of(v); }
 
 } // namespace
 
@@ -59,12 +58,10 @@ TEST_CASE("directions into each cell follow the cosine, and starts are uniform")
     const CellDirections directions(hemisphere, CellArea::projected_solid_angle);
     const double alpha = sidak(significance, 2 * hemisphere.cells().size());
     for (std::uint16_t c = 0; c < hemisphere.cells().size(); ++c) {
-        const SphericalTriangle& shape = hemisphere.cells()[c].shape;
+        const Histogram histogram(hemisphere.cells()[c].shape, 3);
         Stream stream(directions, c, hash_words({c, 1}));
-        CHECK(chi_square(20'000, even, [&] {
-                  const auto u = shape.inverse(stream.direction(stream.next()));
-                  REQUIRE(u);
-                  return part_of(u->x, u->y);
+        CHECK(chi_square(20'000, histogram.expected, [&] {
+                  return histogram.cell(stream.direction(stream.next()));
               }).p_value > alpha);
         CHECK(chi_square(20'000, even, [&] {
                   const std::size_t k = stream.next();
@@ -87,12 +84,10 @@ TEST_CASE("directions into small cells follow the cosine too, depths 3 to 5") {
     REQUIRE(cells.size() == 3 * 256);
     double worst = 1;
     for (const std::uint16_t c : cells) {
-        const SphericalTriangle& shape = hemisphere.cells()[c].shape;
+        const Histogram histogram(hemisphere.cells()[c].shape);
         Stream stream(directions, c, hash_words({c, 2}));
-        const double p = chi_square(2000, even, [&] {
-                             const auto u = shape.inverse(stream.direction(stream.next()));
-                             REQUIRE(u);
-                             return part_of(u->x, u->y);
+        const double p = chi_square(2000, histogram.expected, [&] {
+                             return histogram.cell(stream.direction(stream.next()));
                          }).p_value;
         worst = std::min(worst, p);
     }
@@ -102,21 +97,31 @@ TEST_CASE("directions into small cells follow the cosine too, depths 3 to 5") {
 TEST_CASE("where a sample starts tells nothing of where it goes") {
     const Hemisphere hemisphere(1);
     const CellDirections directions(hemisphere, CellArea::projected_solid_angle);
-    for (const std::uint16_t cell : {std::uint16_t{0}, std::uint16_t{7}, whole_hemisphere}) {
+    for (const std::uint16_t cell : {std::uint16_t{0}, std::uint16_t{7}}) {
+        const Histogram histogram(hemisphere.cells()[cell].shape);
+        std::vector<double> expected; // by start and part
+        for (std::size_t start = 0; start < parts; ++start)
+            for (const double share : histogram.expected)
+                expected.push_back(share / double(parts));
         Stream stream(directions, cell, 99);
         for (const bool first : {true, false}) {
             const auto pair = [&] {
                 const std::size_t k = stream.next();
-                const Vec3 d = stream.direction(k);
-                // Uniform over the disc or the cell, each coordinate by ranks of its own.
                 const double start = first ? stream.batch->u[k] : stream.batch->v[k];
-                const auto way = cell == whole_hemisphere
-                                     ? Vec2(d.x * d.x + d.y * d.y, 0)
-                                     : *hemisphere.cells()[cell].shape.inverse(d);
-                return part_of(start, way.x);
+                return interval_of(start) * histogram.expected.size() +
+                       histogram.cell(stream.direction(k));
             };
-            CHECK(chi_square(40'000, even, pair).p_value > sidak(significance, 6));
+            CHECK(chi_square(40'000, expected, pair).p_value > sidak(significance, 6));
         }
+    }
+    Stream stream(directions, whole_hemisphere, 99);
+    for (const bool first : {true, false}) {
+        const auto pair = [&] {
+            const std::size_t k = stream.next();
+            const Vec3 d = stream.direction(k);
+            return part_of(first ? stream.batch->u[k] : stream.batch->v[k], d.x * d.x + d.y * d.y);
+        };
+        CHECK(chi_square(40'000, even, pair).p_value > sidak(significance, 6));
     }
 }
 

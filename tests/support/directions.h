@@ -73,4 +73,22 @@ namespace hemilux::test {
     return now;
 }
 
+/// Parts of a triangle after so many divisions, and their exact shares of the cosine density.
+struct Histogram {
+    explicit Histogram(const SphericalTriangle& triangle, int levels = 2)
+        : parts(divided(triangle, levels)) {
+        for (const SphericalTriangle& part : parts)
+            expected.push_back(part.projected_solid_angle() / triangle.projected_solid_angle());
+    }
+    /// The part that a direction lies in, or one past the last.
+    [[nodiscard]] std::size_t cell(const Vec3& d) const {
+        std::size_t i = 0;
+        while (i < parts.size() && !parts[i].contains(d))
+            ++i;
+        return i;
+    }
+    std::vector<SphericalTriangle> parts;
+    std::vector<double> expected;
+};
+
 } // namespace hemilux::test
