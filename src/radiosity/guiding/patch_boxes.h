@@ -1,6 +1,9 @@
 #pragma once
 // A tree of boxes over the patches of a scene, halved at the median of their centres until one is
-// left: to find those in a region, and to count them where a whole box lies in it.
+// left: to find those in a region, and to count them where a whole box lies in it. On the trees
+// that `hierarchical` has, plane by plane (patch_tree.h), --guide pyramid takes 1.2 times as long
+// in office_3576, and 2 times before a curved surface of 7200 triangles, each of which is a root
+// there.
 
 #include "geometry/box.h"
 
