@@ -235,6 +235,7 @@ class Truth {
 
 struct Run {
     double reported = 0, truth = 0, doubt = 0, sampling = 0, division = 0, seconds = 0;
+    std::uint64_t rays = 0; ///< all of them
     std::size_t patches = 0;
 };
 
@@ -281,6 +282,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     done.sampling = statistics.error_sampling;
     done.division = statistics.error_division;
     done.patches = mesh.patches().size();
+    done.rays = solution.rays_energy + statistics.rays_divide + statistics.rays_division_error;
     solution.weight = target_weights(solve_settings(settings), mesh, *made.tracer);
     const TrueError off =
         settings.gathered ? truth.error_of_gathered(mesh, *made.tracer, solution, settings.threads)
@@ -292,9 +294,10 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
 
 void print_run(const Run& run) {
     std::printf("    %7zu patches, reported %6.3f %% (sampling %6.3f, division %6.3f), true %6.3f "
-                "+- %.3f %%, ratio %.3f, %.3g s\n",
+                "+- %.3f %%, ratio %.3f, %.3g M rays, %.3g s\n",
                 run.patches, 100 * run.reported, 100 * run.sampling, 100 * run.division,
-                100 * run.truth, 100 * run.doubt, run.reported / run.truth, run.seconds);
+                100 * run.truth, 100 * run.doubt, run.reported / run.truth, double(run.rays) / 1e6,
+                run.seconds);
 }
 
 double median(std::vector<double> values) {
@@ -309,7 +312,7 @@ void measure(const std::string& name, const Scene& scene, const MeshOptions& opt
     std::printf("%s: %zu points\n", name.c_str(), settings.points);
     for (const std::string& asked : settings.asked) {
         const double error = parse_number(asked).value();
-        std::vector<double> ratio, patches, seconds, whole, reported;
+        std::vector<double> ratio, patches, rays, seconds, whole, reported;
         std::size_t right = 0;
         for (std::uint64_t seed = 1; seed <= settings.seeds; ++seed) {
             const Run run = run_once(truth, settings, error, seed);
@@ -318,15 +321,16 @@ void measure(const std::string& name, const Scene& scene, const MeshOptions& opt
             ratio.push_back(run.reported / run.truth);
             right += ratio.back() >= .8 && ratio.back() <= 1.25;
             patches.push_back(double(run.patches));
+            rays.push_back(double(run.rays) / 1e6);
             seconds.push_back(run.seconds);
             whole.push_back(run.truth);
             reported.push_back(run.reported);
         }
         std::printf("  asked %5.3g %%: true %6.3f %%, reported %6.3f %%, ratio %.3f to %.3f, %zu "
-                    "of %zu right, %7.0f patches, %6.3g s\n",
+                    "of %zu right, %7.0f patches, %6.3g M rays, %6.3g s\n",
                     100 * error, 100 * median(whole), 100 * median(reported),
                     *std::ranges::min_element(ratio), *std::ranges::max_element(ratio), right,
-                    ratio.size(), median(patches), median(seconds));
+                    ratio.size(), median(patches), median(rays), median(seconds));
         std::fflush(stdout);
     }
 }

@@ -261,7 +261,7 @@ Divided AutoDivision::divide() {
     run_to(*rough.error, rough);
     if (!is_over()) {
         const double most = is_gathered_ ? whole_ : share_of_division * whole_;
-        const DivisionErrorOptions options = error_options(0, most);
+        const DivisionErrorOptions options = error_options(least_rays_of_error, most);
         measure(options);
     }
     if (!is_over() && is_gathered_) {

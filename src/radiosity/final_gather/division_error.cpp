@@ -35,8 +35,8 @@ struct Manner {
     /// What is negligible is found out all the same where so many rays do.
     std::uint64_t cheap_rays;
 };
-constexpr Manner of_patches{64, 64, .15, 0}, of_divided{640, 64, .15, 0},
-    of_spread{32, 32, .2, 300'000};
+constexpr Manner of_patches{64, 64, .15, 0}, of_divided{640, 64, .15, 0}, of_spread{32, 32, .2, 0},
+    of_gathered{32, 32, .2, 300'000};
 
 /// So many points times the length of gathers at the most, in a round.
 constexpr std::size_t longest_round = 4096;
@@ -189,14 +189,15 @@ DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double
         if (rounds.uncertainty() <= enough)
             break;
         const double by_noise = uncertainty_by_noise(noise.mean(), rounds.count * points);
-        if (by_noise > enough && length < longest) {
-            const double growth = std::clamp(by_noise / enough, least_growth, most_growth);
+        const double growth = std::clamp(by_noise / enough, least_growth, most_growth);
+        const auto rays = double(gather.rays()), most_rays = double(options.most_rays);
+        if (by_noise > enough && length < longest && growth * rays <= most_rays) {
             length = std::min(std::round(growth * length), longest);
             gather.set_rounds(static_cast<unsigned>(length));
             points = std::max(manner.least_points,
                               manner.points_per_round / static_cast<std::size_t>(length));
             rounds = noise = {};
-        } else if (gather.rays() >= options.most_rays) {
+        } else if (rays >= most_rays) {
             break;
         }
     }
@@ -216,6 +217,19 @@ void add(DivisionError& sum, const DivisionError& error) {
     sum.rays += error.rays;
 }
 
+DivisionError what_has_spread(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                              bool reads_near, const Manner& manner, DivisionErrorOptions options,
+                              const Workers& workers, const StopFlag& interrupted) {
+    const double size = reflected_square(mesh, solution);
+    if (!(size > 0))
+        return {};
+    FinalGather gather(mesh, tracer, solution);
+    gather.find_spread(reads_near);
+    options.square = {}; // of errors within patches
+    return error_at_points(mesh, solution, size, lacking_at, gather, {}, manner, options, workers,
+                           interrupted);
+}
+
 } // namespace
 
 double reflected_square(const Mesh& mesh, const Solution& solution) {
@@ -230,14 +244,8 @@ double reflected_square(const Mesh& mesh, const Solution& solution) {
 DivisionError spread_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
                            bool reads_near, DivisionErrorOptions options, const Workers& workers,
                            const StopFlag& interrupted) {
-    const double size = reflected_square(mesh, solution);
-    if (!(size > 0))
-        return {};
-    FinalGather gather(mesh, tracer, solution);
-    gather.find_spread(reads_near);
-    options.square = {};
-    return error_at_points(mesh, solution, size, lacking_at, gather, {}, of_spread, options,
-                           workers, interrupted);
+    return what_has_spread(mesh, tracer, solution, reads_near, of_gathered, options, workers,
+                           interrupted);
 }
 
 DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
@@ -284,7 +292,8 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
     DivisionErrorOptions of_others = options;
     of_others.seed = hash_words({options.seed, 1});
     of_others.negligible = std::max(share_of_spread * least, options.negligible);
-    add(all, spread_error(mesh, tracer, solution, false, of_others, workers, interrupted));
+    add(all,
+        what_has_spread(mesh, tracer, solution, false, of_spread, of_others, workers, interrupted));
     return all;
 }
 
