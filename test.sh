@@ -37,8 +37,8 @@ lint() {
         xargs -0 "$format" --dry-run -Werror
     echo "the format is right"
     cmake --preset tidy >/dev/null
-    if sed -n 's/^ *"file": "\(.*\/src\/.*\)",\{0,1\}$/\1/p' build/tidy/compile_commands.json |
-        tr '\n' '\0' | xargs -0 -P "$cores" -n 4 "$tidy" -p build/tidy --quiet 2>build/tidy/counts.txt
+    if sed -n 's/^ *"file": "\(.*\/\(src\|Unity\)\/.*\)",\{0,1\}$/\1/p' build/tidy/compile_commands.json |
+        tr '\n' '\0' | xargs -0 -P "$cores" -n 1 "$tidy" -p build/tidy --quiet 2>build/tidy/counts.txt
     then
         echo "clang-tidy finds nothing"
     else

@@ -1,3 +1,16 @@
+# hemilux_fill_frame(OUTPUT FRAME PAGE): sets OUTPUT to the text of FRAME with each of its @part@ replaced by what
+# PAGE has below the line @part@; nothing where it has none.
+function(hemilux_fill_frame output frame page)
+  file(READ ${frame} text)
+  file(READ ${page} parts)
+  string(REGEX MATCHALL "@[a-z_]+@" names "${text}")
+  foreach(name IN LISTS names)
+    string(REGEX MATCH "${name}\n([^@]*)\n" part "${parts}")
+    string(REPLACE "${name}" "${CMAKE_MATCH_1}" text "${text}")
+  endforeach()
+  set(${output} "${text}" PARENT_SCOPE)
+endfunction()
+
 # hemilux_embed_report(OUTPUT FOLDER): writes the source file that holds the pages of `solve --report` and
 # `compare --report`, their style, and their scripts: those of both one after the other.
 function(hemilux_embed_report output folder)
@@ -9,12 +22,16 @@ function(hemilux_embed_report output folder)
     file(READ ${file} text)
     string(APPEND report_shared "${text}")
   endforeach()
-  set(files page/page.css page/page.html page/page.js page/compare.html page/compare.js)
-  set(names style solve_markup solve_script compare_markup compare_script)
+  set(frame ${folder}/page/frame.html)
+  hemilux_fill_frame(report_solve_markup ${frame} ${folder}/page/page.html)
+  hemilux_fill_frame(report_compare_markup ${frame} ${folder}/page/compare.html)
+  set(files page/page.css page/page.js page/compare.js)
+  set(names style solve_script compare_script)
   foreach(file name IN ZIP_LISTS files names)
     file(READ ${folder}/${file} report_${name})
   endforeach()
   configure_file(${folder}/assets.cpp.in ${output} @ONLY)
   list(TRANSFORM files PREPEND ${folder}/)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${shared} ${files})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${shared} ${files} ${frame}
+               ${folder}/page/page.html ${folder}/page/compare.html)
 endfunction()

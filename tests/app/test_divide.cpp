@@ -7,7 +7,7 @@
 
 #include <string>
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using test::Running;
 using test::statistic;
 using test::wait_for;

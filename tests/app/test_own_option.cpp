@@ -4,7 +4,7 @@
 #include "app/program.h"
 #include "support/catch.h"
 
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using test::Workplace;
 
 namespace {

@@ -1,6 +1,7 @@
 // Rays that run exactly through vertices and edges, along axes and within planes: nothing leaks, no
 // surface is counted twice, and all tracers and all forms of a question agree.
 #include "bvh/brute_force.h"
+#include "bvh/bvh.h"
 #include "bvh/wide/wide_bvh.h"
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/hemisphere.h"

@@ -1,7 +1,7 @@
 #pragma once
-// A mesh with its BVH, and a run of a method over it.
+// A mesh with the tracer of the program, and a run of a method over it.
 
-#include "bvh/bvh.h"
+#include "bvh/wide/wide_bvh.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/method.h"
@@ -16,7 +16,7 @@ namespace hemilux::test {
 
 struct Model {
     Mesh mesh;
-    Bvh bvh;
+    WideBvh bvh;
     explicit Model(Scene scene, const MeshOptions& options = {})
         : mesh(std::move(scene), options), bvh(mesh.soup()) {}
 };
