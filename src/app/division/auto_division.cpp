@@ -34,12 +34,10 @@ constexpr double safe = .9, least_step = .5, most_step = .9, least_step_of_gathe
 constexpr unsigned most_attempts = 8;
 
 /// Rays to find out the error of the division where patches were divided by rays: of all before, at
-/// most one in so many; but so many are always worth it.
-constexpr std::uint64_t share_of_divided = 5, least_rays_of_error = 400'000;
-
-std::uint64_t rays_of_error(std::uint64_t before) {
-    return std::max(before / share_of_divided, least_rays_of_error);
-}
+/// most one in so many; but so many are always worth it, the more so where all light is gathered
+/// and little else is traced.
+constexpr std::uint64_t share_of_divided = 5, least_rays_of_error = 400'000,
+                        least_rays_of_gathered = 1'500'000;
 
 std::string round_text(const DivisionRound& round) {
     return "division: " + counted(round.patches, "patch", "patches") + ", within them the light " +
@@ -94,6 +92,10 @@ class AutoDivision {
     [[nodiscard]] bool is_enough(double sampling);
     [[nodiscard]] bool is_confirmed(std::uint64_t most_rays, double sampling,
                                     std::span<const double> square);
+    [[nodiscard]] std::uint64_t rays_of_error(std::uint64_t before) const {
+        return std::max(before / share_of_divided,
+                        is_gathered_ ? least_rays_of_gathered : least_rays_of_error);
+    }
     [[nodiscard]] bool is_over() const {
         return input_.monitor.interrupted || divided_.rough.steps == 0;
     }
@@ -261,7 +263,7 @@ Divided AutoDivision::divide() {
     run_to(*rough.error, rough);
     if (!is_over()) {
         const double most = is_gathered_ ? whole_ : share_of_division * whole_;
-        const DivisionErrorOptions options = error_options(least_rays_of_error, most);
+        const DivisionErrorOptions options = error_options(rays_of_error(0), most);
         measure(options);
     }
     if (!is_over() && is_gathered_) {

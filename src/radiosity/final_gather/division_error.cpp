@@ -36,7 +36,7 @@ struct Manner {
     std::uint64_t cheap_rays;
 };
 constexpr Manner of_patches{64, 64, .15, 0}, of_divided{640, 64, .15, 0}, of_spread{32, 32, .2, 0},
-    of_gathered{32, 32, .2, 300'000};
+    of_gathered{32, 32, .2, 600'000};
 
 /// So many points times the length of gathers at the most, in a round.
 constexpr std::size_t longest_round = 4096;
