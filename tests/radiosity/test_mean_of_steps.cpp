@@ -119,6 +119,40 @@ TEST_CASE("a pilot finds the power of a ray") {
     CHECK(unequal.ray_power == std::numeric_limits<double>::infinity());
 }
 
+TEST_CASE(
+    "a patch that a few weak rays have hit is as uncertain as one that a mean ray would light") {
+    const Fixture fixture;
+    const Mesh& mesh = fixture.model.mesh;
+    MeanOfSteps mean(fixture.input, true);
+    mean.find_ray_power([](double, StepResult& pilot) {
+        pilot.shot = 7;
+        pilot.rays = 11;
+        return true;
+    });
+    constexpr unsigned steps = 16;
+    std::uint32_t patch = 0;
+    while (mesh.material(patch).reflectance == Vec3(0.0))
+        ++patch;
+    const Patch& at = mesh.patches()[patch];
+    const Vec3 strong = mesh.material(patch).reflectance * (mean.ray_power / at.area);
+    const auto error_of = [&](unsigned weak_steps, double of_strong) {
+        MeanOfSteps of_steps = mean;
+        for (unsigned k = 0; k < steps; ++k) {
+            StepResult step(mesh);
+            if (k < weak_steps) {
+                step.radiosity[patch] += (of_strong + .1 * of_strong * (k % 2)) * strong;
+                step.hits[patch] = 1;
+            }
+            of_steps.add(step);
+        }
+        return mean_of_channels(of_steps.solution.standard_error[patch]);
+    };
+    const double one = mean_of_channels(strong) / steps;
+    CHECK(error_of(1, 1e-6) == Approx(one));
+    CHECK(error_of(3, 1e-6) == Approx(one));
+    CHECK(error_of(steps, 1e-6) < 1e-3 * one); // all bring about the same: that is known
+}
+
 TEST_CASE("a step that is not finite does not enter the mean") {
     const Fixture fixture;
     MeanOfSteps mean(fixture.input, true);

@@ -164,16 +164,33 @@ Vec3 MeanOfSteps::purest_ray() const {
     return mean_of_channels(mean_ray()) * share;
 }
 
+/// Whether the squares of the steps are those of so few that all bring the same, the others
+/// nothing.
+bool MeanOfSteps::is_of_few_steps(std::uint32_t patch) const {
+    constexpr double few = 4;
+    const Vec3 reflected = solution.radiosity[patch] - input_.mesh.material(patch).emission;
+    const double n = solution.steps, of_mean = n * glm::dot(reflected, reflected);
+    const Vec3& deviations = sums.squares[patch];
+    return n * of_mean <= few * (of_mean + deviations.x + deviations.y + deviations.z);
+}
+
 /// What a single ray of all steps so far has added to the patch's radiosity, on average; where none
-/// has hit it, what one of mean power would add, or where patches get fewer rays one of theirs.
+/// has hit it, what one of mean power would add, or where patches get fewer rays one of theirs. The
+/// same where the few that have hit it were weak, as those of small cells are: they show no spread
+/// of what a strong one would have brought.
 Vec3 MeanOfSteps::one_ray(std::uint32_t patch) const {
+    constexpr double weak = .5;
     const Material& material = input_.mesh.material(patch);
-    if (equal_rays_ && solution.hits[patch] > 0)
-        return (solution.radiosity[patch] - material.emission) /
-               static_cast<double>(solution.hits[patch]);
     const double area = input_.mesh.patches()[patch].area;
     const double power = aimed.empty() ? 1 : std::max(1 / aimed[patch], 1.0);
-    return area > 0 ? power * material.reflectance * mean_ray() / area : Vec3(0.0);
+    const Vec3 of_mean_power =
+        area > 0 ? power * material.reflectance * mean_ray() / area : Vec3(0.0);
+    if (!equal_rays_ || solution.hits[patch] == 0)
+        return of_mean_power;
+    const Vec3 each =
+        (solution.radiosity[patch] - material.emission) / static_cast<double>(solution.hits[patch]);
+    const bool were_weak = mean_of_channels(each) < weak * mean_of_channels(of_mean_power);
+    return were_weak && is_of_few_steps(patch) ? of_mean_power : each;
 }
 
 /// The squared error, weighted by area, of light that no ray has met so far: by the rule of three,

@@ -74,6 +74,7 @@ class MeanOfSteps {
     [[nodiscard]] Vec3 power_leaving() const;
     [[nodiscard]] Vec3 mean_ray() const;
     [[nodiscard]] Vec3 purest_ray() const;
+    [[nodiscard]] bool is_of_few_steps(std::uint32_t patch) const;
     [[nodiscard]] Vec3 one_ray(std::uint32_t patch) const;
     [[nodiscard]] double missed() const;
 
