@@ -37,7 +37,7 @@ constexpr unsigned most_attempts = 8;
 /// most one in so many; but so many are always worth it, the more so where all light is gathered
 /// and little else is traced.
 constexpr std::uint64_t share_of_divided = 5, least_rays_of_error = 400'000,
-                        least_rays_of_gathered = 1'500'000;
+                        least_rays_of_gathered = 4'000'000;
 
 std::string round_text(const DivisionRound& round) {
     return "division: " + counted(round.patches, "patch", "patches") + ", within them the light " +
