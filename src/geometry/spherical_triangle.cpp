@@ -1,5 +1,7 @@
 #include "geometry/spherical_triangle.h"
 
+#include "geometry/polar_warp.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -90,6 +92,13 @@ bool SphericalTriangle::contains(const Vec3& direction) const {
     return std::all_of(normal_.begin(), normal_.end(), [&](const Vec3& normal) {
         return glm::dot(normal, direction) >= -edge_tolerance;
     });
+}
+
+Vec3 SphericalTriangle::sample_sliver(Vec2 u) const {
+    if (const PolarWarp warp(vertex_[0], vertex_[1], vertex_[2]); warp.area() > 0)
+        return warp.sample(u);
+    const Vec3 edge = glm::mix(vertex_[1], vertex_[2], u.x);
+    return glm::normalize(glm::mix(vertex_[0], edge, u.y));
 }
 
 } // namespace hemilux

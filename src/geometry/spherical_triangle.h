@@ -37,15 +37,16 @@ class SphericalTriangle {
     /// A direction with density cos(theta) / projected_solid_angle [1/sr], by rejection: the
     /// projection to the unit disc makes cosine-weighted directions uniform (Nusselt's analogy), so
     /// points uniform in a simple shape around the projection are kept when they lie inside.
-    /// `uniform()` yields doubles uniform in [0,1). A triangle that fills less than a
-    /// ten-thousandth of that shape, or has no area, has next to no power: its middle stands for
-    /// it.
+    /// `uniform()` yields doubles uniform in [0,1). Slivers, which fill little of that shape, are
+    /// sampled by a PolarWarp, with the same distribution.
     template <class Uniform>
     [[nodiscard]] Vec3 sample_rejection(Uniform&& uniform) const;
 
   private:
     /// The bounding box, or the triangle with sides parallel to the chords if that is smaller.
     void set_hull();
+    /// For u in [0,1)^2; where there is no area, some point between the vertices.
+    [[nodiscard]] Vec3 sample_sliver(Vec2 u) const;
     [[nodiscard]] double reach(std::size_t edge, Vec2 towards) const;
 
     std::array<Vec3, 3> vertex_{};
@@ -55,7 +56,7 @@ class SphericalTriangle {
 
 template <class Uniform>
 Vec3 SphericalTriangle::sample_rejection(Uniform&& uniform) const {
-    constexpr int most_tries = 100'000;
+    constexpr int most_tries = 64;
     for (int i = 0; i < most_tries; ++i) {
         const double u = uniform(), v = uniform();
         // The second half is folded onto the first. No branches: they would be guessed wrong.
@@ -69,7 +70,8 @@ Vec3 SphericalTriangle::sample_rejection(Uniform&& uniform) const {
         if (z_squared > 0 && inside >= 0)
             return d;
     }
-    return glm::normalize(vertex_[0] + vertex_[1] + vertex_[2]);
+    const double u = uniform();
+    return sample_sliver({u, uniform()});
 }
 
 } // namespace hemilux
