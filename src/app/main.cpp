@@ -11,6 +11,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
 #include "app/settings/spill.h"
+#include "app/terminal/log.h"
 #include "io/files/error.h"
 #include "io/files/printable.h"
 #include "io/files/spill_file.h"
@@ -138,7 +139,7 @@ int guarded_main(int argc, const char* const* argv) {
     std::string advice = "\nhemilux --help says what can be asked for.";
     std::optional<StartedRanks> started;
     const auto fail = [&](int code, const char* message, const char* more = "") {
-        std::fprintf(stderr, "hemilux: %s%s\n", printable_message(message).c_str(), more);
+        write_message(std::string("hemilux: ") + message + more);
         if (started)
             started->fail(code, printable_message(message));
         return code;

@@ -7,11 +7,12 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
+#include "app/terminal/wrap.h"
 #include "io/files/error.h"
-#include "io/files/printable.h"
 #include "io/results/scene_info_json.h"
 
 #include <iostream>
+#include <unistd.h>
 
 namespace hemilux {
 
@@ -23,10 +24,11 @@ std::string describe(const SceneReport& report, const Scene& scene, const SceneS
         return text;
     text += report.sides ? describe(*report.sides, scene, asked.sides) : describe_both_sides(scene);
     if (asked.mesh.max_edge > 0 || asked.mesh.two_sided)
-        text += "patches             " + std::to_string(report.patches) + " (as divided)\n";
+        text += info_line("patches", std::to_string(report.patches) + " (as divided)");
     if (report.error_division)
-        text += "within patches      light differs by " + percent(*report.error_division) +
-                " (as they are; solve divides them where it is too much)\n";
+        text += info_line("within patches",
+                          "light differs by " + percent(*report.error_division) +
+                              " (as they are; solve divides them where it is too much)");
     return text + describe(report.left_out);
 }
 
@@ -52,7 +54,8 @@ int info(const InfoSettings& settings) {
             report.error_division = error_within_patches(mesh, 0);
     }
     std::cout << (settings.json ? to_json(report)
-                                : printable_message(describe(report, read.scene, asked)));
+                                : message_for(STDOUT_FILENO, describe(report, read.scene, asked),
+                                              info_value_column));
     std::cout.flush();
     if (!std::cout)
         throw OutputError("standard output", "cannot be written");

@@ -5,6 +5,7 @@
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "geometry/polygon.h"
+#include "io/scene_files/inspect.h"
 
 #include <algorithm>
 
@@ -101,12 +102,6 @@ bool anything_reflects(const Mesh& mesh) {
     });
 }
 
-std::string line(std::string name, const std::string& text) {
-    constexpr std::size_t column = 20;
-    name.resize(std::max(name.size() + 2, column), ' ');
-    return name + text + '\n';
-}
-
 } // namespace
 
 SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings, const SolveOptions& options,
@@ -138,17 +133,18 @@ std::string describe(const Orientation& found, const Scene& scene, Sides sides) 
     std::string text;
     const auto add = [&](const std::string& name, std::size_t count, const std::string& meaning) {
         if (count > 0)
-            text += line(name, std::to_string(count) + " (" + meaning + ")");
+            text += info_line(name, std::to_string(count) + " (" + meaning + ")");
     };
     if (found.faces > 0)
-        text += line("looking away",
-                     std::to_string(found.faces) + " of " + counted(scene.faces, "face", "faces") +
-                         " (" + names_of(found.groups, scene) + "); " +
-                         (sides == Sides::automatic ? "solve turns them, --sides front does not"
-                                                    : "--sides auto turns them"));
+        text +=
+            info_line("looking away",
+                      std::to_string(found.faces) + " of " + counted(scene.faces, "face", "faces") +
+                          " (" + names_of(found.groups, scene) + "); " +
+                          (sides == Sides::automatic ? "solve turns them, --sides front does not"
+                                                     : "--sides auto turns them"));
     if (found.in_doubt > 0)
-        text += line("in doubt", doubt_text(found, scene) +
-                                     "; much light falls on their backs, maybe on purpose");
+        text += info_line("in doubt", doubt_text(found, scene) +
+                                          "; much light falls on their backs, maybe on purpose");
     add("inside out", found.inside_out, "closed surfaces whose backs are lit");
     add("lit from behind", found.from_behind, "open surfaces whose backs are lit");
     add("lamps turned away", found.emitters, "they face a wall at once, or nothing");
@@ -157,16 +153,16 @@ std::string describe(const Orientation& found, const Scene& scene, Sides sides) 
         "edges that two faces run along in the same direction, so one of them looks away");
     add("without sides", found.one_sided, "surfaces such as a Moebius strip; left as they are");
     if (found.light.backs + found.light.escaped > 0)
-        text += line("light lost", percent(found.light.backs) +
-                                       " of what is emitted falls on "
-                                       "backs, " +
-                                       percent(found.light.escaped) +
-                                       " leaves the scene (with the faces as in the file)");
+        text += info_line("light lost", percent(found.light.backs) +
+                                            " of what is emitted falls on "
+                                            "backs, " +
+                                            percent(found.light.escaped) +
+                                            " leaves the scene (with the faces as in the file)");
     return text;
 }
 
 std::string describe_both_sides(const Scene& scene) {
-    return emitted_power(scene) > 0 ? line("both sides", both_sides_text(scene)) : "";
+    return emitted_power(scene) > 0 ? info_line("both sides", both_sides_text(scene)) : "";
 }
 
 std::string lost_light_text(const Mesh& mesh, std::span<const Vec3> radiosity,

@@ -38,9 +38,9 @@ int WriteReport::exit_code(bool interrupted) const {
 
 void WriteReport::log(Verbosity verbosity) const {
     for (const std::string& path : written)
-        hemilux::log_line(verbosity, Verbosity::normal, "wrote " + path);
+        log_path(verbosity, Verbosity::normal, "wrote", path);
     for (const std::string& path : left_out)
-        hemilux::log_line(verbosity, Verbosity::quiet, "interrupted; left out " + path);
+        log_path(verbosity, Verbosity::quiet, "interrupted; left out", path);
     for (const std::string& message : failed)
         hemilux::log_line(verbosity, Verbosity::quiet, "hemilux: " + message);
 }

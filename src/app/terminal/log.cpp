@@ -1,6 +1,7 @@
 #include "app/terminal/log.h"
 
 #include "app/settings/text.h"
+#include "app/terminal/wrap.h"
 #include "io/files/atomic_file.h"
 #include "io/files/printable.h"
 
@@ -23,9 +24,18 @@ bool can_log() {
     return !gave_up;
 }
 
+void write_message(const std::string& text) {
+    std::fprintf(stderr, "%s\n", message_for(STDERR_FILENO, text).c_str());
+}
+
 void log_line(Verbosity wanted, Verbosity least, const std::string& line) {
     if (wanted >= least && can_log())
-        std::fprintf(stderr, "%s\n", printable_message(line).c_str());
+        write_message(line);
+}
+
+void log_path(Verbosity wanted, Verbosity least, const std::string& verb, const std::string& path) {
+    if (wanted >= least && can_log())
+        std::fprintf(stderr, "%s %s\n", verb.c_str(), printable_message(path).c_str());
 }
 
 void log_warnings(Verbosity wanted, const std::vector<std::string>& warnings) {

@@ -12,8 +12,14 @@ namespace hemilux {
 /// what there is to say is then lost.
 [[nodiscard]] bool can_log();
 
+/// Writes it to stderr as lines that the terminal has room for.
+void write_message(const std::string& text);
+
 /// Says a line unless the user asked for less than `least`.
 void log_line(Verbosity wanted, Verbosity least, const std::string& line);
+
+/// The same for what was done with a file: the path, which may have spaces, is not broken.
+void log_path(Verbosity wanted, Verbosity least, const std::string& verb, const std::string& path);
 
 /// Warnings of a reader: the first few, or all with -v.
 void log_warnings(Verbosity wanted, const std::vector<std::string>& warnings);

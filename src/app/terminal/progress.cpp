@@ -2,14 +2,13 @@
 
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
-#include "io/files/printable.h"
+#include "app/terminal/wrap.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
-#include <sys/ioctl.h>
 #include <unistd.h>
 #include <utility>
 
@@ -19,13 +18,6 @@ namespace {
 
 constexpr auto redraw_interval = std::chrono::milliseconds(150);
 constexpr std::size_t bar_cells = 24;
-constexpr std::size_t default_width = 80;
-
-std::size_t terminal_width() {
-    winsize size{};
-    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    return known ? size.ws_col : default_width;
-}
 
 } // namespace
 
@@ -97,7 +89,7 @@ void Progress::log(const std::string& line) {
     const std::scoped_lock lock(mutex_);
     erase();
     if (can_log())
-        std::fprintf(stderr, "%s\n", printable_message(line).c_str());
+        write_message(line);
 }
 
 void Progress::close() {
@@ -125,7 +117,8 @@ void Progress::draw() {
     state_.rays_of_step = state_.rays - rays_before_step_;
     state_.step_share = monitor_.step_share;
     state_.phase = monitor_.interrupted ? "stopping" : monitor_.phase.load();
-    const std::string line = progress_line(share_(state_), state_, terminal_width() - 1);
+    const std::string line =
+        progress_line(share_(state_), state_, terminal_columns(STDERR_FILENO) - 1);
     std::fprintf(stderr, "\r%s\033[K", line.c_str());
     std::fflush(stderr);
     drawn_ = true;

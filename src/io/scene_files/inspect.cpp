@@ -35,10 +35,8 @@ std::string text_of(const std::vector<std::string>& items) {
     return text;
 }
 
-void add_line(std::string& text, std::string name, const std::string& value) {
-    constexpr std::size_t column = 20;
-    name.resize(std::max(name.size() + 2, column), ' ');
-    text += name + value + '\n';
+void add_line(std::string& text, const std::string& name, const std::string& value) {
+    text += info_line(name, value);
 }
 
 /// A doubt is worth a line only where there is one.
@@ -115,6 +113,11 @@ std::vector<std::string> find_bad_reflectances(const ReadResult& read) {
                            "; expected values from 0 to 1");
     }
     return messages;
+}
+
+std::string info_line(std::string name, const std::string& value) {
+    name.resize(std::max(name.size() + 2, info_value_column), ' ');
+    return name + value + '\n';
 }
 
 std::string describe(const SceneInfo& info) {

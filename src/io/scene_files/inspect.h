@@ -37,6 +37,10 @@ struct SceneInfo {
 /// where it was defined, as far as known. No solution exists with such materials.
 [[nodiscard]] std::vector<std::string> find_bad_reflectances(const ReadResult& read);
 
+/// A line of a report: a name on the left, its value from this column on.
+inline constexpr std::size_t info_value_column = 20;
+[[nodiscard]] std::string info_line(std::string name, const std::string& value);
+
 /// Lines of text: names on the left, figures on the right.
 [[nodiscard]] std::string describe(const SceneInfo& info);
 /// What the scene does not need, in the same form, a line each; empty if it needs everything.

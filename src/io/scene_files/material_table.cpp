@@ -133,8 +133,8 @@ void MaterialTable::define(const std::string& file, const MtlMaterial& material)
     if (entries_[index].defined) {
         if (std::exchange(entries_[index].redefined_in, file) == file)
             return;
-        warnings.push_back(where + ": material " + in_quotes(material.name) + " is defined in " +
-                           sources[index] + " already, which is taken");
+        warnings.push_back(where + ": material " + in_quotes(material.name) + " is defined in \"" +
+                           sources[index] + "\" already, which is taken");
         return;
     }
     entries_[index].defined = true;
