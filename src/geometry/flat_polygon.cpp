@@ -10,29 +10,15 @@ double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 /// Whether the whole of `b` lies right of an edge of `a`, or on it.
 bool lies_beside_an_edge(const FlatPolygon& b, const FlatPolygon& a, double distance) {
     for (std::size_t i = 0; i < a.size; ++i) {
-        const Vec2 from = a.corner[i], edge = a.corner[i + 1 < a.size ? i + 1 : 0] - from;
-        const double limit = distance * (std::abs(edge.x) + std::abs(edge.y));
+        const Line edge = a.edge(i);
+        const double limit = distance * (std::abs(edge.along.x) + std::abs(edge.along.y));
         std::size_t beside = 0;
-        while (beside < b.size && cross(edge, b.corner[beside] - from) <= limit)
+        while (beside < b.size && edge.left_distance(b.corner[beside]) <= limit)
             ++beside;
         if (beside == b.size)
             return true;
     }
     return false;
-}
-
-/// What lies left of the line from `from` along `edge`.
-FlatPolygon left_part(const FlatPolygon& shape, const Vec2& from, const Vec2& edge) {
-    FlatPolygon kept;
-    for (std::size_t i = 0; i < shape.size; ++i) {
-        const Vec2 here = shape.corner[i], next = shape.corner[i + 1 < shape.size ? i + 1 : 0];
-        const double h = cross(edge, here - from), n = cross(edge, next - from);
-        if (h >= 0)
-            kept.add(here);
-        if ((h >= 0) != (n >= 0))
-            kept.add(here + (h / (h - n)) * (next - here));
-    }
-    return kept;
 }
 
 } // namespace
@@ -48,12 +34,23 @@ bool are_apart(const FlatPolygon& a, const FlatPolygon& b, double distance) {
     return lies_beside_an_edge(a, b, distance) || lies_beside_an_edge(b, a, distance);
 }
 
+FlatPolygon left_part(const FlatPolygon& shape, const Line& line) {
+    FlatPolygon kept;
+    for (std::size_t i = 0; i < shape.size; ++i) {
+        const Vec2 here = shape.corner[i], next = shape.corner[i + 1 < shape.size ? i + 1 : 0];
+        const double h = line.left_distance(here), n = line.left_distance(next);
+        if (h >= 0)
+            kept.add(here);
+        if ((h >= 0) != (n >= 0))
+            kept.add(here + (h / (h - n)) * (next - here));
+    }
+    return kept;
+}
+
 FlatPolygon common_part(const FlatPolygon& a, const FlatPolygon& b) {
     FlatPolygon common = a;
-    for (std::size_t i = 0; i < b.size && common.size > 0; ++i) {
-        const Vec2 from = b.corner[i];
-        common = left_part(common, from, b.corner[i + 1 < b.size ? i + 1 : 0] - from);
-    }
+    for (std::size_t i = 0; i < b.size && common.size > 0; ++i)
+        common = left_part(common, b.edge(i));
     return common;
 }
 

@@ -8,6 +8,17 @@
 
 namespace hemilux {
 
+struct Line {
+    Vec2 from{0.0}, along{0.0};
+
+    /// Positive on the left side; in units of the length of `along`.
+    [[nodiscard]] double left_distance(const Vec2& point) const {
+        const Vec2 to = point - from;
+        return along.x * to.y - along.y * to.x;
+    }
+    [[nodiscard]] Line reversed() const { return {from, -along}; }
+};
+
 /// Up to eight corners, which is what two convex quads can have in common; counter-clockwise.
 struct FlatPolygon {
     std::array<Vec2, 8> corner{};
@@ -19,11 +30,18 @@ struct FlatPolygon {
             corner[size++] = point;
     }
     [[nodiscard]] double area() const;
+    /// From a corner to the next; the inside is on its left.
+    [[nodiscard]] Line edge(std::size_t i) const {
+        return {corner[i], corner[i + 1 < size ? i + 1 : 0] - corner[i]};
+    }
 };
 
 /// Whether an edge of one of them has the other on its outer side, but for this distance; touching
 /// neighbours are apart. O(n^2), no square root.
 [[nodiscard]] bool are_apart(const FlatPolygon& a, const FlatPolygon& b, double distance);
+
+/// What lies left of a line: at most one corner more.
+[[nodiscard]] FlatPolygon left_part(const FlatPolygon& shape, const Line& line);
 
 /// The polygon that both cover, without area where there is none (Sutherland and Hodgman 1974).
 /// Each has at most four corners.

@@ -4,11 +4,14 @@
 #include "geometry/flat_polygon.h"
 #include "geometry/polygon.h"
 #include "radiosity/sampling/rng.h"
+#include "radiosity/scene/plane_cuts.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -159,12 +162,47 @@ std::vector<Buried> find_buried(const Scene& scene, std::span<const Vec3> vertic
 /// What a facet covers, seen along an axis.
 struct Rectangle {
     Vec2 low, high;
-    std::uint32_t facet, face;
+    std::uint32_t facet;
 };
 
-bool are_of_one_face(const std::vector<Rectangle>& rectangles) {
-    return std::ranges::all_of(rectangles,
-                               [&](const Rectangle& r) { return r.face == rectangles[0].face; });
+std::vector<Rectangle> rectangles_of(std::span<const PlanePiece> pieces) {
+    std::vector<Rectangle> rectangles;
+    for (const auto& [facet, outline] : pieces) {
+        Rectangle r{outline.corner[0], outline.corner[0], facet};
+        for (std::size_t i = 1; i < outline.size; ++i) {
+            r.low = glm::min(r.low, outline.corner[i]);
+            r.high = glm::max(r.high, outline.corner[i]);
+        }
+        rectangles.push_back(r);
+    }
+    return rectangles;
+}
+
+/// Uses those that overlap, by a sweep along the first axis. False where there was more to be
+/// compared than allowed, or `use` returned false.
+template <class Use>
+bool sweep(std::vector<Rectangle>& seen, std::size_t most, const Use& use) {
+    std::ranges::sort(seen, {}, [](const Rectangle& r) { return std::pair(r.low.x, r.facet); });
+    for (auto a = seen.begin(); a != seen.end(); ++a)
+        for (auto b = a + 1; b != seen.end() && b->low.x < a->high.x; ++b) {
+            if (most-- == 0)
+                return false;
+            if (a->low.y < b->high.y && b->low.y < a->high.y &&
+                !use(Overlap{std::min(a->facet, b->facet), std::max(a->facet, b->facet)}))
+                return false;
+        }
+    return true;
+}
+
+/// Those that overlap, where they are few and quickly found.
+std::optional<std::vector<Overlap>> few_near(std::vector<Rectangle>& seen) {
+    constexpr std::size_t pairs_each = 16, boxes_each = 64;
+    std::vector<Overlap> near;
+    const bool is_all = sweep(seen, boxes_each * seen.size(), [&](const Overlap& pair) {
+        near.push_back(pair);
+        return near.size() <= pairs_each * seen.size();
+    });
+    return is_all ? std::optional(std::move(near)) : std::nullopt;
 }
 
 class Finder {
@@ -227,45 +265,60 @@ class Finder {
                 if (std::abs(polygon.normal()[axis]) > steep)
                     seen.push_back(rectangle(box_of(polygon), entry.facet, axis));
             }
-            if (!compare_all(seen))
-                found_.complete = false;
+            if (const auto near = few_near(seen))
+                compare(*near);
+            else
+                compare_after_cuts(pieces_of(seen, axis));
         }
     }
 
-    /// Those that overlap, by a sweep along the first axis. False where there was more to be
-    /// compared than allowed. A face of many pieces alone in its plane is taken to be simple: the
-    /// boxes of its slivers may all lie over each other.
-    bool compare_all(std::vector<Rectangle>& seen) {
-        constexpr std::size_t many = 64;
-        if (seen.size() > many && are_of_one_face(seen))
-            return true;
-        std::ranges::sort(seen, {}, [](const Rectangle& r) { return std::pair(r.low.x, r.facet); });
-        std::size_t left = boxes_per_comparison * left_;
-        for (auto a = seen.begin(); a != seen.end(); ++a)
-            for (auto b = a + 1; b != seen.end() && b->low.x < a->high.x; ++b) {
-                if (left-- == 0)
-                    return false;
-                if (a->low.y < b->high.y && b->low.y < a->high.y &&
-                    !compare(std::min(a->facet, b->facet), std::max(a->facet, b->facet)))
-                    return false;
-            }
-        return true;
-    }
-
     /// Smaller by what may be rounding, so that most neighbours are apart.
-    [[nodiscard]] Rectangle rectangle(const Box& bounds, std::uint32_t f, int axis) const {
+    static Rectangle rectangle(const Box& bounds, std::uint32_t f, int axis) {
         const int x = (axis + 1) % 3, y = (axis + 2) % 3;
         return {Vec2(bounds.low[x], bounds.low[y]) + rounding,
-                Vec2(bounds.high[x], bounds.high[y]) - rounding, f, scene_.facets[f].face};
+                Vec2(bounds.high[x], bounds.high[y]) - rounding, f};
+    }
+
+    [[nodiscard]] std::vector<PlanePiece> pieces_of(std::span<const Rectangle> seen,
+                                                    int axis) const {
+        std::vector<PlanePiece> pieces;
+        for (const Rectangle& r : seen) {
+            const Polygon polygon = shape(r.facet);
+            pieces.push_back({r.facet, outline_of(polygon, polygon.area_vector(), axis)});
+        }
+        return pieces;
+    }
+
+    /// Cut until few boxes overlap. Where cuts do not help, all that do are compared.
+    void compare_after_cuts(std::vector<PlanePiece> pieces) {
+        std::vector<Rectangle> seen = rectangles_of(pieces);
+        if (const auto near = few_near(seen))
+            return compare(*near);
+        const bool may_cut = left_ > pieces.size();
+        left_ -= may_cut ? pieces.size() : 0;
+        auto halves = may_cut ? cut_in_two(pieces) : std::nullopt;
+        if (halves) {
+            pieces = {};
+            for (std::vector<PlanePiece>& half : *halves)
+                compare_after_cuts(std::move(half));
+        } else if (!sweep(seen, boxes_per_comparison * left_,
+                          [&](const Overlap& pair) { return compare(pair); })) {
+            found_.complete = false;
+        }
+    }
+
+    void compare(std::span<const Overlap> pairs) {
+        if (!std::ranges::all_of(pairs, [&](const Overlap& pair) { return compare(pair); }))
+            found_.complete = false;
     }
 
     /// False where enough has been compared.
-    bool compare(std::uint32_t a, std::uint32_t b) {
+    bool compare(const Overlap& pair) {
         if (left_ == 0 || found_.pairs.size() >= most_pairs_)
-            return found_.complete = false;
+            return false;
         --left_;
-        if (lie_in_one_place(shape(a), shape(b)))
-            found_.pairs.push_back({a, b});
+        if (lie_in_one_place(shape(pair.a), shape(pair.b)))
+            found_.pairs.push_back(pair);
         return true;
     }
 
