@@ -42,9 +42,8 @@ struct Overlaps {
 /// `vertices` are those of the scene in its local frame, within [-1,1]^3. Finds the pairs whose
 /// corners lie within 2^-37 of a common plane and which have more in common than about a
 /// ten-thousandth of the smaller one's area; neighbours that touch are none. What is narrower than
-/// 2^-21 is let be. O(n log n), and in each plane as many comparisons as boxes have a coordinate in
-/// common: n sqrt(n) for n tiles. Beyond the limits the rest is let be, and the pieces of a face of
-/// many corners that lies alone in its plane are taken for disjoint.
+/// 2^-21 is let be. O(n log n) for facets that are disjoint (plane_cuts.h), and as many comparisons
+/// as there are pairs for others. Beyond the limits the rest is let be.
 ///
 /// Of facets with the same corners that face one way the brightest are kept, or the first, so many
 /// that each of `kept_alike` has a level of its own; the others are buried under them. So n facets
