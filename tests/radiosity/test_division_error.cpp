@@ -3,6 +3,7 @@
 #include "parallel/workers.h"
 #include "radiosity/final_gather/division_error.h"
 #include "radiosity/final_gather/final_gather.h"
+#include "radiosity/final_gather/gather_in_parts.h"
 #include "radiosity/final_gather/light_within_patches.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/final_gather/surface_points.h"
@@ -308,7 +309,7 @@ TEST_CASE("what gathers lack is what they find besides where patches are divided
         // Both by the same rays, which read patches however near.
         const auto found = [&](const Model& model, const Solution& light) {
             const GatherSamples samples{streams[k], 0, 4096};
-            return FinalGather(model.mesh, model.bvh, light)
+            return GatherInParts(model.mesh, model.bvh, light)
                 .indirect(std::span(points).subspan(k, 1), std::span(&samples, 1))[0]
                 .irradiance;
         };

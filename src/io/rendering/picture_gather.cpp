@@ -36,7 +36,7 @@ std::uint32_t spread_bits(std::uint32_t x) {
 PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
                              const CameraRays& camera, int width, int height,
                              const PictureGatherOptions& options, const Workers& workers)
-    : options_(options), final_gather_(mesh, tracer, light),
+    : options_(options), in_parts_(mesh, tracer, light),
       grid_(
           mesh, camera, width, height, [this] { give_up_if_asked(); }, workers),
       light_(grid_) {
@@ -87,10 +87,9 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
                 own.points.push_back(grid_[k].at);
                 own.samples.push_back(samples_of(x, y, rays));
             }
-            const std::vector<IndirectLight> lights =
-                final_gather_.indirect(own.points, own.samples);
+            const std::vector<IndirectLight> lights = in_parts_.indirect(own.points, own.samples);
             const std::vector<DirectLight> direct =
-                final_gather_.direct(own.points, own.samples, shadows);
+                in_parts_.direct(own.points, own.samples, shadows);
             for (std::size_t i = 0; i < lights.size(); ++i) {
                 GridPoint& point = grid_[own.places[i]];
                 point.rays += own.samples[i].count;
@@ -168,10 +167,10 @@ std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Plac
         in_penumbra.add(k, place.at, samples);
     }
     const std::vector<DirectLight> direct =
-        final_gather_.direct(in_penumbra.points, in_penumbra.samples, Shadows::traced);
+        in_parts_.direct(in_penumbra.points, in_penumbra.samples, Shadows::traced);
     for (std::size_t i = 0; i < direct.size(); ++i)
         found[in_penumbra.which[i]].direct = direct[i];
-    const std::vector<IndirectLight> lights = final_gather_.indirect(alone.points, alone.samples);
+    const std::vector<IndirectLight> lights = in_parts_.indirect(alone.points, alone.samples);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         Light& light = found[alone.which[i]];
         light.slow = {light.direct.unshadowed, lights[i].irradiance};

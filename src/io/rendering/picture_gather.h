@@ -13,7 +13,7 @@
 #include "geometry/vector.h"
 #include "io/rendering/gather_grid.h"
 #include "io/rendering/slow_light.h"
-#include "radiosity/final_gather/final_gather.h"
+#include "radiosity/final_gather/gather_in_parts.h"
 
 #include <functional>
 #include <span>
@@ -61,7 +61,7 @@ class PictureGather {
     void give_up_if_asked() const;
 
     PictureGatherOptions options_;
-    FinalGather final_gather_;
+    GatherInParts in_parts_;
     GatherGrid grid_;
     SlowLightField light_; ///< of the grid
 };
