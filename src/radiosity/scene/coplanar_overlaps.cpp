@@ -2,9 +2,9 @@
 
 #include "geometry/box.h"
 #include "geometry/flat_polygon.h"
+#include "geometry/plane_cuts.h"
 #include "geometry/polygon.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/scene/plane_cuts.h"
 
 #include <algorithm>
 #include <array>

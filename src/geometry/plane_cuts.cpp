@@ -1,10 +1,9 @@
-#include "radiosity/scene/plane_cuts.h"
-
-#include "radiosity/sampling/rng.h"
+#include "geometry/plane_cuts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace hemilux {
 namespace {
@@ -43,11 +42,12 @@ std::size_t larger_side(const std::vector<PlanePiece>& pieces, const Line& line)
 
 /// The best of a few edges.
 Line choose_line(const std::vector<PlanePiece>& pieces) {
-    constexpr std::uint64_t tries = 16;
+    constexpr int tries = 16;
     Line best;
     std::size_t least = std::numeric_limits<std::size_t>::max();
-    for (std::uint64_t k = 0; k < tries; ++k) {
-        const std::uint64_t random = hash_words({pieces.size(), k});
+    std::mt19937_64 next_random(pieces.size());
+    for (int k = 0; k < tries; ++k) {
+        const std::uint64_t random = next_random();
         const FlatPolygon& outline = pieces[random % pieces.size()].outline;
         const Line line = outline.edge((random >> 32) % outline.size);
         if (const std::size_t larger = larger_side(pieces, line); larger < least) {
