@@ -196,7 +196,7 @@ bool sweep(std::vector<Rectangle>& seen, std::size_t most, const Use& use) {
 
 /// Those that overlap, where they are few and quickly found.
 std::optional<std::vector<Overlap>> few_near(std::vector<Rectangle>& seen) {
-    constexpr std::size_t pairs_each = 16, boxes_each = 64;
+    constexpr std::size_t pairs_each = 16, boxes_each = 1024;
     std::vector<Overlap> near;
     const bool is_all = sweep(seen, boxes_each * seen.size(), [&](const Overlap& pair) {
         near.push_back(pair);
