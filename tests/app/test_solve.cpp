@@ -1,6 +1,7 @@
 // What `hemilux solve` and `hemilux info` write and say.
 #include "app/check_fails.h"
 #include "app/program.h"
+#include "app/split.h"
 #include "io/results/tables.h"
 #include "support/catch.h"
 
@@ -8,19 +9,8 @@
 #include <sstream>
 
 using Catch::Contains;
+using test::lines_of;
 using test::Workplace;
-
-namespace {
-
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);)
-        lines.push_back(line);
-    return lines;
-}
-
-} // namespace
 
 TEST_CASE("each output appears, whole and by its extension") {
     const Workplace place;

@@ -1,5 +1,6 @@
 // What a terminal shows: lines of at most 80 columns. Files and pipes get each message as one line.
 #include "app/program.h"
+#include "app/split.h"
 #include "app/terminal/wrap.h"
 #include "support/catch.h"
 
@@ -15,19 +16,12 @@
 
 using Catch::Contains;
 using hemilux::wrapped;
+using test::lines_of;
 using test::Workplace;
 
 namespace {
 
 const std::string scenes = HEMILUX_SOURCE_DIR "/examples/scenes/";
-
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);)
-        lines.push_back(line);
-    return lines;
-}
 
 std::vector<std::string> words_of(const std::string& text) {
     std::vector<std::string> words;

@@ -35,15 +35,11 @@ std::string text_of(const std::vector<std::string>& items) {
     return text;
 }
 
-void add_line(std::string& text, const std::string& name, const std::string& value) {
-    text += info_line(name, value);
-}
-
 /// A doubt is worth a line only where there is one.
 void add_doubt(std::string& text, const std::string& name, std::size_t count,
                const std::string& meaning) {
     if (count > 0)
-        add_line(text, name, text_of(count) + " (" + meaning + ")");
+        text += info_line(name, text_of(count) + " (" + meaning + ")");
 }
 
 bool emits(const Vec3& e) { return e.x > 0 || e.y > 0 || e.z > 0; }
@@ -122,19 +118,19 @@ std::string info_line(std::string name, const std::string& value) {
 
 std::string describe(const SceneInfo& info) {
     std::string text;
-    add_line(text, "faces", text_of(info.faces));
-    add_line(text, "facets",
-             text_of(info.facets) + " (" + text_of(info.triangles) + " triangles, " +
-                 text_of(info.quads) + " quads)");
-    add_line(text, "vertices", text_of(info.vertices));
-    add_line(text, "materials", text_of(info.materials));
-    add_line(text, "groups", text_of(info.groups));
-    add_line(text, "lowest corner", text_of(info.bounds.low));
-    add_line(text, "highest corner", text_of(info.bounds.high));
-    add_line(text, "size", text_of(info.bounds.extent()));
-    add_line(text, "total area", text_of(info.total_area));
-    add_line(text, "emitted power", text_of(info.emitted_power) + " (red, green, blue)");
-    add_line(text, "emitting materials", info.emitters.empty() ? "none" : text_of(info.emitters));
+    text += info_line("faces", text_of(info.faces));
+    text += info_line("facets", text_of(info.facets) + " (" + text_of(info.triangles) +
+                                    " triangles, " + text_of(info.quads) + " quads)");
+    text += info_line("vertices", text_of(info.vertices));
+    text += info_line("materials", text_of(info.materials));
+    text += info_line("groups", text_of(info.groups));
+    text += info_line("lowest corner", text_of(info.bounds.low));
+    text += info_line("highest corner", text_of(info.bounds.high));
+    text += info_line("size", text_of(info.bounds.extent()));
+    text += info_line("total area", text_of(info.total_area));
+    text += info_line("emitted power", text_of(info.emitted_power) + " (red, green, blue)");
+    text +=
+        info_line("emitting materials", info.emitters.empty() ? "none" : text_of(info.emitters));
     add_doubt(text, "without area", info.degenerate_faces, "faces left out");
     add_doubt(text, "not planar", info.nonplanar_faces, "faces divided into triangles");
     add_doubt(text, "concave", info.concave_faces, "faces divided into triangles");
@@ -145,18 +141,18 @@ std::string describe(const SceneInfo& info) {
               "facets in the place of another that faces the same way, wholly or in part; one of "
               "them is seen");
     if (!info.all_compared)
-        add_line(text, "covered",
-                 "perhaps more: too many facets lie over each other to compare them all");
+        text += info_line("covered",
+                          "perhaps more: too many facets lie over each other to compare them all");
     for (const std::string& message : info.bad_reflectances)
-        add_line(text, "bad reflectance", message);
+        text += info_line("bad reflectance", message);
     return text;
 }
 
 std::string describe(std::span<const LeftOut> left_out) {
     std::string text;
     for (const LeftOut& item : left_out)
-        add_line(text, text.empty() ? "not needed" : "",
-                 item.what + ": " + item.why + "; saves " + item.saved);
+        text += info_line(text.empty() ? "not needed" : "",
+                          item.what + ": " + item.why + "; saves " + item.saved);
     return text;
 }
 

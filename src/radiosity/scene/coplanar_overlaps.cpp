@@ -194,7 +194,7 @@ bool sweep(std::vector<Rectangle>& seen, std::size_t most, const Use& use) {
     return true;
 }
 
-/// Those that overlap, where they are few and quickly found.
+/// Those that overlap, where they are few and quickly found, as tiles in rows of up to a thousand.
 std::optional<std::vector<Overlap>> few_near(std::vector<Rectangle>& seen) {
     constexpr std::size_t pairs_each = 16, boxes_each = 1024;
     std::vector<Overlap> near;
@@ -268,7 +268,7 @@ class Finder {
             if (const auto near = few_near(seen))
                 compare(*near);
             else
-                compare_after_cuts(pieces_of(seen, axis));
+                cut_and_compare(pieces_of(seen, axis));
         }
     }
 
@@ -289,21 +289,26 @@ class Finder {
         return pieces;
     }
 
-    /// Cut until few boxes overlap. Where cuts do not help, all that do are compared.
-    void compare_after_cuts(std::vector<PlanePiece> pieces) {
-        std::vector<Rectangle> seen = rectangles_of(pieces);
-        if (const auto near = few_near(seen))
-            return compare(*near);
+    /// Of pieces whose boxes overlap too often: cut until few do. Where cuts do not help, all that
+    /// do are compared.
+    void cut_and_compare(std::vector<PlanePiece> pieces) {
         const bool may_cut = left_ > pieces.size();
         left_ -= may_cut ? pieces.size() : 0;
         auto halves = may_cut ? cut_in_two(pieces) : std::nullopt;
-        if (halves) {
-            pieces = {};
-            for (std::vector<PlanePiece>& half : *halves)
-                compare_after_cuts(std::move(half));
-        } else if (!sweep(seen, boxes_per_comparison * left_,
-                          [&](const Overlap& pair) { return compare(pair); })) {
-            found_.complete = false;
+        if (!halves) {
+            std::vector<Rectangle> seen = rectangles_of(pieces);
+            if (!sweep(seen, boxes_per_comparison * left_,
+                       [&](const Overlap& pair) { return compare(pair); }))
+                found_.complete = false;
+            return;
+        }
+        pieces = {};
+        for (std::vector<PlanePiece>& half : *halves) {
+            std::vector<Rectangle> seen = rectangles_of(half);
+            if (const auto near = few_near(seen))
+                compare(*near);
+            else
+                cut_and_compare(std::move(half));
         }
     }
 

@@ -42,8 +42,9 @@ struct Overlaps {
 /// `vertices` are those of the scene in its local frame, within [-1,1]^3. Finds the pairs whose
 /// corners lie within 2^-37 of a common plane and which have more in common than about a
 /// ten-thousandth of the smaller one's area; neighbours that touch are none. What is narrower than
-/// 2^-21 is let be. O(n log n) for facets that are disjoint (plane_cuts.h), and as many comparisons
-/// as there are pairs for others. Beyond the limits the rest is let be.
+/// 2^-21 is let be. O(n log n) for facets that are disjoint (plane_cuts.h), besides some
+/// comparisons of boxes for each, sqrt(n) for n tiles; for others as many comparisons as there are
+/// pairs. Beyond the limits the rest is let be.
 ///
 /// Of facets with the same corners that face one way the brightest are kept, or the first, so many
 /// that each of `kept_alike` has a level of its own; the others are buried under them. So n facets
