@@ -25,6 +25,8 @@ struct GridPoint {
     double nearness = 0;     ///< mean inverse distance of what the rays met, or of lamps
     double noise = 0;        ///< relative error of the mean of the points around
     unsigned rays = 0;       ///< gathered by so many
+    Vec2 squares{0.0};       ///< of the light that the rays read, and of that of bright patches
+    bool aims = false;       ///< further rays are partly aimed at bright patches
     std::uint8_t shadow = 0; ///< Shadow, of rays from here and from the points beside it
 
     [[nodiscard]] bool is_of_surface(const SurfacePoint& point) const {
@@ -59,6 +61,16 @@ class GatherGrid {
             points_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
                     static_cast<std::size_t>(x)];
         return found.at.facet == none ? nullptr : &found;
+    }
+    /// Calls visit(there) for the points of the same surface in the square that reaches so many
+    /// points from one, among them itself.
+    template <class Visit>
+    void for_each_around(const GridPoint& here, int x, int y, int reach, const Visit& visit) const {
+        for (int dy = -reach; dy <= reach; ++dy)
+            for (int dx = -reach; dx <= reach; ++dx)
+                if (const GridPoint* const there = point(x + dx, y + dy);
+                    there && here.is_of_surface(there->at))
+                    visit(*there);
     }
     /// Calls visit(point, x, y) for each point with a surface, by several threads; before some rows
     /// at a time check(), which may throw to end it.

@@ -21,6 +21,10 @@ constexpr double steps_for_more = 7, steps_for_many = 3.5;
 /// Relative errors of means from which on points get more rays, or many.
 constexpr double noise_for_more = .05, noise_for_many = .1;
 
+/// Rays are aimed at bright patches from where these have this share of the squares of the light
+/// that rays at random read: such squares are the variance, all but the mean.
+constexpr double share_to_aim = .4;
+
 /// Of sums of the same light in another order.
 constexpr double rounding = 1e-9;
 
@@ -42,7 +46,7 @@ PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight 
       light_(grid_) {
     gather([&](int, int) { return std::max(1u, options_.rays / 4); }, Shadows::traced, workers);
     grid_.ask_neighbours(workers);
-    find_noise(workers);
+    judge_points(workers);
     gather([&](int x, int y) { return more_rays(x, y); }, Shadows::left_out, workers);
     for (const int stride : {1, reach_points})
         light_.fit(
@@ -86,6 +90,7 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
                 own.places.push_back(k);
                 own.points.push_back(grid_[k].at);
                 own.samples.push_back(samples_of(x, y, rays));
+                own.samples.back().partly_aimed = grid_[k].aims;
             }
             const std::vector<IndirectLight> lights = in_parts_.indirect(own.points, own.samples);
             const std::vector<DirectLight> direct =
@@ -95,11 +100,13 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
                 point.rays += own.samples[i].count;
                 const double share = double(own.samples[i].count) / point.rays;
                 SlowLight& light = light_.at(own.places[i]);
-                light.indirect = glm::mix(light.indirect, lights[i].irradiance, share);
+                light.indirect = point.aims ? lights[i].irradiance
+                                            : glm::mix(light.indirect, lights[i].irradiance, share);
                 light.unshadowed = glm::mix(light.unshadowed, direct[i].unshadowed, share);
                 point.nearness =
                     glm::mix(point.nearness,
                              std::max(lights[i].nearness, of_emitters * direct[i].nearness), share);
+                point.squares += Vec2(lights[i].squares, lights[i].bright_squares);
                 if (shadows == Shadows::left_out)
                     continue;
                 if (direct[i].arriving != Vec3(0.0))
@@ -121,9 +128,14 @@ unsigned PictureGather::more_rays(int x, int y) const {
     return reach < steps_for_more * width || here.noise > noise_for_more ? options_.rays : 0;
 }
 
-void PictureGather::find_noise(const Workers& workers) {
+void PictureGather::judge_points(const Workers& workers) {
     grid_.for_each_point(workers, [&](const GridPoint& here, int x, int y) {
-        grid_[grid_.number_of(here)].noise = light_.noise_around(here, x, y);
+        GridPoint& judged = grid_[grid_.number_of(here)];
+        judged.noise = light_.noise_around(here, x, y);
+        Vec2 squares(0.0);
+        grid_.for_each_around(here, x, y, reach_points,
+                              [&](const GridPoint& there) { squares += there.squares; });
+        judged.aims = squares.y > share_to_aim * squares.x;
     });
 }
 

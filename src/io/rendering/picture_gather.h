@@ -7,8 +7,9 @@
 // slowly. It is gathered at the points of a grid (gather_grid.h), each of which takes other rays of
 // one well distributed sequence (interleaved sampling: Keller and Heidrich 2001), and smoothed over
 // the points around (slow_light.h; Wald et al. 2002). The fewer neighbours are near enough for
-// that, and the more they differ, the more rays a point takes. Pixels read the functions around
-// them that lie on the same surface.
+// that, and the more they differ, the more rays a point takes. Where most of their noise is of
+// bright patches, half of these further rays are aimed at those (bright_patches.h). Pixels read the
+// functions around them that lie on the same surface.
 
 #include "geometry/vector.h"
 #include "io/rendering/gather_grid.h"
@@ -57,7 +58,7 @@ class PictureGather {
     template <class Rays>
     void gather(const Rays& rays_at, Shadows shadows, const Workers& workers);
     [[nodiscard]] unsigned more_rays(int x, int y) const;
-    void find_noise(const Workers& workers);
+    void judge_points(const Workers& workers);
     void give_up_if_asked() const;
 
     PictureGatherOptions options_;

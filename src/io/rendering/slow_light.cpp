@@ -71,15 +71,12 @@ double reach_of(double nearness) { return reach_share / nearness; }
 
 double SlowLightField::noise_around(const GridPoint& here, int x, int y) const {
     double n = 0, sum = 0, squares = 0;
-    for (int dy = -reach_points; dy <= reach_points; ++dy)
-        for (int dx = -reach_points; dx <= reach_points; ++dx)
-            if (const GridPoint* const there = grid_.point(x + dx, y + dy);
-                there && here.is_of_surface(there->at)) {
-                const double light = mean_of_channels(light_[grid_.number_of(*there)].indirect);
-                ++n;
-                sum += light;
-                squares += light * light;
-            }
+    grid_.for_each_around(here, x, y, reach_points, [&](const GridPoint& there) {
+        const double light = mean_of_channels(light_[grid_.number_of(there)].indirect);
+        ++n;
+        sum += light;
+        squares += light * light;
+    });
     return sum > 0 ? std::sqrt(std::max(n * squares - sum * sum, 0.0) / n) / sum : 0;
 }
 

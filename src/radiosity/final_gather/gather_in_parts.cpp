@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 namespace hemilux {
 namespace {
@@ -29,16 +30,16 @@ std::vector<DirectLight> GatherInParts::direct(std::span<const SurfacePoint> poi
                    [&](std::uint32_t place, const Vec3& light) { found[place].arriving += light; });
     };
     for (std::uint32_t k = 0; k < points.size(); ++k) {
-        const auto& [seed, first, count] = samples[k];
+        const GatherSamples& own = samples[k];
         const bool alike = k > 0 && points[k].facet == points[k - 1].facet &&
-                           first / shared_weights == samples[k - 1].first / shared_weights;
+                           own.first / shared_weights == samples[k - 1].first / shared_weights;
         if (!alike)
             emitters_.weigh(points[k], weighed);
         if (weighed.cut.dark())
             continue;
         const std::size_t before = rays.samples.size();
-        SobolBlocks<5> numbers(seed);
-        emitters_.add_rays(points[k], weighed, numbers, first, count, k, rays);
+        SobolBlocks<5> numbers(own.seed);
+        emitters_.add_rays(points[k], weighed, numbers, own.first, own.count, k, rays);
         double by_nearness = 0;
         for (std::size_t ray = before; ray < rays.samples.size(); ++ray) {
             const Vec3& light = rays.samples[ray].light;
@@ -56,26 +57,41 @@ std::vector<DirectLight> GatherInParts::direct(std::span<const SurfacePoint> poi
     return found;
 }
 
-/// Adds what each ray meets.
-void GatherInParts::read_patches(std::span<const Ray> rays, std::span<const Sample> samples,
-                                 std::span<IndirectLight> found) const {
+/// Adds what each ray meets. A ray that was aimed counts where it meets its patch; then, and where
+/// a ray at random meets the same patch, it counts by the densities of both (balance heuristic:
+/// Veach and Guibas 1995).
+void GatherInParts::read_patches(const Rays& rays, std::span<IndirectLight> found) const {
     std::array<FacetHit, rays_at_a_time> hits;
-    for (std::size_t begin = 0; begin < rays.size(); begin += hits.size()) {
-        const std::size_t n = std::min(hits.size(), rays.size() - begin);
-        const auto some = rays.subspan(begin, n);
+    for (std::size_t begin = 0; begin < rays.rays.size(); begin += hits.size()) {
+        const std::size_t n = std::min(hits.size(), rays.rays.size() - begin);
+        const auto some = std::span(rays.rays).subspan(begin, n);
         tracer_.closest_stream(some, std::span(hits).first(n));
         for (std::size_t k = 0; k < n; ++k) {
             if (hits[k].facet == none)
                 continue;
-            const Hit hit = tracer_.locate(some[k], hits[k].facet);
-            const auto& [place, share] = samples[begin + k];
+            const Ray& ray = some[k];
+            const Hit hit = tracer_.locate(ray, hits[k].facet);
+            const std::uint32_t patch = mesh_.patch_at(hit);
+            const auto& [place, at_random, target] = rays.samples[begin + k];
+            if (target != none && patch != target)
+                continue;
+            double rays_there = at_random;
+            if (rays.aimed > 0 && patch != none)
+                rays_there += rays.aimed * std::numbers::pi / glm::dot(ray.direction, rays.normal) *
+                              bright_.density(rays.aim, patch, hit.t, ray.direction);
+            IndirectLight& light = found[place];
             constexpr double touching = 1e-6;
-            found[place].nearness += share / std::max(hit.t, touching);
-            if (const std::uint32_t patch = mesh_.patch_at(hit); patch != none)
-                found[place].irradiance +=
-                    share * (radiosity_at(mesh_, light_, patch,
-                                          some[k].origin + hit.t * some[k].direction) -
-                             emitters_.emission(patch));
+            light.nearness += 1 / (rays_there * std::max(hit.t, touching));
+            if (patch == none)
+                continue;
+            const Vec3 sent =
+                radiosity_at(mesh_, light_, patch, ray.origin + hit.t * ray.direction) -
+                emitters_.emission(patch);
+            light.irradiance += sent / rays_there;
+            const double square = mean_of_channels(sent * sent);
+            light.squares += square;
+            if (bright_.contains(patch))
+                light.bright_squares += square;
         }
     }
 }
@@ -83,26 +99,43 @@ void GatherInParts::read_patches(std::span<const Ray> rays, std::span<const Samp
 std::vector<IndirectLight> GatherInParts::indirect(std::span<const SurfacePoint> points,
                                                    std::span<const GatherSamples> samples) const {
     std::vector<IndirectLight> found(points.size());
-    std::vector<Ray> rays;
-    std::vector<Sample> of_rays;
+    Rays rays;
     for (std::uint32_t k = 0; k < points.size(); ++k) {
         const SurfacePoint& point = points[k];
-        const auto& [seed, first, count] = samples[k];
-        const Frame frame = Frame::from_normal(point.normal);
-        SobolBlocks<5> numbers(seed);
-        for (std::uint32_t next = first; next < first + count; ++next) {
-            const auto u = numbers.at(next);
-            Ray ray{point.position, frame.to_world(cosine_direction({u[0], u[1]}))};
-            ray.from = point.facet;
-            rays.push_back(ray);
-            of_rays.push_back({k, 1.0 / count});
+        const auto& [seed, first, count, partly_aimed] = samples[k];
+        if (partly_aimed || rays.aimed > 0 || rays.rays.size() >= rays_traced_together) {
+            read_patches(rays, found);
+            rays.rays.clear();
+            rays.samples.clear();
         }
-        if (rays.size() >= rays_traced_together || k + 1 == points.size()) {
-            read_patches(rays, of_rays, found);
-            rays.clear();
-            of_rays.clear();
+        rays.aimed = 0;
+        if (partly_aimed) {
+            bright_.aim(point, rays.aim);
+            rays.aimed = rays.aim.sees_any() ? count / 2 : 0;
+            rays.normal = point.normal;
+        }
+        const unsigned at_random = count - rays.aimed;
+        const auto add = [&](const Vec3& direction, std::uint32_t target) {
+            Ray ray{point.position, direction};
+            ray.from = point.facet;
+            rays.rays.push_back(ray);
+            rays.samples.push_back({k, at_random, target});
+        };
+        const Frame frame = Frame::from_normal(point.normal);
+        const std::uint32_t place = first / count;
+        SobolBlocks<5> numbers(seed);
+        for (std::uint32_t next = 0; next < at_random; ++next) {
+            const auto u = numbers.at(place * at_random + next);
+            add(frame.to_world(cosine_direction({u[0], u[1]})), none);
+        }
+        for (std::uint32_t next = 0; next < rays.aimed; ++next) {
+            const auto u = numbers.at(place * rays.aimed + next);
+            const auto [direction, patch] = bright_.draw(point, rays.aim, {u[4], u[2], u[3]});
+            if (glm::dot(direction, point.normal) > 0)
+                add(direction, patch);
         }
     }
+    read_patches(rays, found);
     return found;
 }
 

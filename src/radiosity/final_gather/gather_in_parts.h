@@ -4,6 +4,7 @@
 // slowly.
 
 #include "bvh/tracer.h"
+#include "radiosity/final_gather/bright_patches.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/final_gather/reached_emitters.h"
 #include "radiosity/final_gather/surface_points.h"
@@ -21,6 +22,7 @@ class Mesh;
 struct GatherSamples {
     std::uint64_t seed;
     std::uint32_t first, count;
+    bool partly_aimed = false; ///< half of the indirect rays are aimed at bright patches
 };
 
 /// Light straight from small emitters [W/m2]. What varies from sample to sample varies in both
@@ -35,13 +37,17 @@ enum class Shadows { traced, left_out };
 struct IndirectLight {
     Vec3 irradiance{0.0}; ///< [W/m2]
     double nearness = 0;  ///< mean inverse distance of what the rays met; local frame
+    /// Sums over rays of the square of the light that they read, and of those that met bright
+    /// patches: rays at random find the more noise there, the nearer both are.
+    double squares = 0, bright_squares = 0;
 };
 
 class GatherInParts {
   public:
     /// `light`: what patches send. All of it outlives this.
     GatherInParts(const Mesh& mesh, const Tracer& tracer, PatchLight light)
-        : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh) {}
+        : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh),
+          bright_(mesh, light.radiosity, emitters_) {}
 
     /// At each point by its own samples, on the calling thread: a shadow ray for each. Where
     /// shadows are left out no ray is traced, and nothing arrives.
@@ -49,22 +55,31 @@ class GatherInParts {
                                                   std::span<const GatherSamples> samples,
                                                   Shadows shadows) const;
     /// In the same way by a cosine-distributed ray for each sample, which reads the patch that it
-    /// meets, however near.
+    /// meets, however near; or half of the samples by rays to bright patches (bright_patches.h).
     [[nodiscard]] std::vector<IndirectLight> indirect(std::span<const SurfacePoint> points,
                                                       std::span<const GatherSamples> samples) const;
 
   private:
-    struct Sample {
-        std::uint32_t point;
-        double share; ///< of what the ray meets
+    /// That are not traced yet: of several points, or of one with aimed rays.
+    struct Rays {
+        struct Sample {
+            std::uint32_t point;
+            unsigned at_random;   ///< rays of this point
+            std::uint32_t target; ///< the patch that it is aimed at, or none
+        };
+        std::vector<Ray> rays;
+        std::vector<Sample> samples;
+        unsigned aimed = 0;     ///< rays of the point
+        BrightPatches::Aim aim; ///< of the point
+        Vec3 normal{0.0};       ///< of the point
     };
-    void read_patches(std::span<const Ray> rays, std::span<const Sample> samples,
-                      std::span<IndirectLight> found) const;
+    void read_patches(const Rays& rays, std::span<IndirectLight> found) const;
 
     const Mesh& mesh_;
     const Tracer& tracer_;
     PatchLight light_;
     ReachedEmitters emitters_;
+    BrightPatches bright_;
 };
 
 } // namespace hemilux
