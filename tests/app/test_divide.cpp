@@ -134,6 +134,58 @@ TEST_CASE("a plain solve divides, but for runs that are about patches or single 
         CHECK(table(options) == table(options + " --divide none"));
 }
 
+namespace {
+
+/// A room of 1 m whose floor has 20 164 tiles, and a lamp below the ceiling that faces up, or down.
+void write_room_of_tiles(const Workplace& place, const std::string& name, bool up) {
+    constexpr int tiles = 142;
+    std::string text = "mtllib tiles.mtl\nusemtl white\n";
+    const auto side = [&](const std::string& corners) { text += corners + "f -4 -3 -2 -1\n"; };
+    const auto at = [](int k) { return std::to_string(double(k) / tiles); };
+    for (int y = 0; y < tiles; ++y)
+        for (int x = 0; x < tiles; ++x)
+            side("v " + at(x) + " 0 " + at(y) + "\nv " + at(x) + " 0 " + at(y + 1) + "\nv " +
+                 at(x + 1) + " 0 " + at(y + 1) + "\nv " + at(x + 1) + " 0 " + at(y) + "\n");
+    side("v 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\n");
+    side("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n");
+    side("v 1 0 1\nv 0 0 1\nv 0 1 1\nv 1 1 1\n");
+    side("v 0 0 1\nv 0 0 0\nv 0 1 0\nv 0 1 1\n");
+    side("v 1 0 0\nv 1 0 1\nv 1 1 1\nv 1 1 0\n");
+    const std::string upper = "v .4 .95 .6\nv .6 .95 .6\nv .6 .95 .4\nv .4 .95 .4\n",
+                      lower = "v .4 .95 .4\nv .6 .95 .4\nv .6 .95 .6\nv .4 .95 .6\n";
+    side(up ? lower : upper);
+    text += "usemtl lamp\n";
+    side(up ? upper : lower);
+    place.write("tiles.mtl", "newmtl white\nKd .7 .7 .7\nnewmtl lamp\nKe 10 10 10\n");
+    place.write(name, text);
+}
+
+} // namespace
+
+TEST_CASE("a plain solve divides a model of many small faces only where light on its large ones "
+          "would be far off",
+          "[slow]") {
+    const Workplace place;
+    constexpr double faces = 20171;
+    for (const bool up : {false, true}) {
+        write_room_of_tiles(place, "tiles.obj", up);
+        const auto outcome =
+            place.hemilux("solve tiles.obj --sides front --size 60x40 -o a.png --stats s.json");
+        CAPTURE(up, outcome.err);
+        REQUIRE(outcome.code == 0);
+        const double patches = statistic(place.read("s.json"), "patches"),
+                     error = statistic(place.read("s.json"), "estimated_error");
+        CHECK((patches > faces) == up);
+        CHECK(patches < faces + 20000);
+        CHECK(error < .1);
+    }
+    REQUIRE(place
+                .hemilux("solve tiles.obj --sides front --divide none --size 60x40 -o a.png "
+                         "--stats s.json -q")
+                .code == 0);
+    CHECK(statistic(place.read("s.json"), "error_division") > .2);
+}
+
 TEST_CASE("where all light is gathered the reported error is that of gathered light", "[slow]") {
     const Workplace place;
     place.write_room();

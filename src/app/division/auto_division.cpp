@@ -44,11 +44,18 @@ std::string round_text(const DivisionRound& round) {
            "differs by about " + percent(round.error);
 }
 
+bool is_large_by_default(const SolveSettings& settings, std::size_t patches) {
+    return settings.divide == Divide::by_default && patches >= most_patches_by_default;
+}
+
 AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches) {
     AdaptiveDivision division{.error = share_of_division * whole_error(settings),
                               .seed = settings.options.seed,
                               .threads = settings.options.threads};
-    if (settings.divide == Divide::by_default)
+    if (is_large_by_default(settings, patches))
+        division.most_patches =
+            patches + (patches < most_patches_of_large_models ? most_patches_by_default : 0);
+    else if (settings.divide == Divide::by_default)
         division.most_patches = most_patches_by_default;
     if (settings.scene.memory) {
         division.memory = *settings.scene.memory / 2;
@@ -68,7 +75,8 @@ class AutoDivision {
           mesh_changed_(mesh_changed), statistics_(statistics),
           options_(division_of(settings, mesh.patches().size())), whole_(whole_error(settings)),
           is_gathered_(gives_gathered_light(settings)),
-          is_own_(settings.method == &method_of(Role::standard) && !settings.plain) {}
+          is_own_(settings.method == &method_of(Role::standard) && !settings.plain),
+          is_large_(is_large_by_default(settings, mesh.patches().size())) {}
 
     [[nodiscard]] Divided divide();
 
@@ -109,7 +117,7 @@ class AutoDivision {
     Statistics& statistics_;
     AdaptiveDivision options_;
     double whole_;
-    bool is_gathered_, is_own_;
+    bool is_gathered_, is_own_, is_large_;
     std::uint64_t gathers_ = 0;
     double seconds_of_errors_ = 0;
     bool divides_ = true; ///< in the next attempt
@@ -267,12 +275,15 @@ Divided AutoDivision::divide() {
         measure(options);
     }
     if (!is_over() && is_gathered_) {
-        divided_.linear = divided_.spread->error > safe * whole_;
+        const double spread = divided_.spread->error;
+        divided_.linear = spread > safe * whole_;
         // Less than half of what is off is not worth its rays, where it is not divided.
-        const bool stays = divided_.linear && mesh_.patches().size() >= options_.most_patches;
-        divided_.sampling =
-            std::max(sampling_of_gathered * whole_, stays ? .5 * divided_.spread->error : 0);
+        const bool stays = divided_.linear && (mesh_.patches().size() >= options_.most_patches ||
+                                               (is_large_ && spread <= error_of_large_models));
+        divided_.sampling = std::max(sampling_of_gathered * whole_, stays ? .5 * spread : 0);
         divided_.linear = divided_.linear && !stays;
+        if (divided_.linear && is_large_)
+            whole_ = std::max(whole_, error_of_large_models);
     } else if (!is_over()) {
         divided_.linear = divided_.error->error > share_of_division * whole_;
     }
