@@ -12,8 +12,8 @@ namespace {
 /// Of the surface of all patches.
 constexpr double share_of_surface = 1. / 16;
 
-/// More chances than these take longer than the rays.
-constexpr std::size_t most_patches = 256;
+/// More chances than these take longer than the rays of the points that share them.
+constexpr std::size_t most_patches = 4096;
 
 } // namespace
 

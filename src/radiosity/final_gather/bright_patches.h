@@ -16,7 +16,7 @@ namespace hemilux {
 class BrightPatches {
   public:
     /// Of the patches, by what is left of their radiosity [W/m2] without what emitters send, the
-    /// brightest that cover a sixteenth of all surfaces, at most 256. `mesh` outlives this.
+    /// brightest that cover a sixteenth of all surfaces, at most 4096. `mesh` outlives this.
     BrightPatches(const Mesh& mesh, std::span<const Vec3> radiosity,
                   const ReachedEmitters& emitters);
 

@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::size_t rays_traced_together = 4096;
 
+/// So many points on one facet that follow each other aim rays by the chances of the first.
+constexpr std::uint32_t shared_aim = 16;
+
 /// Points on one facet whose samples are of one block of so many use the same chances of emitters:
 /// they lie near each other.
 constexpr std::uint32_t shared_weights = 64;
@@ -60,7 +63,8 @@ std::vector<DirectLight> GatherInParts::direct(std::span<const SurfacePoint> poi
 /// Adds what each ray meets. A ray that was aimed counts where it meets its patch; then, and where
 /// a ray at random meets the same patch, it counts by the densities of both (balance heuristic:
 /// Veach and Guibas 1995).
-void GatherInParts::read_patches(const Rays& rays, std::span<IndirectLight> found) const {
+void GatherInParts::read_patches(std::span<const SurfacePoint> points, const Rays& rays,
+                                 std::span<IndirectLight> found) const {
     std::array<FacetHit, rays_at_a_time> hits;
     for (std::size_t begin = 0; begin < rays.rays.size(); begin += hits.size()) {
         const std::size_t n = std::min(hits.size(), rays.rays.size() - begin);
@@ -77,7 +81,8 @@ void GatherInParts::read_patches(const Rays& rays, std::span<IndirectLight> foun
                 continue;
             double rays_there = at_random;
             if (rays.aimed > 0 && patch != none)
-                rays_there += rays.aimed * std::numbers::pi / glm::dot(ray.direction, rays.normal) *
+                rays_there += rays.aimed * std::numbers::pi /
+                              glm::dot(ray.direction, points[place].normal) *
                               bright_.density(rays.aim, patch, hit.t, ray.direction);
             IndirectLight& light = found[place];
             constexpr double touching = 1e-6;
@@ -100,19 +105,26 @@ std::vector<IndirectLight> GatherInParts::indirect(std::span<const SurfacePoint>
                                                    std::span<const GatherSamples> samples) const {
     std::vector<IndirectLight> found(points.size());
     Rays rays;
+    std::uint32_t aims = 0; // the point whose chances are used
     for (std::uint32_t k = 0; k < points.size(); ++k) {
         const SurfacePoint& point = points[k];
         const auto& [seed, first, count, partly_aimed] = samples[k];
-        if (partly_aimed || rays.aimed > 0 || rays.rays.size() >= rays_traced_together) {
-            read_patches(rays, found);
+        const bool alike =
+            partly_aimed == samples[aims].partly_aimed &&
+            (!partly_aimed || (k > 0 && k - aims < shared_aim &&
+                               point.facet == points[aims].facet && count == samples[aims].count));
+        if (!alike || rays.rays.size() >= rays_traced_together) {
+            read_patches(points, rays, found);
             rays.rays.clear();
             rays.samples.clear();
         }
-        rays.aimed = 0;
-        if (partly_aimed) {
-            bright_.aim(point, rays.aim);
-            rays.aimed = rays.aim.sees_any() ? count / 2 : 0;
-            rays.normal = point.normal;
+        if (!alike) {
+            aims = k;
+            rays.aimed = 0;
+            if (partly_aimed) {
+                bright_.aim(point, rays.aim);
+                rays.aimed = rays.aim.sees_any() ? count / 2 : 0;
+            }
         }
         const unsigned at_random = count - rays.aimed;
         const auto add = [&](const Vec3& direction, std::uint32_t target) {
@@ -135,7 +147,7 @@ std::vector<IndirectLight> GatherInParts::indirect(std::span<const SurfacePoint>
                 add(direction, patch);
         }
     }
-    read_patches(rays, found);
+    read_patches(points, rays, found);
     return found;
 }
 

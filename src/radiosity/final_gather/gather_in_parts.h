@@ -60,7 +60,7 @@ class GatherInParts {
                                                       std::span<const GatherSamples> samples) const;
 
   private:
-    /// That are not traced yet: of several points, or of one with aimed rays.
+    /// That are not traced yet. Aimed ones are of points that share chances.
     struct Rays {
         struct Sample {
             std::uint32_t point;
@@ -69,11 +69,11 @@ class GatherInParts {
         };
         std::vector<Ray> rays;
         std::vector<Sample> samples;
-        unsigned aimed = 0;     ///< rays of the point
-        BrightPatches::Aim aim; ///< of the point
-        Vec3 normal{0.0};       ///< of the point
+        unsigned aimed = 0; ///< rays of each point
+        BrightPatches::Aim aim;
     };
-    void read_patches(const Rays& rays, std::span<IndirectLight> found) const;
+    void read_patches(std::span<const SurfacePoint> points, const Rays& rays,
+                      std::span<IndirectLight> found) const;
 
     const Mesh& mesh_;
     const Tracer& tracer_;
