@@ -207,9 +207,9 @@ void add_divide_option(Command command, Option max_edge, SolveSettings& settings
         "patches: auto: divided where the light changes within them, and linear light on each, "
         "until the error of the light itself is that of --error [.05; .02 where all light is "
         "gathered, for pictures and --points]; none: the faces; LENGTH: as --max-edge [auto below "
-        "20 000 patches, and below 200 000 where gathered light would be off by .1, for the "
-        "default "
-        "method without --steps, --every-step, --reference, --checkpoint and --for; else none]",
+        "20 000 patches, and below 200 000 where gathered light would be off by .05, for the "
+        "default method without --steps, --every-step, --reference, --checkpoint and --for; else "
+        "none]",
         "auto, none or a length above 0", division_from,
         [&settings](const DivisionChoice& choice) {
             settings.divide = choice.by_light ? Divide::automatic : Divide::as_given;

@@ -23,7 +23,7 @@ inline constexpr double share_of_division = .7, share_of_sampling = .5;
 /// more than `error_of_large_models`, and to that error, if they have not too many.
 inline constexpr std::size_t most_patches_by_default = 20'000,
                              most_patches_of_large_models = 200'000;
-inline constexpr double error_of_large_models = .1;
+inline constexpr double error_of_large_models = .05;
 
 /// Whether a plain run on so many patches divides them: where the method is the standard one, and
 /// what was asked for says nothing of patches or single steps.
