@@ -153,7 +153,8 @@ TEST_CASE("a full disk leaves nothing half-written") {
     const Workplace place;
     place.write_room();
     place.write("keep.csv", "old");
-    const std::string limited = "ulimit -f 4 && \"$H\" solve room.obj --max-edge .05 --steps 1 ";
+    const std::string limited =
+        "ulimit -f 4 && \"$H\" solve room.obj --max-edge .05 --steps 1 " + test::camera_in_room;
     CHECK(shell(place, limited + "-o keep.csv -o new.ply -o small.png --size 4x4") == 3);
     CHECK_THAT(place.read("stderr.txt"), Contains("keep.csv: cannot write: File too large"));
     CHECK(place.read("keep.csv") == "old");
@@ -162,7 +163,8 @@ TEST_CASE("a full disk leaves nothing half-written") {
     for (const char* kind : {"csv", "png", "hdr", "ply", "json"}) {
         const std::string name = std::string("full.") + kind;
         fs::create_symlink("/dev/full", place.path(name));
-        CHECK(shell(place, "\"$H\" solve room.obj --steps 1 --size 9x9 -o " + name) == 3);
+        CHECK(shell(place, "\"$H\" solve room.obj --steps 1 --size 9x9 " + test::camera_in_room +
+                               "-o " + name) == 3);
         CHECK_THAT(place.read("stderr.txt"), Contains(name + ": cannot write: No space left"));
     }
     for (const char* option : {"--stats full.csv", "--steps-log full.csv"})

@@ -62,7 +62,7 @@ TEST_CASE("a comparison by time ends, whatever --rays asks for") {
 TEST_CASE("--memory counts pictures") {
     const Workplace place;
     place.write_room();
-    const std::string run = "solve room.obj --steps 1 --memory 100M ";
+    const std::string run = "solve room.obj --steps 1 --memory 100M " + test::camera_in_room;
     for (const auto& [options, need] :
          {std::pair("--no-gather", "pictures 436 MB"), {"--gather 4", "pictures 3.02 GB"}}) {
         const auto outcome = place.hemilux(run + "--size 4096x4096 -o a.png " + options);
