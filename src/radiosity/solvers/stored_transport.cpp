@@ -16,6 +16,8 @@
 // fewer rays than shooting, most where light is even and surfaces reflect much. Costs 8 bytes per
 // patch and patch that it saw, and twice as many more to solve.
 
+#include "radiosity/emitters/direct_light.h"
+#include "radiosity/emitters/small_emitters.h"
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/linear/energy_ledger.h"
@@ -30,12 +32,10 @@
 #include "radiosity/solving/check_input.h"
 #include "radiosity/solving/method.h"
 #include "radiosity/stored_transport/batch_light.h"
-#include "radiosity/stored_transport/direct_light.h"
 #include "radiosity/stored_transport/importance.h"
 #include "radiosity/stored_transport/linked_parts.h"
 #include "radiosity/stored_transport/ray_plan.h"
 #include "radiosity/stored_transport/row_spread.h"
-#include "radiosity/stored_transport/small_emitters.h"
 #include "radiosity/stored_transport/transport_errors.h"
 #include "radiosity/stored_transport/transport_system.h"
 
