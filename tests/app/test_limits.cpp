@@ -39,7 +39,7 @@ TEST_CASE("a run to a time ends, whatever --rays asks for") {
     place.write_room();
     for (const hemilux::Method* const method : hemilux::methods()) {
         CAPTURE(method->name);
-        const auto outcome = place.hemilux("solve room.obj -o a.csv --time .05 --rays 1e9 "
+        const auto outcome = place.hemilux("solve room.obj -o a.csv --time .02 --rays 1e9 "
                                            "--method " +
                                            std::string(method->name));
         CHECK(outcome.code == 0);
