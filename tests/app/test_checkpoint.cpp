@@ -233,7 +233,8 @@ TEST_CASE("a sealed checkpoint with wrong rows is refused") {
 TEST_CASE("a checkpoint that cannot be written leaves the one before and ends with 3") {
     const Workplace place;
     place.write_room();
-    const std::string run = "solve room.obj --rays 5 --max-edge .05 --checkpoint saved --every 0";
+    const std::string run = "solve room.obj --rays 5 --max-edge .05 --checkpoint saved --every 0 " +
+                            test::camera_in_room;
     REQUIRE(place.hemilux(run + " --steps 1 -o a.png --size 16x12").code == 0);
     const std::string good = place.read("saved");
     // Files of at most a few blocks: the picture fits, the checkpoint does not.

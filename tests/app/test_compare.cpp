@@ -15,7 +15,7 @@ using test::Workplace;
 
 namespace {
 
-const std::string quick = "--reference-error .02 --size 40x30 ";
+const std::string quick = "--reference-error .02 --size 40x30 " + test::camera_in_room;
 
 /// The rows of the table on stdout, by method; a field never has two blanks side by side.
 std::map<std::string, std::vector<std::string>> table_of(const std::string& out) {

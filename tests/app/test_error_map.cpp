@@ -8,7 +8,8 @@ using test::Workplace;
 TEST_CASE("a picture of errors is written, the same for any number of threads") {
     const Workplace place;
     place.write_room();
-    const std::string common = "solve room.obj -q --steps 2 --size 64x48 --error-map ";
+    const std::string common =
+        "solve room.obj -q --steps 2 --size 64x48 " + test::camera_in_room + "--error-map ";
     REQUIRE(place.hemilux(common + "a.png -t 1").code == 0);
     REQUIRE(place.hemilux(common + "b.png -t 3").code == 0);
     CHECK(place.read("a.png").substr(1, 3) == "PNG");

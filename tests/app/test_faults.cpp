@@ -65,15 +65,22 @@ std::ptrdiff_t lines_of_message(const std::string& text) {
     return std::count(text.begin(), text.end(), '\n');
 }
 
-/// Sends SIGTERM and checks that what is then still done is little: processors work on it no longer
-/// than on reading the scene. A step of such a run would take them a hundred times as long.
-void check_ends_soon(const Workplace& place, Running& run, const std::string& scene) {
+/// Seconds that processors work on reading the scene.
+double seconds_of_reading(const Workplace& place, const std::string& scene) {
     Running reading(place, "info " + scene + " >info.txt", place.path("info_talk.txt").c_str());
     REQUIRE(reading.wait() == 0);
+    return reading.seconds_of_processors();
+}
+
+/// Sends SIGTERM once processors have worked on the run for so long, and checks that what is then
+/// still done is little: they work on it no longer than on reading the scene. A step of such a run
+/// would take them a hundred times as long.
+void check_ends_soon(Running& run, double seconds, double reading) {
+    REQUIRE(test::wait_until([&] { return run.seconds_of_processors() >= seconds; }));
     const double before = run.seconds_of_processors();
     run.send(SIGTERM);
     CHECK(run.wait() == 143);
-    CHECK(run.seconds_of_processors() - before < reading.seconds_of_processors());
+    CHECK(run.seconds_of_processors() - before < reading);
 }
 
 } // namespace
@@ -115,35 +122,39 @@ TEST_CASE("a signal while the scene is read ends the program at once") {
 TEST_CASE("a signal ends a large run soon, whatever it is at", "[slow]") {
     // No picture and no table is written, as they take their time.
     const Workplace place;
-    write_large(place, 600);
-    const std::string method = GENERATE("hemisphere", "stratified", "monte-carlo", "progressive",
-                                        "matrix", "progressive-monte-carlo");
-    const int wait_ms = GENERATE(0, 500, 1200, 2500); // moments of all kinds on most machines
-    CAPTURE(method, wait_ms);
-    Running run(place, "solve large.obj --rays 100 -o a.json --method " + method,
-                place.path("stderr.txt").c_str());
-    REQUIRE(test::wait_until([&] { return run.handles(SIGTERM); }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
-    check_ends_soon(place, run, "large.obj");
+    write_large(place, 320);
+    const double reading = seconds_of_reading(place, "large.obj");
+    for (const std::string method : {"hemisphere", "stratified", "monte-carlo", "progressive",
+                                     "matrix", "progressive-monte-carlo"})
+        // Within the file, the mesh, the tree, and what is the method's own.
+        for (const double moment : {0., .5, 1.2, 3.}) {
+            CAPTURE(method, moment);
+            Running run(place, "solve large.obj --rays 1000 -o a.json --method " + method,
+                        place.path("stderr.txt").c_str());
+            REQUIRE(test::wait_until([&] { return run.handles(SIGTERM); }));
+            check_ends_soon(run, moment * reading, reading);
+        }
 }
 
-TEST_CASE("a signal ends the shot of a lamp that lights a million patches", "[slow]") {
+TEST_CASE("a signal ends the shot of a lamp that lights a hundred thousand patches", "[slow]") {
     const Workplace place;
-    write_large(place, 1000, true);
-    const std::string method = GENERATE("hemisphere", "monte-carlo");
-    CAPTURE(method);
-    Running run(place, "solve large.obj --rays 1000 -v -o a.json --method " + method,
-                place.path("stderr.txt").c_str());
-    REQUIRE(wait_for(place, "stderr.txt", "BVH:"));
-    std::this_thread::sleep_for(std::chrono::seconds(2)); // within the shot, on most machines
-    check_ends_soon(place, run, "large.obj");
+    write_large(place, 320, true);
+    const double reading = seconds_of_reading(place, "large.obj");
+    for (const std::string method : {"hemisphere", "monte-carlo"}) {
+        CAPTURE(method);
+        Running run(place, "solve large.obj --rays 10000 -v -o a.json --method " + method,
+                    place.path("stderr.txt").c_str());
+        REQUIRE(wait_for(place, "stderr.txt", "BVH:"));
+        check_ends_soon(run, run.seconds_of_processors() + 2 * reading, reading); // within the shot
+    }
 }
 
 TEST_CASE("a full disk leaves nothing half-written") {
     const Workplace place;
     place.write_room();
     place.write("keep.csv", "old");
-    const std::string limited = "ulimit -f 4 && \"$H\" solve room.obj --max-edge .05 --steps 1 ";
+    const std::string limited =
+        "ulimit -f 4 && \"$H\" solve room.obj --max-edge .05 --steps 1 " + test::camera_in_room;
     CHECK(shell(place, limited + "-o keep.csv -o new.ply -o small.png --size 4x4") == 3);
     CHECK_THAT(place.read("stderr.txt"), Contains("keep.csv: cannot write: File too large"));
     CHECK(place.read("keep.csv") == "old");
@@ -152,7 +163,8 @@ TEST_CASE("a full disk leaves nothing half-written") {
     for (const char* kind : {"csv", "png", "hdr", "ply", "json"}) {
         const std::string name = std::string("full.") + kind;
         fs::create_symlink("/dev/full", place.path(name));
-        CHECK(shell(place, "\"$H\" solve room.obj --steps 1 --size 9x9 -o " + name) == 3);
+        CHECK(shell(place, "\"$H\" solve room.obj --steps 1 --size 9x9 " + test::camera_in_room +
+                               "-o " + name) == 3);
         CHECK_THAT(place.read("stderr.txt"), Contains(name + ": cannot write: No space left"));
     }
     for (const char* option : {"--stats full.csv", "--steps-log full.csv"})

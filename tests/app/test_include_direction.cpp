@@ -36,6 +36,7 @@ const std::vector<std::string> rooms{
     "radiosity/shooting",
     "radiosity/progressive",
     "radiosity/guiding",
+    "radiosity/emitters",
     "radiosity/stored_transport",
     "radiosity/final_gather",
     "radiosity/strategies",

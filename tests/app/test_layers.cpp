@@ -10,13 +10,15 @@ using test::Workplace;
 TEST_CASE("a picture with layers has the light of the .hdr picture and its provenance") {
     const Workplace place;
     place.write_room();
-    const std::string arguments = "solve room.obj --steps 2 -q --size 40x30 ";
+    const std::string arguments =
+        "solve room.obj --steps 2 -q --size 40x30 " + test::camera_in_room;
     REQUIRE(place.hemilux(arguments + "-t1 -o a.exr").code == 0);
     const std::string file = place.read("a.exr");
     CHECK((place.hemilux(arguments + "-t3 -o -.exr").out == file));
     for (const char* const channel : {"R", "density", "error.G", "irradiance.B", "patch"})
         CHECK_THAT(file.substr(0, 600), Contains(std::string("\0", 1) + channel + '\0'));
-    CHECK_THAT(file.substr(0, 900), Contains("hemilux solve room.obj --steps 2 --size 40x30"));
+    CHECK_THAT(file.substr(0, 900), Contains("hemilux solve room.obj --steps 2 " +
+                                             test::camera_in_room + "--size 40x30"));
     // Pictures of steps have the light alone.
     REQUIRE(place.hemilux(arguments + "-o s.exr --every-step").code == 0);
     CHECK_THAT(place.read("s-0001.exr").substr(0, 100), !Contains("density"));

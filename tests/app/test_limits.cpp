@@ -39,7 +39,7 @@ TEST_CASE("a run to a time ends, whatever --rays asks for") {
     place.write_room();
     for (const hemilux::Method* const method : hemilux::methods()) {
         CAPTURE(method->name);
-        const auto outcome = place.hemilux("solve room.obj -o a.csv --time .05 --rays 1e9 "
+        const auto outcome = place.hemilux("solve room.obj -o a.csv --time .02 --rays 1e9 "
                                            "--method " +
                                            std::string(method->name));
         CHECK(outcome.code == 0);
@@ -62,7 +62,7 @@ TEST_CASE("a comparison by time ends, whatever --rays asks for") {
 TEST_CASE("--memory counts pictures") {
     const Workplace place;
     place.write_room();
-    const std::string run = "solve room.obj --steps 1 --memory 100M ";
+    const std::string run = "solve room.obj --steps 1 --memory 100M " + test::camera_in_room;
     for (const auto& [options, need] :
          {std::pair("--no-gather", "pictures 436 MB"), {"--gather 4", "pictures 3.02 GB"}}) {
         const auto outcome = place.hemilux(run + "--size 4096x4096 -o a.png " + options);

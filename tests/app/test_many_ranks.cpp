@@ -43,7 +43,7 @@ TEST_CASE("mpirun starts ranks that write the bytes of one process", "[slow]") {
     place.write_room();
     for (const char* const method :
          {"--divide .1 --steps 3", "--error .06", "--divide .1 --method stratified --steps 4"}) {
-        const std::string solve = "solve room.obj --size 40x30 " + std::string(method);
+        const std::string solve = "solve room.obj --size 40x30 " + test::camera_in_room + method;
         const auto outputs = [](const std::string& name) {
             return " -o " + name + ".csv -o " + name + ".png --steps-log " + name + "_log.csv";
         };
@@ -68,7 +68,8 @@ TEST_CASE("compare on ranks writes the bytes of one process, but for times") {
     const Workplace place;
     place.write_room();
     const std::string compare = "compare room.obj --methods monte-carlo,stored-transport "
-                                "--budget-rays 20000 --runs 1 --size 40x30 -t 1 ";
+                                "--budget-rays 20000 --runs 1 --size 40x30 -t 1 " +
+                                test::camera_in_room;
     REQUIRE(place.hemilux(compare + "-o one").code == 0);
     const auto outcome = place.hemilux_on(2, compare + "-o two");
     CHECK(outcome.code == 0);

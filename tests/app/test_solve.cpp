@@ -52,7 +52,8 @@ TEST_CASE("-q is silent and -v tells of every step") {
 TEST_CASE("the same seed gives the same bytes whatever the number of threads", "[slow]") {
     const Workplace place;
     place.write_room();
-    const std::string common = "solve room.obj --max-edge .2 --steps 3 --size 64x48 -q --seed ";
+    const std::string common = "solve room.obj --max-edge .2 --steps 3 --size 64x48 -q " +
+                               test::camera_in_room + "--seed ";
     for (const std::string method : {"hemisphere", "stratified", "progressive-monte-carlo"}) {
         const std::string options = " --method " + method;
         REQUIRE(
@@ -189,7 +190,8 @@ TEST_CASE("a picture after every step shows one view as it gets brighter") {
 TEST_CASE("monte-carlo shows a picture each time a patch has shot, until all is shot") {
     const Workplace place;
     place.write_room();
-    const std::string run = "solve room.obj --method monte-carlo --rays 4 -q ";
+    const std::string run =
+        "solve room.obj --method monte-carlo --rays 4 -q " + test::camera_in_room;
     REQUIRE(place
                 .hemilux(run + "--one-shot --every-step --no-gather --size 20x15 -o p.png "
                                "-o shots.csv --stats s.json")

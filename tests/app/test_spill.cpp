@@ -12,7 +12,8 @@ using test::Workplace;
 
 namespace {
 
-const std::string solve = "solve room.obj --divide .1 --steps 3 --size 40x30 ";
+const std::string solve =
+    "solve room.obj --divide .1 --steps 3 --size 40x30 " + test::camera_in_room;
 
 } // namespace
 

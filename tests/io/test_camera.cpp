@@ -1,4 +1,4 @@
-#include "bvh/bvh.h"
+#include "bvh/wide/wide_bvh.h"
 #include "io/pictures/automatic_camera.h"
 #include "io/pictures/camera.h"
 #include "io/scene_files/emitter_shapes.h"
@@ -107,7 +107,7 @@ TEST_CASE("a picture looks through the backs of one-sided facets only") {
     const Camera outside{.eye = {12, 1.5, 20}, .target = {12, 1.5, 2}, .vertical_fov_degrees = 5};
     for (const bool two_sided : {false, true}) {
         const Mesh mesh = box_without({}, two_sided);
-        const Bvh bvh(mesh.soup());
+        const WideBvh bvh(mesh.soup());
         const CameraRays rays(outside, mesh, 1);
         const auto seen = look(mesh, bvh, rays.ray(0.47, 0.46));
         REQUIRE(seen);
@@ -126,7 +126,7 @@ TEST_CASE("a front on the very place of a back is seen") {
         for (const bool back : {back_first, !back_first})
             back ? add_quad(scene, a, d, c, b, 1, 1, 0) : add_quad(scene, a, b, c, d, 1, 1, 0);
         const Mesh mesh(std::move(scene));
-        const Bvh bvh(mesh.soup());
+        const WideBvh bvh(mesh.soup());
         const auto seen = look(mesh, bvh, {.origin = {0.1, 0.2, 1}, .direction = {0, 0, -1}});
         REQUIRE(seen);
         CHECK(mesh.patches()[seen->patch].normal.z == Approx(1));
@@ -139,7 +139,7 @@ TEST_CASE("the automatic camera looks into an open box through its opening") {
         std::array<std::uint32_t, 6> sides{};
         sides[side] = left_out;
         const Mesh mesh = box_without(sides);
-        const Bvh bvh(mesh.soup());
+        const WideBvh bvh(mesh.soup());
         const Camera camera = automatic_camera(mesh, bvh, even_light(mesh));
         INFO("open side " << side);
         const std::size_t axis = side < 4 ? 0 : 2;
@@ -155,7 +155,7 @@ TEST_CASE("the automatic camera looks into an open box through its opening") {
 TEST_CASE("the automatic camera fills its picture with a closed room") {
     for (const bool two_sided : {false, true}) {
         const Mesh mesh = box_without({}, two_sided);
-        const Bvh bvh(mesh.soup());
+        const WideBvh bvh(mesh.soup());
         const Camera camera = automatic_camera(mesh, bvh, even_light(mesh));
         const Shares shares = shares_of(mesh, bvh, camera);
         CHECK(shares.seen > 0.99);
@@ -170,13 +170,13 @@ TEST_CASE("the automatic camera sees an object from outside, and a single facet 
     scene.groups = {"all"};
     add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 1, 1, 0);
     const Mesh sheet(std::move(scene));
-    const Bvh sheet_bvh(sheet.soup());
+    const WideBvh sheet_bvh(sheet.soup());
     const Camera camera = automatic_camera(sheet, sheet_bvh, even_light(sheet));
     CHECK(camera.eye.z > 0);
     CHECK(shares_of(sheet, sheet_bvh, camera).seen > 0.3);
 
     const Mesh open(open_scene());
-    const Bvh open_bvh(open.soup());
+    const WideBvh open_bvh(open.soup());
     CHECK(shares_of(open, open_bvh, automatic_camera(open, open_bvh, even_light(open))).seen > 0.3);
 }
 
@@ -185,16 +185,17 @@ TEST_CASE("the automatic camera stands upright where z is up") {
     for (Vec3& v : scene.vertices)
         v = {v.z, v.x, v.y};
     const Mesh z_up(std::move(scene)), y_up(room_with_block());
-    CHECK(automatic_camera(z_up, Bvh(z_up.soup()), even_light(z_up)).up == Vec3(0, 0, 1));
-    CHECK(automatic_camera(y_up, Bvh(y_up.soup()), even_light(y_up)).up == Vec3(0, 1, 0));
-    CHECK(automatic_camera(y_up, Bvh(y_up.soup()), even_light(y_up), 1.5, 2).up == Vec3(0, 0, 1));
+    CHECK(automatic_camera(z_up, WideBvh(z_up.soup()), even_light(z_up)).up == Vec3(0, 0, 1));
+    CHECK(automatic_camera(y_up, WideBvh(y_up.soup()), even_light(y_up)).up == Vec3(0, 1, 0));
+    CHECK(automatic_camera(y_up, WideBvh(y_up.soup()), even_light(y_up), 1.5, 2).up ==
+          Vec3(0, 0, 1));
     CHECK(guess_up(z_up) == 2);
     CHECK(guess_up(y_up) == 1);
 }
 
 TEST_CASE("the automatic camera is always the same, in the dark too") {
     const Mesh mesh = box_without({});
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     const std::vector<Vec3> dark(mesh.patches().size(), Vec3(0));
     const Camera a = automatic_camera(mesh, bvh, dark), b = automatic_camera(mesh, bvh, dark);
     CHECK(a.eye == b.eye);
@@ -213,7 +214,7 @@ TEST_CASE("An object under the sky is looked at from outside, and all of it is s
     const Box bounds = bounds_of(scene);
     add_sky(scene, "sky", bounds, Vec3(1));
     const Mesh mesh(std::move(scene));
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     const Camera camera = automatic_camera(mesh, bvh, even_light(mesh));
     CHECK((glm::any(glm::lessThan(camera.eye, bounds.low)) ||
            glm::any(glm::lessThan(bounds.high, camera.eye))));

@@ -1,5 +1,5 @@
 // Pictures whose light is gathered at their pixels, against light in closed form.
-#include "bvh/bvh.h"
+#include "bvh/wide/wide_bvh.h"
 #include "io/files/error.h"
 #include "io/rendering/render.h"
 #include "radiosity/scene/mesh.h"

@@ -1,4 +1,4 @@
-#include "bvh/bvh.h"
+#include "bvh/wide/wide_bvh.h"
 #include "io/meshes/indirect_light.h"
 #include "radiosity/scene/mesh.h"
 #include "support/catch.h"
@@ -11,7 +11,7 @@ TEST_CASE("in a furnace the indirect irradiance is what walls reflect") {
     const Vec3 rho(0.5, 0.25, 0), emission(3, 0, 1);
     const Mesh mesh(
         box_room({0, 0, 0}, {1, 2, 3}, 2, {{"wall", rho, emission}}, {0, 0, 0, 0, 0, 0}));
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     const std::vector<Vec3> radiosity(mesh.patches().size(), emission / (1.0 - rho));
     for (const Vec3& light : indirect_irradiance(mesh, bvh, radiosity, 40, 1, Workers(2))) {
         CHECK(light.r == Approx(3)); // B - E on all sides, whatever the rays
@@ -29,7 +29,7 @@ TEST_CASE("indirect irradiance between two squares follows their form factor") {
     scene.groups = {"all"};
     scene.faces = 2;
     const Mesh mesh(std::move(scene));
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     const double f = 0.19982490; // Howell C-11
     const std::vector<Vec3> radiosity{Vec3(0.1), Vec3(1.25)};
     const unsigned rays = 1'000'000;

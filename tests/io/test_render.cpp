@@ -1,4 +1,4 @@
-#include "bvh/bvh.h"
+#include "bvh/wide/wide_bvh.h"
 #include "io/rendering/render.h"
 #include "io/results/smooth.h"
 #include "radiosity/scene/mesh.h"
@@ -31,7 +31,7 @@ const Camera square_camera{
 
 TEST_CASE("in a furnace every pixel is the same") {
     const Mesh mesh(furnace_box(3, 0.5));
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     const std::vector<Vec3> b(mesh.patches().size(), {1, 2, 3});
     const Camera camera = automatic_camera(mesh, bvh, b);
     for (const bool smooth : {false, true}) {
@@ -44,7 +44,7 @@ TEST_CASE("in a furnace every pixel is the same") {
 
 TEST_CASE("without smoothing a pixel shows its patch") {
     const Mesh mesh = wall(4);
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     std::vector<Vec3> b;
     for (std::size_t i = 0; i < 16; ++i)
         b.emplace_back(static_cast<double>(i) + 1);
@@ -57,7 +57,7 @@ TEST_CASE("without smoothing a pixel shows its patch") {
 
 TEST_CASE("smoothing shows a linear radiosity without steps") {
     const Mesh mesh = wall(8);
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     std::vector<Vec3> b;
     for (const Patch& patch : mesh.patches())
         b.push_back(Vec3(1 + mesh.frame().to_world(patch.centre).x));
@@ -70,7 +70,7 @@ TEST_CASE("smoothing shows a linear radiosity without steps") {
 
 TEST_CASE("the edge of a surface in a pixel is mixed with the black behind it") {
     const Mesh mesh = wall(1);
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     Camera camera = square_camera;
     camera.eye.x = camera.target.x = 0; // the wall covers the right half
     const Image image = render(mesh, bvh, std::vector<Vec3>{Vec3(1)}, camera,
@@ -82,7 +82,7 @@ TEST_CASE("the edge of a surface in a pixel is mixed with the black behind it") 
 
 TEST_CASE("a picture does not depend on the number of threads") {
     const Mesh mesh(room_with_block());
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     std::vector<Vec3> b;
     for (const Patch& patch : mesh.patches())
         b.push_back(glm::abs(patch.centre) + 0.1);
@@ -98,7 +98,7 @@ TEST_CASE("a picture does not depend on the number of threads") {
 
 TEST_CASE("a picture without pixels or samples is refused") {
     const Mesh mesh = wall(1);
-    const Bvh bvh(mesh.soup());
+    const WideBvh bvh(mesh.soup());
     const std::vector<Vec3> b{Vec3(1)};
     for (const RenderOptions& options :
          {RenderOptions{.width = 0}, RenderOptions{.height = -3}, RenderOptions{.samples = 0}})

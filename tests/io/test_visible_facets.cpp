@@ -1,5 +1,5 @@
 // What is filled row by row is what rays of the camera see.
-#include "bvh/bvh.h"
+#include "bvh/wide/wide_bvh.h"
 #include "io/rendering/visible_facets.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
@@ -41,7 +41,7 @@ struct Differences {
 };
 
 Differences differences_of(const Mesh& mesh, const Camera& camera) {
-    const Bvh bvh(mesh.soup_to_trace());
+    const WideBvh bvh(mesh.soup_to_trace());
     const CameraRays rays(camera, mesh, double(width) / height);
     const VisibleFacets visible(mesh, rays, {width, height, 1.0 / width, 1.0 / height}, offsets, 1);
     Differences found;

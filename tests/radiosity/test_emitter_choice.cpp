@@ -1,9 +1,9 @@
 // Which emitters shadow rays go to.
+#include "radiosity/emitters/direct_light.h"
+#include "radiosity/emitters/emitter_choice.h"
+#include "radiosity/emitters/small_emitters.h"
 #include "radiosity/form_factors/pair_factor.h"
 #include "radiosity/rays/shot.h"
-#include "radiosity/stored_transport/direct_light.h"
-#include "radiosity/stored_transport/emitter_choice.h"
-#include "radiosity/stored_transport/small_emitters.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

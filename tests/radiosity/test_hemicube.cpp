@@ -158,7 +158,7 @@ TEST_CASE("Factors of a small patch converge to the closed form of its centre") 
         const bool front = glm::dot(seen.normal, below - seen.centre) > 0;
         const double exact = front ? test::point_to_polygon(below, up, seen.shape) : 0;
         CAPTURE(exact);
-        for (const std::uint32_t edge : {16u, 64u, 256u, 1024u}) {
+        for (const std::uint32_t edge : {8u, 32u, 128u, 512u}) {
             const auto [factor, lost] = FirstRow(model, edge);
             // Pixels that the outline cuts: some edges of the cube, each of a share 1 / edge of it.
             CHECK(factor == Approx(exact).margin(.5 / edge));

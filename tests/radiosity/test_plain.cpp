@@ -79,7 +79,7 @@ TEST_CASE("Section 5 on one page has the engine's bits") {
 
 TEST_CASE("Section 5 on one page: depths and thresholds") {
     const Model model(test::room_with_block());
-    SolveOptions options = with_rays(30);
+    SolveOptions options = with_rays(15);
     for (options.depth = 0; options.depth <= 4; ++options.depth)
         for (const double threshold : {0.0, 1.5, 4.0}) {
             options.threshold = threshold;
@@ -90,13 +90,13 @@ TEST_CASE("Section 5 on one page: depths and thresholds") {
 
 TEST_CASE("Sections 3.2, 3.3 and 4 on a page have the engine's bits") {
     for (const char* name : {"monte-carlo", "progressive-monte-carlo"}) {
-        check_same(Model(example("room_1002")), method(name), with_rays(6), 2);
+        check_same(Model(example("room_1002")), method(name), with_rays(3), 2);
         check_same(Model(test::open_scene()), method(name), with_rays(50), 4);
         check_same(Model(test::furnace_box(3, .5)), method(name), with_rays(20), 3);
     }
     const Method& of_1997 = method("hemisphere-1997");
     for (const bool literal : {false, true}) {
-        check_same(Model(test::room_with_block()), of_1997, with_rays(80, literal),
+        check_same(Model(test::room_with_block()), of_1997, with_rays(40, literal),
                    literal ? 1 : 5);
         check_same(Model(test::open_scene()), of_1997, with_rays(20, literal), 4);
     }

@@ -1,12 +1,12 @@
 // Stored transport: its parts against what they must obey, the whole against the
 // reference.
+#include "radiosity/emitters/direct_light.h"
+#include "radiosity/emitters/small_emitters.h"
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/linear/conjugate_gradients.h"
 #include "radiosity/saving/state.h"
-#include "radiosity/stored_transport/direct_light.h"
 #include "radiosity/stored_transport/ray_allocation.h"
-#include "radiosity/stored_transport/small_emitters.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -6,9 +6,10 @@
 namespace hemilux::test {
 namespace {
 
-/// Index of a vertex at exactly this position, so that neighbours share vertices.
+/// Index of a vertex at exactly this position, so that neighbours share vertices. They are mostly
+/// among the last.
 std::uint32_t vertex(Scene& scene, const Vec3& p) {
-    for (std::uint32_t i = 0; i < scene.vertices.size(); ++i)
+    for (auto i = static_cast<std::uint32_t>(scene.vertices.size()); i-- > 0;)
         if (scene.vertices[i] == p)
             return i;
     scene.vertices.push_back(p);

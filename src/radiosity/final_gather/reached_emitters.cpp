@@ -1,8 +1,8 @@
 #include "radiosity/final_gather/reached_emitters.h"
 
+#include "radiosity/emitters/small_emitters.h"
 #include "radiosity/form_factors/point_to_patch.h"
 #include "radiosity/sampling/rng.h"
-#include "radiosity/stored_transport/small_emitters.h"
 
 #include <utility>
 

@@ -4,10 +4,10 @@
 
 #include "bvh/tracer.h"
 #include "geometry/polygon_sampler.h"
+#include "radiosity/emitters/emitter_choice.h"
 #include "radiosity/final_gather/surface_points.h"
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/stored_transport/emitter_choice.h"
 
 #include <cstdint>
 #include <span>

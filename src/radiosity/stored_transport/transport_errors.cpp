@@ -1,12 +1,12 @@
 #include "radiosity/stored_transport/transport_errors.h"
 
 #include "geometry/vector_ratio.h"
+#include "radiosity/emitters/direct_light.h"
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/scene/alike_neighbours.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solution/missed_light.h"
 #include "radiosity/stored_transport/batch_light.h"
-#include "radiosity/stored_transport/direct_light.h"
 #include "radiosity/stored_transport/linked_parts.h"
 #include "radiosity/stored_transport/row_spread.h"
 #include "radiosity/stored_transport/transport_system.h"

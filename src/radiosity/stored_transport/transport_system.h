@@ -4,11 +4,11 @@
 // and once for all together.
 
 #include "parallel/workers.h"
+#include "radiosity/emitters/direct_light.h"
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/linear/energy_ledger.h"
 #include "radiosity/solving/stop_flag.h"
 #include "radiosity/stored_transport/batch_light.h"
-#include "radiosity/stored_transport/direct_light.h"
 
 #include <cstdint>
 #include <optional>

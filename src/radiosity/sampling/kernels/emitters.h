@@ -1,4 +1,4 @@
-// How likely emitters are drawn (radiosity/stored_transport/emitter_choice.h). No #pragma once: see
+// How likely emitters are drawn (radiosity/emitters/emitter_choice.h). No #pragma once: see
 // sobol.h.
 
 #include "radiosity/sampling/sampling_kernels.h"

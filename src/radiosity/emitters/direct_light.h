@@ -12,8 +12,8 @@
 #include "geometry/vector.h"
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
+#include "radiosity/emitters/emitter_choice.h"
 #include "radiosity/scene/needs.h"
-#include "radiosity/stored_transport/emitter_choice.h"
 
 #include <cstdint>
 #include <span>

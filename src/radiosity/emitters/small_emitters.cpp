@@ -1,4 +1,4 @@
-#include "radiosity/stored_transport/small_emitters.h"
+#include "radiosity/emitters/small_emitters.h"
 
 #include "geometry/polygon_sampler.h"
 #include "radiosity/form_factors/pair_factor.h"

@@ -1,4 +1,4 @@
-#include "radiosity/stored_transport/emitter_choice.h"
+#include "radiosity/emitters/emitter_choice.h"
 
 #include "geometry/median.h"
 #include "radiosity/rays/shot.h"

@@ -1,5 +1,6 @@
-#include "radiosity/stored_transport/direct_light.h"
+#include "radiosity/emitters/direct_light.h"
 
+#include "radiosity/emitters/small_emitters.h"
 #include "radiosity/form_factors/pair_factor.h"
 #include "radiosity/form_factors/point_to_patch.h"
 #include "radiosity/rays/receivers.h"
@@ -10,7 +11,6 @@
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/solver.h"
-#include "radiosity/stored_transport/small_emitters.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,56 @@
+#pragma once
+// The rays that stored transport keeps: independent batches of rays at random, counted by what they
+// hit, and shadow rays to the small emitters, with an estimate for each batch.
+
+#include "radiosity/emitters/direct_light.h"
+#include "radiosity/form_factors/exchange_matrix.h"
+#include "radiosity/form_factors/ray_counts.h"
+#include "radiosity/solving/solver.h"
+#include "radiosity/stored_transport/ray_plan.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class StoredRays {
+  public:
+    static constexpr unsigned batches = 4;
+
+    /// No rays yet, of generation 0. What the input refers to outlives this.
+    explicit StoredRays(const SolverInput& input);
+
+    /// Patches whose light comes by shadow rays.
+    [[nodiscard]] std::span<const std::uint32_t> emitters() const { return emitters_; }
+    [[nodiscard]] std::span<const RayCounts> counts() const { return counts_; }
+    [[nodiscard]] const DirectLight& direct() const { return *direct_; }
+
+    /// Forgets all rays. Those of different generations are independent.
+    void renew(std::uint64_t generation);
+    /// Goes on until each patch has so many rays in each batch. Returns the number traced now.
+    /// Where the monitor was interrupted meanwhile some patches have fewer, and another call takes
+    /// up the rest. `share`: what part of a step the rays at random are.
+    std::uint64_t trace_up_to(const PlannedRays& rays, double share, const Workers& workers);
+
+    /// The factors that the rays at random of all batches show.
+    [[nodiscard]] ExchangeMatrix factors(const Workers& workers) const;
+    /// By patch: whether it is of a part of the scene (linked_parts.h) where a patch emits or has
+    /// got light by a shadow ray. `emission`: of each patch.
+    [[nodiscard]] std::vector<bool> lit_patches(std::span<const Vec3> emission) const;
+    /// Bytes of the rays at random, on all ranks, which all call this.
+    [[nodiscard]] std::uint64_t bytes_of_counts() const;
+
+    void save(StateWriter& state) const;
+    /// Throws StateError for what save() cannot have written of this mesh.
+    void load(StateReader& state);
+
+  private:
+    SolverInput input_;
+    std::vector<std::uint32_t> emitters_;
+    std::vector<RayCounts> counts_; ///< by batch
+    std::optional<DirectLight> direct_;
+};
+
+} // namespace hemilux
