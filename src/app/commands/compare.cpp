@@ -181,9 +181,9 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     std::optional<Reference> reference;
     if (!settings.reference.empty())
         reference = read_reference(settings.reference, mesh, {});
-    const Prepared prepared = prepare(loaded, settings.options);
+    const Prepared prepared = prepare(loaded, settings.options, settings.verbosity);
     const Needs& needs = prepared.needs;
-    const auto& [tracer, tree] = prepared.made;
+    const auto& [tracer, tree, crowd] = prepared.made;
     guard.watch(monitor.interrupted);
     monitor.interrupted.share(*settings.ranks);
     log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, prepared.seconds));

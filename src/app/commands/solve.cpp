@@ -146,7 +146,7 @@ double SolveRun::bytes_of_outputs() const {
 }
 
 void SolveRun::build_tree() {
-    prepared_ = prepare(*loaded_, settings_.options);
+    prepared_ = prepare(*loaded_, settings_.options, settings_.verbosity);
     statistics_.seconds_bvh = prepared_->seconds;
     log_line(settings_.verbosity, Verbosity::verbose,
              tracer_text(prepared_->made.tree, statistics_.seconds_bvh));

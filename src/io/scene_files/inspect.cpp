@@ -67,6 +67,15 @@ void sum_areas(const Scene& scene, SceneInfo& info) {
 SceneInfo inspect(const ReadResult& read) {
     const Scene& scene = read.scene;
     SceneInfo info;
+/// As Mesh does.
+void find_covered(Scene scene, SceneInfo& info) {
+    const std::vector<Vec3> vertices = LocalFrame::of(scene).to_local(scene.vertices);
+    unite_near_twins(scene, vertices);
+    const CoplanarLayers layers = find_coplanar_layers(scene, vertices);
+    info.covered_facets = layers.covered;
+    info.all_compared = layers.complete;
+}
+
     info.faces = scene.faces;
     info.facets = scene.facets.size();
     info.triangles = static_cast<std::size_t>(
@@ -81,10 +90,7 @@ SceneInfo inspect(const ReadResult& read) {
     const EdgeCounts edges = count_edges(scene);
     info.open_edges = edges.open;
     info.nonmanifold_edges = edges.nonmanifold;
-    const CoplanarLayers layers =
-        find_coplanar_layers(scene, LocalFrame::of(scene).to_local(scene.vertices));
-    info.covered_facets = layers.covered;
-    info.all_compared = layers.complete;
+    find_covered(scene, info);
     info.degenerate_faces = read.degenerate_faces;
     info.nonplanar_faces = read.nonplanar_faces;
     info.concave_faces = read.concave_faces;
