@@ -15,11 +15,13 @@
 #include "app/terminal/log.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/summary.h"
+#include "app/terminal/wrap.h"
 #include "io/files/error.h"
 #include "radiosity/sampling/rng.h"
 
 #include <atomic>
 #include <iostream>
+#include <unistd.h>
 
 namespace hemilux {
 
@@ -137,7 +139,8 @@ int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
         log_line(verbosity, Verbosity::normal, "the reference's own error: " + percent(own));
         if (!warning.empty())
             log_line(verbosity, Verbosity::normal, "warning: " + warning);
-        std::cout << aligned(summary_rows(summaries)) << std::flush;
+        std::cout << aligned_for(terminal_columns(STDOUT_FILENO), summary_rows(summaries))
+                  << std::flush;
         if (const std::string note = gain_note(summaries); !note.empty())
             log_line(verbosity, Verbosity::normal, note);
         if (!std::cout)
