@@ -1,6 +1,7 @@
 // --divide, and the error of the light within patches.
 #include "app/program.h"
 #include "app/running.h"
+#include "app/running/results.h"
 #include "app/statistics_file.h"
 
 #include "support/catch.h"
@@ -26,6 +27,33 @@ TEST_CASE("a run on fixed patches reports what sampling and what the division le
     CHECK(statistic(json, "error_division") > .05);
     CHECK(statistic(json, "error_division_uncertainty") > 0);
     CHECK(statistic(json, "rays_divide") == 0);
+}
+
+TEST_CASE("the error of the division is found where it is shown; tables do not depend on it") {
+    hemilux::SolveSettings settings;
+    settings.outputs = {{"a.csv", hemilux::OutputKind::csv}};
+    CHECK(shows_statistics(settings));
+    settings.verbosity = hemilux::Verbosity::quiet;
+    settings.steps_log = "steps.csv"; // the errors of steps are those of sampling
+    CHECK_FALSE(shows_statistics(settings));
+    const auto shown_by = [&](auto change) {
+        hemilux::SolveSettings other = settings;
+        change(other);
+        return shows_statistics(other);
+    };
+    CHECK(shown_by([](auto& s) { s.statistics = "s.json"; }));
+    CHECK(shown_by([](auto& s) { s.report = "page.html"; }));
+    CHECK(shown_by([](auto& s) { s.outputs.push_back({"-.json", hemilux::OutputKind::json}); }));
+
+    const Workplace place;
+    place.write_room();
+    for (const std::string divide : {"none", "auto"}) {
+        const std::string command = "solve room.obj --error .2 --divide " + divide;
+        REQUIRE(place.hemilux(command + " -q -o quiet.csv").code == 0);
+        REQUIRE(place.hemilux(command + " -o shown.csv --stats s.json").code == 0);
+        CHECK(place.read("quiet.csv") == place.read("shown.csv"));
+        CHECK(statistic(place.read("s.json"), "error_division") > 0);
+    }
 }
 
 TEST_CASE("--divide auto ends near the whole error asked for, with the same bytes for any threads",

@@ -4,6 +4,7 @@
 #include "radiosity/solving/method.h"
 #include "support/catch.h"
 
+#include <cmath>
 #include <string>
 
 using Catch::Contains;
@@ -57,6 +58,31 @@ TEST_CASE("a comparison by time ends, whatever --rays asks for") {
                       "--methods monte-carlo,hemisphere --reference ref.csv -o folder");
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
+}
+
+TEST_CASE("triangles that a ray has to test by the thousand are reported, with their place") {
+    const Workplace place;
+    std::string many = "v 0 0 9\nv 0 1 9\nv 1 0 9\nusemtl lamp\nf 1 2 3\nusemtl grey\ng star\n";
+    for (int k = 0; k < 1500; ++k) { // all through the origin, each turned
+        const double a = .004 * k;
+        for (int corner = 0; corner < 3; ++corner) {
+            const double b = a + 2.0944 * corner;
+            many += "v " + std::to_string(std::cos(b)) + ' ' + std::to_string(std::sin(b)) + ' ' +
+                    std::to_string(.3 * std::sin(5 * b + a)) + '\n';
+        }
+        many += "f -3 -2 -1\n";
+    }
+    place.write("star.mtl", "newmtl lamp\nKe 9 9 9\nnewmtl grey\nKd .5 .5 .5\n");
+    place.write("star.obj", "mtllib star.mtl\n" + many);
+    const std::string said = "triangles, as so many lie in one place (group star, around ";
+    CHECK_THAT(place.hemilux("info star.obj").err, Contains(said));
+    const auto solved = place.hemilux("solve star.obj --rays 1 --steps 1 --method monte-carlo "
+                                      "--sides both -o a.csv");
+    CAPTURE(solved.err);
+    CHECK(solved.code == 0);
+    CHECK_THAT(solved.err, Contains(said));
+    place.write_room();
+    CHECK_THAT(place.hemilux("info room.obj").err, !Contains("has to test"));
 }
 
 TEST_CASE("--memory counts pictures") {

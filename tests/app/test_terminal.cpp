@@ -1,4 +1,5 @@
 // What a terminal shows: lines of at most 80 columns. Files and pipes get each message as one line.
+#include "app/commands/compare_summary.h"
 #include "app/program.h"
 #include "app/split.h"
 #include "app/terminal/wrap.h"
@@ -159,6 +160,45 @@ TEST_CASE("summaries have lines of at most 80 columns on a terminal", "[slow]") 
          "formfactors room.obj -o a.csv", "density room.obj -o a.png --size 16x12",
          "compare room.obj -o b --methods hemisphere,stratified --size 16x12 -v "
          ">table.txt"});
+}
+
+TEST_CASE("a table that is too wide goes on below, without columns in which nothing is known") {
+    const std::vector<std::vector<std::string>> rows{{"method", "rays", "seconds", "detail %"},
+                                                     {"a", "12.3 k", "-", "1.2"},
+                                                     {"other", "-", "-", "34"}};
+    const std::string whole = "method    rays  seconds  detail %\n"
+                              "a       12.3 k        -       1.2\n"
+                              "other        -        -        34\n";
+    CHECK(hemilux::aligned_for(0, rows) == whole);
+    CHECK(hemilux::aligned_for(33, rows) == whole);
+    CHECK(hemilux::aligned_for(32, rows) == "method    rays  detail %\n"
+                                            "a       12.3 k       1.2\n"
+                                            "other        -        34\n");
+    const std::string narrow = "method    rays\na       12.3 k\nother        -\n\n"
+                               "method  detail %\na            1.2\nother         34\n";
+    CHECK(hemilux::aligned_for(23, rows) == narrow);
+    CHECK(hemilux::aligned_for(1, rows) == narrow); // a column at a time, however narrow
+}
+
+TEST_CASE("the table of compare fits the terminal; a pipe gets all columns in one") {
+    const Workplace place;
+    place.write_room();
+    const std::string command = "compare room.obj -o out --methods hemisphere,progressive-monte-"
+                                "carlo --size 16x12 --runs 2 --budget-rays 3e5 -q";
+    const std::string piped = place.hemilux(command).out;
+    CAPTURE(piped);
+    CHECK(lines_of(piped).size() == 3);
+    CHECK(longest_line(piped) > 100);
+    for (const std::size_t columns : {60, 80, 100, 400}) {
+        Terminal terminal(static_cast<unsigned short>(columns));
+        const std::string shown = terminal.shows(place, command);
+        CAPTURE(columns, shown);
+        CHECK(longest_line(shown) <= columns);
+        CHECK((shown.find("\n\n") == std::string::npos) == (columns == 400));
+        for (const char* const head : {"rays", "seconds", "error %", "detail %", "rest %",
+                                       "estimated %", "estimated/error", "time gain", "ray gain"})
+            CHECK_THAT(shown, Contains(head));
+    }
 }
 
 TEST_CASE("errors have lines of at most 80 columns on a terminal") {

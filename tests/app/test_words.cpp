@@ -116,6 +116,8 @@ TEST_CASE("figures for people") {
     CHECK(short_count(999.9) == "1.00 k");
     CHECK(short_count(12345) == "12.3 k");
     CHECK(short_count(4.56e6) == "4.56 M");
+    CHECK(short_counted(1, "ray", "rays") == "1 ray");
+    CHECK(short_counted(12345, "ray", "rays") == "12.3 k rays");
     CHECK(grouped(1234567) == "1 234 567");
     CHECK(grouped(123) == "123");
     CHECK(duration(0.00123) == "1.23 ms");

@@ -280,6 +280,22 @@ TEST_CASE("The wide tree's own figures") {
 }
 
 // So a scene of triangles alone has no test of second halves.
+TEST_CASE("Triangles that all pass through one point are counted around it, and not beside it") {
+    Soup soup;
+    constexpr int number = 500;
+    for (int k = 0; k < number; ++k) {
+        const double angle = .01 * k;
+        const Vec3 along(std::cos(angle), std::sin(angle), .1 * std::sin(7 * angle));
+        const Vec3 across = glm::normalize(glm::cross(along, Vec3(.3, .2, 1)));
+        soup.triangle(along, -.5 * along + across, -.5 * along - across);
+    }
+    soup.triangle({10, 10, 10}, {11, 10, 10}, {10, 11, 10.5});
+    const WideBvh bvh(soup.view());
+    CHECK(bvh.triangles_around(Vec3(0)) == number);
+    CHECK(bvh.triangles_around(Vec3(5)) == 0);
+    CHECK(bvh.triangles_around(Vec3(10.3, 10.3, 10.1)) == 1);
+}
+
 TEST_CASE("A triangle takes one slot of a leaf, a quad two") {
     const auto slots = [](const wide::Built& built) {
         std::array<std::size_t, 2> found{}; // without and with the flag of second halves

@@ -107,7 +107,12 @@ TEST_CASE("the description says what there is and what is doubtful", "[inspect]"
     CHECK(closed.find("edges of only one face") == std::string::npos);
     const std::string open = describe(inspect(read_box(false, "f 1 1 2\n")));
     CHECK(open.find("4 (edges of only one face") != std::string::npos);
-    CHECK(open.find("without area") != std::string::npos);
+    CHECK(open.find("without area        1 (face left out)") != std::string::npos);
+    CHECK(closed.find("6 (0 triangles, 6 quads)") != std::string::npos);
+    CHECK(describe(inspect(read_box(true, "f 1 2 3\nf 1 1 2\nf 2 2 3\n")))
+              .find("7 (1 triangle, 6 quads)") != std::string::npos);
+    CHECK(describe(inspect(read_box(true, "f 1 1 2\nf 2 2 3\n"))).find("2 (faces left out)") !=
+          std::string::npos);
 }
 
 TEST_CASE("facets beneath another that faces the same way are counted", "[inspect]") {

@@ -43,6 +43,22 @@ Scene pile(std::uint32_t n) {
     return scene;
 }
 
+/// The same with corners of their own, each moved along each axis by up to so much.
+Scene scattered_pile(std::uint32_t n, double by) {
+    Scene scene = pile(n);
+    Rng rng(3);
+    for (Facet& facet : std::span(scene.facets).subspan(1)) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            scene.vertices.push_back(
+                scene.vertices[facet.vertex[i]] +
+                by * (2.0 * Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 1.0));
+            facet.vertex[i] = static_cast<std::uint32_t>(scene.vertices.size() - 1);
+        }
+        facet.vertex[3] = facet.vertex[2];
+    }
+    return scene;
+}
+
 /// Squares of one plane each of which lies over every other, no two in the same place.
 Scene heap(std::uint32_t n) {
     Scene scene = empty_scene();
@@ -57,6 +73,22 @@ Scene heap(std::uint32_t n) {
 
 std::vector<Vec3> local(const Scene& scene) {
     return LocalFrame::of(scene).to_local(scene.vertices);
+}
+
+std::size_t facets_out_of_reach(const Mesh& mesh) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(mesh.soup_to_trace().facets,
+                              [](const FacetCorners& c) { return c[0] == c[1] && c[1] == c[2]; }));
+}
+
+/// How many facets unite_near_twins() changes.
+std::size_t united(const Scene& scene) {
+    Scene after = scene;
+    unite_near_twins(after, local(scene));
+    std::size_t changed = 0;
+    for (std::size_t f = 0; f < scene.facets.size(); ++f)
+        changed += after.facets[f].vertex != scene.facets[f].vertex;
+    return changed;
 }
 
 /// Sanitizers have memory of their own, so their builds do not ask.
@@ -78,10 +110,33 @@ TEST_CASE("Facets in one place make no more pairs than the few that are kept") {
     const Mesh mesh(scene);
     CHECK(mesh.all_layers_are_offset());
     CHECK(mesh.patches().size() == 30'001);
-    const FacetSoup traced = mesh.soup_to_trace();
-    CHECK(std::ranges::count_if(traced.facets, [](const FacetCorners& c) {
-              return c[0] == c[1] && c[1] == c[2];
-          }) == 30'000 - 2 * int(kept_alike));
+    CHECK(facets_out_of_reach(mesh) == 30'000 - 2 * kept_alike);
+}
+
+TEST_CASE("Facets that are in one place but for rounding are as if they were in it exactly") {
+    constexpr double by = 1e-7;
+    const Scene scene = scattered_pile(3000, by);
+    const Mesh mesh(scene);
+    CHECK(mesh.all_layers_are_offset());
+    CHECK(facets_out_of_reach(mesh) >= 3000 - 8 * kept_alike);
+    double farthest = 0;
+    for (std::uint32_t f = 0; f < scene.facets.size(); ++f)
+        for (std::size_t i = 0; i < 3; ++i)
+            farthest =
+                std::max(farthest, glm::length(scene.vertices[mesh.scene().facets[f].vertex[i]] -
+                                               scene.vertices[scene.facets[f].vertex[i]]));
+    CHECK(farthest > 0);
+    CHECK(farthest < 4 * by);
+}
+
+TEST_CASE("Few facets near each other, and many that lie beside each other, stay where they are") {
+    CHECK(united(scattered_pile(kept_alike, 1e-7)) == 0);
+    CHECK(united(scattered_pile(3000, 1e-2)) == 0);
+    CHECK(united(scattered_pile(3000, 1e-7)) > 2800);
+    Scene strip = empty_scene();
+    test::add_quad(strip, {0, 0, 0}, {1e-3, 0, 0}, {1e-3, 1, 0}, {0, 1, 0}, 2000, 1, grey);
+    test::add_quad(strip, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, 1, 1, grey);
+    CHECK(united(strip) == 0);
 }
 
 TEST_CASE("Of many facets in one place the first is lit as if it were alone", "[slow]") {
@@ -94,6 +149,13 @@ TEST_CASE("Of many facets in one place the first is lit as if it were alone", "[
     const double few = solved(3);
     CHECK(few > 0);
     CHECK(solved(100) == Approx(few).epsilon(.05));
+    Scene one_way = scattered_pile(100, 1e-7);
+    for (std::size_t f = 3; f < one_way.facets.size(); f += 3)
+        std::swap(one_way.facets[f].vertex[0], one_way.facets[f].vertex[1]);
+    const Model scattered(one_way);
+    const SolveOptions options{.rays = 40'000.0 / 101, .threads = 1};
+    const Solution solution = test::solve(scattered, method, options, test::steps(16));
+    CHECK(solution.radiosity[1].x == Approx(few).epsilon(.05));
 }
 
 TEST_CASE("The brightest of many facets in one place is never buried") {

@@ -15,11 +15,13 @@
 #include "app/terminal/log.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/summary.h"
+#include "app/terminal/wrap.h"
 #include "io/files/error.h"
 #include "radiosity/sampling/rng.h"
 
 #include <atomic>
 #include <iostream>
+#include <unistd.h>
 
 namespace hemilux {
 
@@ -137,7 +139,8 @@ int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
         log_line(verbosity, Verbosity::normal, "the reference's own error: " + percent(own));
         if (!warning.empty())
             log_line(verbosity, Verbosity::normal, "warning: " + warning);
-        std::cout << aligned(summary_rows(summaries)) << std::flush;
+        std::cout << aligned_for(terminal_columns(STDOUT_FILENO), summary_rows(summaries))
+                  << std::flush;
         if (const std::string note = gain_note(summaries); !note.empty())
             log_line(verbosity, Verbosity::normal, note);
         if (!std::cout)
@@ -181,9 +184,9 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     std::optional<Reference> reference;
     if (!settings.reference.empty())
         reference = read_reference(settings.reference, mesh, {});
-    const Prepared prepared = prepare(loaded, settings.options);
+    const Prepared prepared = prepare(loaded, settings.options, settings.verbosity);
     const Needs& needs = prepared.needs;
-    const auto& [tracer, tree] = prepared.made;
+    const auto& [tracer, tree, crowd] = prepared.made;
     guard.watch(monitor.interrupted);
     monitor.interrupted.share(*settings.ranks);
     log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, prepared.seconds));

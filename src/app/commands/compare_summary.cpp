@@ -114,6 +114,28 @@ std::vector<std::string> table_row(const MethodSummary& s) {
     return row;
 }
 
+using Rows = std::vector<std::vector<std::string>>;
+
+/// The first column and some of the others.
+Rows with_columns(const Rows& rows, std::span<const std::size_t> columns) {
+    Rows some;
+    for (const auto& row : rows) {
+        some.push_back({row.front()});
+        for (const std::size_t c : columns)
+            some.back().push_back(row[c]);
+    }
+    return some;
+}
+
+std::vector<std::size_t> known_columns(const Rows& rows) {
+    std::vector<std::size_t> known;
+    for (std::size_t c = 1; c < rows.front().size(); ++c)
+        if (std::any_of(rows.begin() + 1, rows.end(),
+                        [&](const auto& row) { return row[c] != "-"; }))
+            known.push_back(c);
+    return known;
+}
+
 } // namespace
 
 std::string aligned(const std::vector<std::vector<std::string>>& rows) {
@@ -128,6 +150,23 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
             text += c == 0 ? row[c] + fill : "  " + fill + row[c];
         }
         text += '\n';
+    }
+    return text;
+}
+
+std::string aligned_for(std::size_t columns, const std::vector<std::vector<std::string>>& rows) {
+    const auto fits = [&](const std::string& table) { return table.find('\n') <= columns; };
+    std::string text = aligned(rows);
+    if (columns == 0 || fits(text))
+        return text;
+    text.clear();
+    const std::vector<std::size_t> known = known_columns(rows);
+    for (std::span<const std::size_t> left(known); !left.empty();) {
+        std::size_t count = 1;
+        while (count < left.size() && fits(aligned(with_columns(rows, left.first(count + 1)))))
+            ++count;
+        text += (text.empty() ? "" : "\n") + aligned(with_columns(rows, left.first(count)));
+        left = left.subspan(count);
     }
     return text;
 }

@@ -44,6 +44,11 @@ summary_rows(std::span<const MethodSummary> summaries);
 /// Lines of text: columns two blanks apart, the first flush left, the others flush right.
 [[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& rows);
 
+/// The same for a terminal of so many `columns`, 0: none. Where the lines would be longer, columns
+/// in which nothing is known are left out, and those that do not fit stand in a table below.
+[[nodiscard]] std::string aligned_for(std::size_t columns,
+                                      const std::vector<std::vector<std::string>>& rows);
+
 /// What the standard errors of the gains come from; empty where no gain has or lacks one.
 [[nodiscard]] std::string gain_note(std::span<const MethodSummary> summaries);
 

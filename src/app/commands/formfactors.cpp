@@ -54,8 +54,7 @@ struct Factors {
 
 void log_rays(Verbosity verbosity, std::size_t patches, std::uint64_t rays) {
     log_line(verbosity, Verbosity::normal,
-             counted(patches, "patch", "patches") + ", " + short_count(static_cast<double>(rays)) +
-                 " rays");
+             counted(patches, "patch", "patches") + ", " + short_counted(rays, "ray", "rays"));
 }
 
 /// Nothing where the user interrupted.

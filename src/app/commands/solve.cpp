@@ -146,7 +146,7 @@ double SolveRun::bytes_of_outputs() const {
 }
 
 void SolveRun::build_tree() {
-    prepared_ = prepare(*loaded_, settings_.options);
+    prepared_ = prepare(*loaded_, settings_.options, settings_.verbosity);
     statistics_.seconds_bvh = prepared_->seconds;
     log_line(settings_.verbosity, Verbosity::verbose,
              tracer_text(prepared_->made.tree, statistics_.seconds_bvh));
@@ -250,7 +250,8 @@ void SolveRun::estimate_errors() {
     if (divided_.linear)
         solution_ = &linear_.emplace(with_slopes(*solution_, divided_));
     fill(statistics_, settings_, mesh(), *solution_, seconds_solver_);
-    if (!settings_.work().estimates_error) // the error of the division would be taken for it
+    // Without an estimate of sampling the error of the division would be taken for the whole.
+    if (!settings_.work().estimates_error || !shows_statistics(settings_))
         statistics_.error_sampling = statistics_.estimated_error;
     else
         add_division_error(statistics_, settings_, mesh(), tracer(), *solution_, divided_,

@@ -12,6 +12,7 @@
 #include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
+#include "geometry/polygon.h"
 #include "io/files/error.h"
 #include "io/scene_files/inspect.h"
 #include "parallel/workers.h"
@@ -52,6 +53,11 @@ std::string no_light_text(const Scene& scene, const std::vector<std::string>& ma
            "--emission 'MATERIAL=R,G,B' makes a material emit. Its materials: " +
            list_names(materials) +
            (lamps.empty() ? "" : "; by their names these may be lamps: " + list_names(lamps));
+}
+
+void warn(LoadedMesh& loaded, const std::string& text, Verbosity verbosity) {
+    loaded.warnings.push_back(text);
+    log_line(verbosity, Verbosity::normal, "warning: " + text);
 }
 
 } // namespace
@@ -133,7 +139,7 @@ ViewSettings view_of(const ViewSettings& asked, const LoadedMesh& loaded, Verbos
 }
 
 /// Either by a thread of its own, where there are two.
-Prepared prepare(LoadedMesh& loaded, const SolveOptions& options) {
+Prepared prepare(LoadedMesh& loaded, const SolveOptions& options, Verbosity verbosity) {
     const Stopwatch preparing;
     const Mesh& mesh = loaded.mesh;
     Prepared prepared{.needs = {}, .made = std::move(loaded.made), .seconds = 0};
@@ -149,7 +155,25 @@ Prepared prepare(LoadedMesh& loaded, const SolveOptions& options) {
             prepared.needs = find_needs(mesh);
     });
     prepared.seconds = loaded.seconds_sides + preparing.seconds();
+    if (const std::string text = crowd_text(prepared.made.crowd, mesh); !text.empty())
+        warn(loaded, text, verbosity);
     return prepared;
+}
+
+std::string crowd_text(const Crowd& crowd, const Mesh& mesh) {
+    constexpr std::size_t many = 1000;
+    if (crowd.triangles < many)
+        return "";
+    const Scene& scene = mesh.scene();
+    const Facet& facet = scene.facets[crowd.facet];
+    constexpr double steps = 4096; // in the scene: rounding is not to be printed
+    const Vec3 local = polygon_of(mesh.vertices(), facet.vertex).centre();
+    const Vec3 place = mesh.frame().to_world(glm::round(local * steps) / steps);
+    return "a ray has to test about " + grouped(crowd.triangles) +
+           " triangles, as so many lie in one place (group " + scene.groups[facet.group] +
+           formatted(", around %.4g %.4g %.4g), ", place.x, place.y, place.z) +
+           "so this takes long; remove what is there many times over, as Merge by Distance of "
+           "Blender does, or end sooner by --time";
 }
 
 LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
@@ -170,13 +194,12 @@ LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                       dividing.seconds(),          std::move(read.face_lines), read.camera,
                       std::move(read.camera_name), std::move(read.warnings)};
     loaded.up = up_of(settings.path, loaded.camera);
-    if (!loaded.mesh.all_layers_are_offset()) {
-        loaded.warnings.push_back(
-            settings.path +
-            ": very many faces lie over each other in one plane; for some of them it was not "
-            "found out which of two covers the other, and rays meet either");
-        log_line(verbosity, Verbosity::normal, "warning: " + loaded.warnings.back());
-    }
+    if (!loaded.mesh.all_layers_are_offset())
+        warn(loaded,
+             settings.path +
+                 ": very many faces lie over each other in one plane; for some of them it was not "
+                 "found out which of two covers the other, and rays meet either",
+             verbosity);
     log_line(verbosity, Verbosity::verbose, mesh_text(loaded.mesh));
     return loaded;
 }

@@ -57,8 +57,12 @@ struct Prepared {
     MadeTracer made;
     double seconds; ///< with those of the sides
 };
-/// What solving needs besides the mesh, which must outlive it. Takes over what was made.
-[[nodiscard]] Prepared prepare(LoadedMesh& loaded, const SolveOptions& options);
+/// What solving needs besides the mesh, which must outlive it. Takes over what was made. Warns
+/// where rays will be slow.
+[[nodiscard]] Prepared prepare(LoadedMesh& loaded, const SolveOptions& options,
+                               Verbosity verbosity);
+/// What makes rays slow, and how to mend it; empty where nothing does.
+[[nodiscard]] std::string crowd_text(const Crowd& crowd, const Mesh& mesh);
 
 /// Divides the faces; throws UsageError where --max-edge would give too many patches.
 [[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings);

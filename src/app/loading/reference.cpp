@@ -2,6 +2,7 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
+#include "app/settings/text.h"
 #include "io/files/error.h"
 
 #include <algorithm>
@@ -26,8 +27,8 @@ bool same_patch(const PatchTable& table, std::size_t i, const Mesh& mesh) {
 void check_same_patches(const PatchTable& table, const std::string& path, const Mesh& mesh) {
     const std::size_t patches = mesh.patches().size();
     if (table.radiosity.size() != patches)
-        throw InputError(path, "has " + std::to_string(table.radiosity.size()) +
-                                   " patches, the scene has " + std::to_string(patches) +
+        throw InputError(path, "has " + counted(table.radiosity.size(), "patch", "patches") +
+                                   ", the scene has " + std::to_string(patches) +
                                    "; were --max-edge and --sides the same?");
     for (std::size_t i = 0; i < patches; ++i)
         if (!same_patch(table, i, mesh))

@@ -131,9 +131,10 @@ SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings, const So
 
 std::string describe(const Orientation& found, const Scene& scene, Sides sides) {
     std::string text;
-    const auto add = [&](const std::string& name, std::size_t count, const std::string& meaning) {
+    const auto add = [&](const std::string& name, std::size_t count, const std::string& one,
+                         const std::string& many) {
         if (count > 0)
-            text += info_line(name, std::to_string(count) + " (" + meaning + ")");
+            text += info_line(name, std::to_string(count) + " (" + (count == 1 ? one : many) + ")");
     };
     if (found.faces > 0)
         text +=
@@ -145,13 +146,19 @@ std::string describe(const Orientation& found, const Scene& scene, Sides sides) 
     if (found.in_doubt > 0)
         text += info_line("in doubt", doubt_text(found, scene) +
                                           "; much light falls on their backs, maybe on purpose");
-    add("inside out", found.inside_out, "closed surfaces whose backs are lit");
-    add("lit from behind", found.from_behind, "open surfaces whose backs are lit");
-    add("lamps turned away", found.emitters, "they face a wall at once, or nothing");
-    add("faces disagree", found.mixed, "surfaces some of whose faces look away");
+    add("inside out", found.inside_out, "closed surface whose back is lit",
+        "closed surfaces whose backs are lit");
+    add("lit from behind", found.from_behind, "open surface whose back is lit",
+        "open surfaces whose backs are lit");
+    add("lamps turned away", found.emitters, "it faces a wall at once, or nothing",
+        "they face a wall at once, or nothing");
+    add("faces disagree", found.mixed, "surface some of whose faces look away",
+        "surfaces some of whose faces look away");
     add("clashing edges", found.clashing_edges,
+        "edge that two faces run along in the same direction, so one of them looks away",
         "edges that two faces run along in the same direction, so one of them looks away");
-    add("without sides", found.one_sided, "surfaces such as a Moebius strip; left as they are");
+    add("without sides", found.one_sided, "surface such as a Moebius strip; left as it is",
+        "surfaces such as a Moebius strip; left as they are");
     if (found.light.backs + found.light.escaped > 0)
         text += info_line("light lost", percent(found.light.backs) +
                                             " of what is emitted falls on "

@@ -205,6 +205,13 @@ void write_report(const SolveSettings& settings, const Results& results) {
 
 } // namespace
 
+bool shows_statistics(const SolveSettings& settings) {
+    return settings.verbosity != Verbosity::quiet || !settings.statistics.empty() ||
+           !settings.report.empty() ||
+           std::ranges::find(settings.outputs, OutputKind::json, &Output::kind) !=
+               settings.outputs.end();
+}
+
 WriteReport write_results(const SolveSettings& settings, const Results& results,
                           const Stopwatch& started) {
     Statistics& statistics = results.statistics;

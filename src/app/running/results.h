@@ -27,6 +27,9 @@ struct Results {
     const StopFlag& interrupted;           ///< pictures are then left out where they take long
 };
 
+/// Whether anything that is written or said holds the statistics of the run.
+[[nodiscard]] bool shows_statistics(const SolveSettings& settings);
+
 /// Writes all outputs, the statistics last: with the seconds that the others took, and those of the
 /// run since it was `started`.
 [[nodiscard]] WriteReport write_results(const SolveSettings& settings, const Results& results,

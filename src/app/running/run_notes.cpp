@@ -43,8 +43,7 @@ std::vector<std::string> RunNotes::texts(double error, bool interrupted) const {
                         "have been found yet");
     if (!interrupted && stop_.error && !(error <= *stop_.error)) {
         std::string text = "the run ended before the error of " + percent(*stop_.error) +
-                           " was reached, after " + short_count(static_cast<double>(rays_)) +
-                           " rays";
+                           " was reached, after " + short_counted(rays_, "ray", "rays");
         if (stop_.rays && rays_ >= *stop_.rays)
             text += "; --max-rays lets it go on";
         notes.push_back(text);

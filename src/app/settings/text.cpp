@@ -62,4 +62,8 @@ std::string counted(std::uint64_t count, const std::string& one, const std::stri
     return grouped(count) + " " + (count == 1 ? one : many);
 }
 
+std::string short_counted(std::uint64_t count, const std::string& one, const std::string& many) {
+    return short_count(static_cast<double>(count)) + " " + (count == 1 ? one : many);
+}
+
 } // namespace hemilux

@@ -23,5 +23,8 @@ namespace hemilux {
 /// A number with its noun: "1 patch", "2 patches".
 [[nodiscard]] std::string counted(std::uint64_t count, const std::string& one,
                                   const std::string& many);
+/// The same with the number as by short_count(): "1 ray", "12.3 k rays".
+[[nodiscard]] std::string short_counted(std::uint64_t count, const std::string& one,
+                                        const std::string& many);
 
 } // namespace hemilux

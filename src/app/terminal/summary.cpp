@@ -80,7 +80,7 @@ std::string tracer_text(const std::optional<BvhQuality>& tree, double seconds) {
 
 std::string step_text(const StepRow& row) {
     std::string text = formatted("step %u: ", row.record.step) +
-                       short_count(static_cast<double>(row.record.rays)) + " rays, " +
+                       short_counted(row.record.rays, "ray", "rays") + ", " +
                        duration(row.record.seconds) + ", estimated error " +
                        percent(row.record.estimated_error);
     if (row.error)
@@ -91,9 +91,9 @@ std::string step_text(const StepRow& row) {
 std::string run_text(const Statistics& s) {
     std::string text = s.method + ": " + counted(s.patches, "patch", "patches") + ", " +
                        counted(s.steps, "step", "steps") + ", " +
-                       short_count(static_cast<double>(s.rays_energy)) + " energy rays";
+                       short_counted(s.rays_energy, "energy ray", "energy rays");
     if (s.rays_density > 0)
-        text += " and " + short_count(static_cast<double>(s.rays_density)) + " density rays";
+        text += " and " + short_counted(s.rays_density, "density ray", "density rays");
     text += " in " + duration(s.seconds_density + s.seconds_solve) + " (" +
             short_count(s.rays_per_second) + " rays/s)";
     if (s.steps > 0)

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace hemilux {
 namespace {
@@ -123,6 +124,37 @@ Hit WideBvh::locate(const Ray& ray, std::uint32_t facet) const {
                                          ray.t_max, hit);
     hit.facet = facet;
     return hit;
+}
+
+std::size_t WideBvh::triangles_around(const Vec3& point) const {
+    if (built_.leaves.size() == 0)
+        return 0;
+    const Vec3 scaled = point / space_.size;
+    const auto holds = [&](const wide::Node& node, unsigned k) {
+        for (unsigned i = 0; i < 3; ++i) {
+            const double x = scaled[static_cast<int>(i)];
+            if (!(double(node.plane[2 * i][k]) <= x && x <= double(node.plane[2 * i + 1][k])))
+                return false;
+        }
+        return true;
+    };
+    std::size_t triangles = 0;
+    std::vector<std::uint32_t> pending{tree().root};
+    while (!pending.empty()) {
+        const std::uint32_t index = pending.back();
+        pending.pop_back();
+        if ((index & flag) != 0) {
+            triangles += static_cast<std::size_t>(
+                std::ranges::count_if(built_.leaves.data()[index & ~flag].slot,
+                                      [](std::uint32_t slot) { return slot != wide::no_facet; }));
+            continue;
+        }
+        const wide::Node& node = built_.nodes.data()[index];
+        for (unsigned k = 0; k < wide::width; ++k)
+            if (holds(node, k))
+                pending.push_back(node.child[k]);
+    }
+    return triangles;
 }
 
 wide::Tree WideBvh::tree() const {

@@ -192,7 +192,8 @@ void draw_captions(const HemisphereDrawing& drawing, Canvas& canvas) {
     if (drawing.counts.empty())
         legend = "";
     if (!drawing.rays.empty())
-        legend += "; blue: " + std::to_string(drawing.rays.size()) + " energy rays";
+        legend += "; blue: " + std::to_string(drawing.rays.size()) +
+                  (drawing.rays.size() == 1 ? " energy ray" : " energy rays");
     canvas.text({centre_above.x, 708}, legend, middle);
 }
 

@@ -156,9 +156,9 @@ std::vector<Chart> find_charts(const Mesh& mesh, int size) {
     }
     double fits = 0, too_dense = longest > 0 ? size / longest : 1;
     if (!pack(charts, fits, size))
-        throw LightmapTooSmall(std::to_string(charts.size()) +
-                               " charts do not fit into a lightmap of " + std::to_string(size) +
-                               " x " + std::to_string(size));
+        throw LightmapTooSmall(
+            std::to_string(charts.size()) + (charts.size() == 1 ? " chart does" : " charts do") +
+            " not fit into a lightmap of " + std::to_string(size) + " x " + std::to_string(size));
     for (int bisection = 0; bisection < 40; ++bisection) {
         const double density = (fits + too_dense) / 2;
         (pack(charts, density, size) ? fits : too_dense) = density;

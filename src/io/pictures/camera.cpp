@@ -46,7 +46,8 @@ Camera parse_camera(std::string_view text) {
     std::array<double, 10> n{};
     const std::size_t count = parse_numbers(text, n);
     if (count < 6)
-        refuse(text, "there are only " + std::to_string(count) + " numbers");
+        refuse(text, (count == 1 ? "there is only " : "there are only ") + std::to_string(count) +
+                         (count == 1 ? " number" : " numbers"));
     Camera camera{.eye = {n[0], n[1], n[2]}, .target = {n[3], n[4], n[5]}};
     if (camera.eye == camera.target)
         refuse(text, "eye and target are the same point");

@@ -35,11 +35,16 @@ std::string text_of(const std::vector<std::string>& items) {
     return text;
 }
 
+std::string counted(std::size_t n, const char* one, const char* many) {
+    return text_of(n) + ' ' + (n == 1 ? one : many);
+}
+
 /// A doubt is worth a line only where there is one.
 void add_doubt(std::string& text, const std::string& name, std::size_t count,
-               const std::string& meaning) {
+               const std::string& noun, const std::string& meaning) {
     if (count > 0)
-        text += info_line(name, text_of(count) + " (" + meaning + ")");
+        text += info_line(name,
+                          text_of(count) + " (" + noun + (count == 1 ? " " : "s ") + meaning + ")");
 }
 
 bool emits(const Vec3& e) { return e.x > 0 || e.y > 0 || e.z > 0; }
@@ -62,6 +67,15 @@ void sum_areas(const Scene& scene, SceneInfo& info) {
     }
 }
 
+/// As Mesh does.
+void find_covered(Scene scene, SceneInfo& info) {
+    const std::vector<Vec3> vertices = LocalFrame::of(scene).to_local(scene.vertices);
+    unite_near_twins(scene, vertices);
+    const CoplanarLayers layers = find_coplanar_layers(scene, vertices);
+    info.covered_facets = layers.covered;
+    info.all_compared = layers.complete;
+}
+
 } // namespace
 
 SceneInfo inspect(const ReadResult& read) {
@@ -81,10 +95,7 @@ SceneInfo inspect(const ReadResult& read) {
     const EdgeCounts edges = count_edges(scene);
     info.open_edges = edges.open;
     info.nonmanifold_edges = edges.nonmanifold;
-    const CoplanarLayers layers =
-        find_coplanar_layers(scene, LocalFrame::of(scene).to_local(scene.vertices));
-    info.covered_facets = layers.covered;
-    info.all_compared = layers.complete;
+    find_covered(scene, info);
     info.degenerate_faces = read.degenerate_faces;
     info.nonplanar_faces = read.nonplanar_faces;
     info.concave_faces = read.concave_faces;
@@ -119,8 +130,9 @@ std::string info_line(std::string name, const std::string& value) {
 std::string describe(const SceneInfo& info) {
     std::string text;
     text += info_line("faces", text_of(info.faces));
-    text += info_line("facets", text_of(info.facets) + " (" + text_of(info.triangles) +
-                                    " triangles, " + text_of(info.quads) + " quads)");
+    text += info_line("facets", text_of(info.facets) + " (" +
+                                    counted(info.triangles, "triangle", "triangles") + ", " +
+                                    counted(info.quads, "quad", "quads") + ")");
     text += info_line("vertices", text_of(info.vertices));
     text += info_line("materials", text_of(info.materials));
     text += info_line("groups", text_of(info.groups));
@@ -131,14 +143,14 @@ std::string describe(const SceneInfo& info) {
     text += info_line("emitted power", text_of(info.emitted_power) + " (red, green, blue)");
     text +=
         info_line("emitting materials", info.emitters.empty() ? "none" : text_of(info.emitters));
-    add_doubt(text, "without area", info.degenerate_faces, "faces left out");
-    add_doubt(text, "not planar", info.nonplanar_faces, "faces divided into triangles");
-    add_doubt(text, "concave", info.concave_faces, "faces divided into triangles");
-    add_doubt(text, "open edges", info.open_edges,
-              "edges of only one face: a boundary, or a vertex on an edge of another face");
-    add_doubt(text, "shared edges", info.nonmanifold_edges, "edges of more than two faces");
-    add_doubt(text, "covered", info.covered_facets,
-              "facets in the place of another that faces the same way, wholly or in part; one of "
+    add_doubt(text, "without area", info.degenerate_faces, "face", "left out");
+    add_doubt(text, "not planar", info.nonplanar_faces, "face", "divided into triangles");
+    add_doubt(text, "concave", info.concave_faces, "face", "divided into triangles");
+    add_doubt(text, "open edges", info.open_edges, "edge",
+              "of only one face: a boundary, or a vertex on an edge of another face");
+    add_doubt(text, "shared edges", info.nonmanifold_edges, "edge", "of more than two faces");
+    add_doubt(text, "covered", info.covered_facets, "facet",
+              "in the place of another that faces the same way, wholly or in part; one of "
               "them is seen");
     if (!info.all_compared)
         text += info_line("covered",

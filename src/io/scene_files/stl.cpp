@@ -87,8 +87,9 @@ void StlReader::read_binary(std::string_view content) {
     const std::size_t most = (content.size() - header - count_bytes) / record;
     if (count > most)
         fail_at_byte(header, "expected at most " + std::to_string(most) +
-                                 " triangles, as the file has " + std::to_string(content.size()) +
-                                 " bytes, found " + std::to_string(count));
+                                 (most == 1 ? " triangle" : " triangles") + ", as the file has " +
+                                 std::to_string(content.size()) + " bytes, found " +
+                                 std::to_string(count));
     result_.scene.groups.emplace_back("default");
     for (std::size_t t = 0; t < count; ++t) {
         constexpr std::size_t normal_bytes = 12;

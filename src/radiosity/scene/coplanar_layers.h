@@ -31,4 +31,10 @@ struct CoplanarLayers {
 [[nodiscard]] CoplanarLayers find_coplanar_layers(const Scene& scene,
                                                   std::span<const Vec3> vertices);
 
+/// To be done before, for what was put into a file thousands of times, each time moved or turned by
+/// rounding: rays would have to test all of it. Where more than `kept_alike` facets face one way
+/// and their corners differ by less than about 2^-18 of their width, all get the corners of the
+/// first, so that they are in one place. O(n), and O(n log n) where there are such.
+void unite_near_twins(Scene& scene, std::span<const Vec3> vertices);
+
 } // namespace hemilux

@@ -73,6 +73,7 @@ Mesh::Mesh(Scene scene, const MeshOptions& options)
         throw std::invalid_argument("the scene has no face with an area");
     frame_ = LocalFrame::of(scene_);
     vertices_ = frame_.to_local(scene_.vertices);
+    unite_near_twins(scene_, vertices_);
     for (const Facet& facet : scene_.facets)
         corners_.push_back(facet.vertex);
     offset_layers();

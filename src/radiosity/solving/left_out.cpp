@@ -65,10 +65,11 @@ std::vector<LeftOut> left_out(const Needs& needs, const MethodWork& work,
                         "no path from them to what --for names was found",
                         "their rays at random and their shadow rays"});
     if (solution.rays_density_spared > 0)
-        list.push_back(
-            {"densities below triangles that are not divided",
-             "their mean density is not above the threshold",
-             std::to_string(solution.rays_density_spared) + " density rays, and as many bytes"});
+        list.push_back({"densities below triangles that are not divided",
+                        "their mean density is not above the threshold",
+                        std::to_string(solution.rays_density_spared) +
+                            (solution.rays_density_spared == 1 ? " density ray" : " density rays") +
+                            ", and as many bytes"});
     return list;
 }
 

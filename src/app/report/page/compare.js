@@ -24,7 +24,7 @@ function lightAfter(run, method, step) {
     `estimated ${percent(row.estimated_error)}` };
 }
 
-const costOf = (row) => `${shortCount(row.rays)} rays, ${number(row.seconds, 3)} s`;
+const costOf = (row) => `${shortCount(row.rays)} ${row.rays === 1 ? "ray" : "rays"}, ${number(row.seconds, 3)} s`;
 
 /** Root mean square over channels of how far off a patch's light is, relative to the mean light. */
 const differenceOf = (run, light, i) =>

@@ -82,7 +82,7 @@ function showSteps({ steps }) {
     const axis = document.querySelector("#axis input:checked").value;
     const curve = (name, kind, key) => ({ name, kind, points: steps.filter((step) => known(step[key])).map((step) => ({
       x: step[axis], y: step[key],
-      text: `step ${step.step}: ${percent(step[key])} after ${shortCount(step.rays)} rays, ${number(step.seconds, 3)} s` })) });
+      text: `step ${step.step}: ${percent(step[key])} after ${shortCount(step.rays)} ${step.rays === 1 ? "ray" : "rays"}, ${number(step.seconds, 3)} s` })) });
     const width = Math.max(300, at("chart").clientWidth);
     const chart = errorChart([curve("estimated error", "estimated", "estimated_error"),
       ...(withTruth ? [curve("true error", "true", "true_error")] : [])], axis, width);

@@ -1,0 +1,154 @@
+#include "geometry/box.h"
+#include "geometry/polygon.h"
+#include "radiosity/sampling/rng.h"
+#include "radiosity/scene/coplanar_layers.h"
+#include "radiosity/scene/coplanar_overlaps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace hemilux {
+namespace {
+
+/// Corners are put into cells so much smaller than the facet is wide.
+constexpr int cells_per_width = 18; // as a power of two
+/// Twins on either side of a cell's border meet in another round, whose cells lie elsewhere.
+constexpr int rounds = 4;
+/// Beside these the cells of narrower facets could not be numbered.
+constexpr double narrowest = 0x1p-40;
+
+/// Area over size, which is small for a sliver: slivers side by side are no twins.
+double width_of(const Polygon& shape) {
+    Box box;
+    for (const Vec3& corner : shape.corner)
+        box.include(corner);
+    return shape.area() / glm::length(box.extent());
+}
+
+std::uint64_t hash_of_cell(const Vec3& corner, double cell, double shift) {
+    std::uint64_t hash = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        hash =
+            mix_bits(hash + std::uint64_t(std::int64_t(std::floor(corner[axis] / cell + shift))));
+    return hash;
+}
+
+/// Equal for twins, at whatever corner they begin; others for those that face the other way. 0 for
+/// facets that have no twins.
+std::uint64_t key_of(const Polygon& shape, int round) {
+    constexpr double golden = 0.6180339887;
+    const double shift = golden * (round + 1); // no drawn wall is on a border
+    const double width = width_of(shape) * std::exp2(double(round) / rounds);
+    if (!(width > narrowest))
+        return 0;
+    int exponent = 0;
+    std::frexp(width, &exponent);
+    const double cell = std::ldexp(1.0, exponent - cells_per_width);
+    const auto size = static_cast<std::size_t>(shape.size());
+    std::array<std::uint64_t, 4> corners{};
+    for (std::size_t i = 0; i < size; ++i)
+        corners[i] = hash_of_cell(shape.corner[i], cell, shift);
+    std::uint64_t key = std::uint64_t(exponent);
+    for (std::size_t i = 0; i < size; ++i)
+        key += mix_bits(corners[i] + mix_bits(corners[(i + 1) % size]));
+    return key;
+}
+
+/// The first facet of each heap stands for all of it.
+class Heaps {
+  public:
+    Heaps(const Scene& scene, std::span<const Vec3> vertices)
+        : scene_(scene), vertices_(vertices) {}
+
+    /// The first facet of each one's heap; empty where there are no heaps.
+    std::vector<std::uint32_t> find() {
+        if (!may_have_any())
+            return {};
+        first_.resize(scene_.facets.size());
+        count_.assign(scene_.facets.size(), 1);
+        for (std::uint32_t f = 0; f < first_.size(); ++f)
+            first_[f] = f;
+        for (int round = 0; round < rounds; ++round)
+            unite(round);
+        for (std::uint32_t f = 0; f < first_.size(); ++f)
+            first_[f] = first_[first_[f]]; // which is earlier, so that it has been done
+        return std::move(first_);
+    }
+
+  private:
+    struct Entry {
+        std::uint64_t key;
+        std::uint32_t facet;
+        auto operator<=>(const Entry&) const = default;
+    };
+
+    [[nodiscard]] std::uint64_t key(std::uint32_t f, int round) const {
+        return key_of(polygon_of(vertices_, scene_.facets[f].vertex), round);
+    }
+
+    /// By counts of keys in buckets, in which hardly ever more than a few meet by chance.
+    [[nodiscard]] bool may_have_any() const {
+        std::size_t buckets = 1;
+        while (buckets < scene_.facets.size())
+            buckets *= 2;
+        std::vector<std::uint8_t> counts(buckets);
+        for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
+            if (const std::uint64_t k = key(f, 0); k != 0 && ++counts[k % buckets] > kept_alike)
+                return true;
+        return false;
+    }
+
+    void unite(int round) {
+        std::vector<Entry> entries;
+        for (std::uint32_t f = 0; f < first_.size(); ++f)
+            if (const std::uint64_t k = first_[f] == f ? key(f, round) : 0; k != 0)
+                entries.push_back({k, f});
+        std::ranges::sort(entries, [](const Entry& a, const Entry& b) { return a < b; });
+        for (auto begin = entries.begin(); begin != entries.end();) {
+            std::size_t facets = 0;
+            auto end = begin;
+            for (; end != entries.end() && end->key == begin->key; ++end)
+                facets += count_[end->facet];
+            if (facets > kept_alike) {
+                for (auto other = begin; other != end; ++other)
+                    first_[other->facet] = begin->facet;
+                count_[begin->facet] = facets;
+            }
+            begin = end;
+        }
+    }
+
+    const Scene& scene_;
+    std::span<const Vec3> vertices_;
+    std::vector<std::uint32_t> first_;
+    std::vector<std::size_t> count_;
+};
+
+/// The corners of one facet, beginning at that which is nearest to the first of another.
+std::array<std::uint32_t, 4> begun_as(const Facet& facet, const Facet& other,
+                                      std::span<const Vec3> vertices) {
+    const std::size_t size = facet.is_triangle() ? 3 : 4;
+    const auto distance = [&](std::uint32_t v) {
+        return glm::length(vertices[v] - vertices[other.vertex[0]]);
+    };
+    std::array<std::uint32_t, 4> corners = facet.vertex;
+    const auto end = corners.begin() + static_cast<std::ptrdiff_t>(size);
+    std::rotate(corners.begin(), std::ranges::min_element(corners.begin(), end, {}, distance), end);
+    if (size == 3)
+        corners[3] = corners[2];
+    return corners;
+}
+
+} // namespace
+
+void unite_near_twins(Scene& scene, std::span<const Vec3> vertices) {
+    const std::vector<std::uint32_t> first = Heaps(scene, vertices).find();
+    for (std::uint32_t f = 0; f < first.size(); ++f)
+        if (first[f] != f)
+            scene.facets[f].vertex = begun_as(scene.facets[first[f]], scene.facets[f], vertices);
+}
+
+} // namespace hemilux
