@@ -60,7 +60,8 @@ TEST_CASE("a comparison by time ends, whatever --rays asks for") {
     CHECK(outcome.code == 0);
 }
 
-TEST_CASE("triangles that a ray has to test by the thousand are reported, with their place") {
+TEST_CASE("triangles that a ray has to test by the thousand are reported, with their place",
+          "[slow]") {
     const Workplace place;
     std::string many = "v 0 0 9\nv 0 1 9\nv 1 0 9\nusemtl lamp\nf 1 2 3\nusemtl grey\ng star\n";
     for (int k = 0; k < 1500; ++k) { // all through the origin, each turned
