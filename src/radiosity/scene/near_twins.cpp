@@ -18,7 +18,7 @@ constexpr int cells_per_width = 18; // as a power of two
 /// Twins on either side of a cell's border meet in another round, whose cells lie elsewhere.
 constexpr int rounds = 4;
 /// Beside these the cells of narrower facets could not be numbered.
-constexpr double narrowest = 0x1p-40;
+constexpr double narrowest_twin = 0x1p-40;
 
 /// Area over size, which is small for a sliver: slivers side by side are no twins.
 double width_of(const Polygon& shape) {
@@ -42,7 +42,7 @@ std::uint64_t key_of(const Polygon& shape, int round) {
     constexpr double golden = 0.6180339887;
     const double shift = golden * (round + 1); // no drawn wall is on a border
     const double width = width_of(shape) * std::exp2(double(round) / rounds);
-    if (!(width > narrowest))
+    if (!(width > narrowest_twin))
         return 0;
     int exponent = 0;
     std::frexp(width, &exponent);
