@@ -3,6 +3,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/solve_end.h"
 #include "app/division/auto_division.h"
+#include "app/division/default_division.h"
 #include "app/division/whole_error.h"
 #include "app/loading/load.h"
 #include "app/loading/reference.h"

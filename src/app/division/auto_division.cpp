@@ -1,5 +1,6 @@
 #include "app/division/auto_division.h"
 
+#include "app/division/default_division.h"
 #include "app/division/whole_error.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
@@ -16,9 +17,6 @@
 
 namespace hemilux {
 namespace {
-
-/// What stored transport takes, and the patch with its outputs.
-constexpr std::uint64_t bytes_of_patch = 16'384;
 
 /// Of the time of a run that the division may take.
 constexpr double share_of_time = .5;
@@ -42,28 +40,6 @@ constexpr std::uint64_t share_of_divided = 5, least_rays_of_error = 400'000,
 std::string round_text(const DivisionRound& round) {
     return "division: " + counted(round.patches, "patch", "patches") + ", within them the light " +
            "differs by about " + percent(round.error);
-}
-
-bool is_large_by_default(const SolveSettings& settings, std::size_t patches) {
-    return settings.divide == Divide::by_default && patches >= most_patches_by_default;
-}
-
-AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches) {
-    AdaptiveDivision division{.error = share_of_division * whole_error(settings),
-                              .seed = settings.options.seed,
-                              .threads = settings.options.threads};
-    if (is_large_by_default(settings, patches))
-        division.most_patches =
-            patches + (patches < most_patches_of_large_models ? most_patches_by_default : 0);
-    else if (settings.divide == Divide::by_default)
-        division.most_patches = most_patches_by_default;
-    if (settings.scene.memory) {
-        division.memory = *settings.scene.memory / 2;
-        division.most_patches =
-            std::clamp<std::size_t>(*settings.scene.memory / bytes_of_patch, patches,
-                                    std::max(patches, division.most_patches));
-    }
-    return division;
 }
 
 /// Divides the mesh for a run to come.
@@ -304,20 +280,6 @@ Divided AutoDivision::divide() {
 }
 
 } // namespace
-
-bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
-    return settings.divide == Divide::by_default &&
-           (patches < most_patches_by_default || gives_gathered_light(settings)) &&
-           settings.method == &method_of(Role::standard) && !settings.plain &&
-           settings.scene.mesh.max_edge == 0 && settings.target.names().empty() &&
-           !settings.stop.steps && !settings.every_step && settings.reference.empty() &&
-           settings.checkpoint.path.empty() && settings.checkpoint.resumed.empty();
-}
-
-std::uint64_t default_max_rays(std::size_t patches) {
-    constexpr std::uint64_t least = 100'000'000, each = 1000;
-    return least + each * patches;
-}
 
 Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, const SolverInput& input,
                         const BeginSolver& begin, const MeshChanged& mesh_changed,

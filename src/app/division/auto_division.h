@@ -18,20 +18,6 @@ namespace hemilux {
 /// and which by sampling, at first.
 inline constexpr double share_of_division = .7, share_of_sampling = .5;
 
-/// Where division was not asked for it makes so many patches at the most: some hundred megabytes,
-/// some seconds. Models that have as many are divided only where gathered light would be wrong by
-/// more than `error_of_large_models`, and to that error, if they have not too many.
-inline constexpr std::size_t most_patches_by_default = 20'000,
-                             most_patches_of_large_models = 200'000;
-inline constexpr double error_of_large_models = .05;
-
-/// Whether a plain run on so many patches divides them: where the method is the standard one, and
-/// what was asked for says nothing of patches or single steps.
-[[nodiscard]] bool divides_by_default(const SolveSettings& settings, std::size_t patches);
-
-/// A run to an error ends at a number of rays at the latest, if nothing else ends it.
-[[nodiscard]] std::uint64_t default_max_rays(std::size_t patches);
-
 /// What --divide auto has made of the mesh.
 struct Divided {
     bool patches = false; ///< some were divided

@@ -1,8 +1,9 @@
 #include "app/division/needed_division.h"
 
-#include "app/division/auto_division.h"
+#include "app/division/default_division.h"
 #include "parallel/workers.h"
 #include "radiosity/division/adaptive_division.h"
+#include "radiosity/final_gather/division_error.h"
 #include "radiosity/rays/make_tracer.h"
 #include "radiosity/solution/solve_error.h"
 

@@ -1,0 +1,55 @@
+#include "app/division/default_division.h"
+
+#include "app/division/auto_division.h"
+#include "app/division/whole_error.h"
+
+#include <algorithm>
+
+namespace hemilux {
+namespace {
+
+/// What stored transport takes, and the patch with its outputs.
+constexpr std::uint64_t bytes_of_patch = 16'384;
+
+/// Large models that have more are not divided.
+constexpr std::size_t most_patches_of_large_models = 200'000;
+
+} // namespace
+
+bool is_large_by_default(const SolveSettings& settings, std::size_t patches) {
+    return settings.divide == Divide::by_default && patches >= most_patches_by_default;
+}
+
+AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches) {
+    AdaptiveDivision division{.error = share_of_division * whole_error(settings),
+                              .seed = settings.options.seed,
+                              .threads = settings.options.threads};
+    if (is_large_by_default(settings, patches))
+        division.most_patches =
+            patches + (patches < most_patches_of_large_models ? most_patches_by_default : 0);
+    else if (settings.divide == Divide::by_default)
+        division.most_patches = most_patches_by_default;
+    if (settings.scene.memory) {
+        division.memory = *settings.scene.memory / 2;
+        division.most_patches =
+            std::clamp<std::size_t>(*settings.scene.memory / bytes_of_patch, patches,
+                                    std::max(patches, division.most_patches));
+    }
+    return division;
+}
+
+bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
+    return settings.divide == Divide::by_default &&
+           (patches < most_patches_by_default || gives_gathered_light(settings)) &&
+           settings.method == &method_of(Role::standard) && !settings.plain &&
+           settings.scene.mesh.max_edge == 0 && settings.target.names().empty() &&
+           !settings.stop.steps && !settings.every_step && settings.reference.empty() &&
+           settings.checkpoint.path.empty() && settings.checkpoint.resumed.empty();
+}
+
+std::uint64_t default_max_rays(std::size_t patches) {
+    constexpr std::uint64_t least = 100'000'000, each = 1000;
+    return least + each * patches;
+}
+
+} // namespace hemilux
