@@ -20,7 +20,7 @@ constexpr double largest_share = .3;
 
 /// Points from which the view is judged; each emitter from as many, as long as these products are
 /// not more.
-constexpr std::size_t most_points = 512, most_views = 4'000'000;
+constexpr std::size_t most_points = 512, most_views = 400'000;
 
 /// One side of a facet that emits, as if it were not divided.
 struct EmittingSide {
