@@ -229,21 +229,28 @@ const Outline* outline_of(const CornerClasses& classes, std::uint32_t patch) {
     return at != classes.outlines.end() && at->patch == patch ? &*at : nullptr;
 }
 
-std::vector<Vec3>
-smooth(const Mesh& mesh, const CornerClasses& classes,
-       const std::function<Vec3(std::uint32_t patch, const Vec3& corner)>& value) {
+std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
+                         const std::function<Vec3(std::uint32_t patch, const Vec3& corner)>& value,
+                         MeanOver over) {
     const std::size_t of_corners = classes.position.size() - classes.between.size();
     std::vector<Vec3> sum(of_corners, Vec3(0.0));
     std::vector<double> weight(of_corners, 0.0);
+    const auto add = [&](std::uint32_t k, double angle, const Vec3& of_patch) {
+        sum[k] += angle * of_patch;
+        weight[k] += angle;
+    };
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
         const Polygon& shape = mesh.patches()[i].shape;
         for (std::size_t c = 0; c < static_cast<std::size_t>(shape.size()); ++c) {
             constexpr double tiny = 1e-6; // a corner of a sliver has a value too
-            const double angle = corner_angle(shape, c) + tiny;
-            sum[classes.of_patch[i][c]] += angle * value(i, shape.corner[c]);
-            weight[classes.of_patch[i][c]] += angle;
+            add(classes.of_patch[i][c], corner_angle(shape, c) + tiny, value(i, shape.corner[c]));
         }
     }
+    if (over == MeanOver::outlines)
+        for (const Outline& outline : classes.outlines)
+            for (const std::uint32_t k : outline.classes)
+                if (k < of_corners && !std::ranges::count(classes.of_patch[outline.patch], k))
+                    add(k, std::numbers::pi, value(outline.patch, classes.position[k]));
     for (std::size_t k = 0; k < sum.size(); ++k)
         sum[k] /= weight[k];
     for (const auto& [from, to, place] : classes.between)
@@ -252,11 +259,13 @@ smooth(const Mesh& mesh, const CornerClasses& classes,
 }
 
 std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
-                         std::span<const Vec3> radiosity, std::span<const Slope> slope) {
+                         std::span<const Vec3> radiosity, std::span<const Slope> slope,
+                         MeanOver over) {
     const PatchLight light(radiosity, slope);
-    return smooth(mesh, classes, [&](std::uint32_t patch, const Vec3& corner) {
+    const auto value = [&](std::uint32_t patch, const Vec3& corner) {
         return radiosity_at(mesh, light, patch, corner);
-    });
+    };
+    return smooth(mesh, classes, value, over);
 }
 
 std::array<double, 4> corner_weights(const Polygon& shape, const Vec3& point) {

@@ -68,16 +68,24 @@ void for_each_triangle(const CornerClasses& classes, std::uint32_t patch, const 
         visit(a, c, d);
 }
 
+/// Which patches take part in the mean of a class.
+enum class MeanOver {
+    corners, ///< those with a corner in it: pictures interpolate each patch between its corners
+    outlines ///< those too on whose sides it lies: meshes have it as a vertex there
+};
+
 /// The mean radiosity of each class of corners [W/m2], weighted by the angles at the corners.
 /// `slope`: empty, or by patch, what its light is in its corners.
 [[nodiscard]] std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
                                        std::span<const Vec3> radiosity,
-                                       std::span<const Slope> slope = {});
+                                       std::span<const Slope> slope = {},
+                                       MeanOver over = MeanOver::outlines);
 
 /// The same of any value that patches have in their corners.
 [[nodiscard]] std::vector<Vec3>
 smooth(const Mesh& mesh, const CornerClasses& classes,
-       const std::function<Vec3(std::uint32_t patch, const Vec3& corner)>& value);
+       const std::function<Vec3(std::uint32_t patch, const Vec3& corner)>& value,
+       MeanOver over = MeanOver::outlines);
 
 /// Weights of the corners for a point of the polygon: barycentric in a triangle, the inverse of the
 /// bilinear map in a quad. Linear along edges, so that neighbours agree there.
