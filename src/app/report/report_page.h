@@ -23,8 +23,8 @@
 //                             (these four where the method is guided by densities)
 //   reflectance, emission  float32 x 3, where there are textures: means over each patch
 //
-// That is 60 bytes a patch, 84 with textures, 41 more with densities of depth 2, and 24 a vertex;
-// base64 makes 4 of 3.
+// That is 60 bytes a patch, 84 with textures, 41 more with densities of depth 2, 24 a vertex, and
+// 16 a listed triangle; base64 makes 4 of 3.
 
 #include "app/report/run_data.h"
 
