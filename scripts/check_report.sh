@@ -49,6 +49,7 @@ usemtl <!--<script>
 f 5 6 7 8
 OBJ
 "$hemilux" solve -t 1 "$root/examples/scenes/office_3576.obj" -q --steps 5 --report "$folder/office.html"
+"$hemilux" solve -t 1 "$root/examples/scenes/office_3576.obj" -q --error 10% --report "$folder/divided.html"
 "$hemilux" solve -t 1 "$root/examples/scenes/room_1002.obj" -q --method hemisphere --steps 3 --report "$folder/hemisphere.html"
 "$hemilux" solve -t 1 hostile.obj -q --max-edge .1 --steps 3 --report "$folder/hostile.html"
 "$hemilux" solve -t 1 "$root/examples/scenes/room_1002.obj" -q --steps 3 --sky 1 --report "$folder/sky.html"
@@ -59,7 +60,7 @@ compare="compare -t 1 -q -o compared --runs 2 --rays 10 --reference-error .05"
     --report "$folder/compared-hostile.html" >/dev/null
 
 status=0
-for page in office hemisphere hostile sky compared compared-hostile; do
+for page in office divided hemisphere hostile sky compared compared-hostile; do
     [ "$(wc -c <"$folder/$page.html")" -lt 3000000 ] || { echo "FAILS: $page is too large"; status=1; }
     case $page in compared*) check=check_comparison.js ;; *) check=check_report.js ;; esac
     sed '/^<\/body>/,$d' "$folder/$page.html" >checked.html

@@ -108,7 +108,7 @@ TEST_CASE(
         const std::vector<Chart> charts = find_charts(mesh, 1024);
         const ChartCorners corners = divide_by_charts(mesh, classes, charts);
         const std::vector<Vec3> light = light_of(corners);
-        const Image picture = lightmap(mesh, charts, corners, light, 1024);
+        const Image picture = lightmap(charts, corners, light, 1024);
         CHECK(charts.size() == mesh.scene().facets.size());
 
         const auto places = seams(mesh, corners);
@@ -131,7 +131,7 @@ TEST_CASE("the edges of a rectangle are exact in a lightmap") {
     std::vector<Vec3> light;
     for (const Vec3& p : corners.classes.position)
         light.emplace_back(3.0 + p.x + 2 * p.y - p.z); // linear on each wall
-    const Image picture = lightmap(mesh, charts, corners, light, 128);
+    const Image picture = lightmap(charts, corners, light, 128);
     for (std::size_t k = 0; k < light.size(); ++k)
         CHECK(relative_gap(bilinear(picture, corners.place[k]), light[k]) < 1e-6);
 }

@@ -2,7 +2,9 @@
 
 #include "radiosity/scene/mesh.h"
 
+#include <array>
 #include <span>
+#include <vector>
 
 namespace hemilux {
 
@@ -14,6 +16,16 @@ void write_mesh_arrays(PageFile& page, const Mesh& mesh, const CornerClasses& cl
         for (const std::uint32_t vertex : classes.of_patch[i])
             append(bytes, vertex);
     });
+    std::vector<std::array<std::uint32_t, 4>> triangles;
+    for (const Outline& outline : classes.outlines)
+        for_each_triangle(classes, outline.patch, [&](auto... corners) {
+            triangles.push_back({outline.patch, corners...});
+        });
+    if (!triangles.empty())
+        page.array("triangles", triangles.size(), [&](std::size_t t, std::string& bytes) {
+            for (const std::uint32_t word : triangles[t])
+                append(bytes, word);
+        });
     const std::span<const Patch> patches = mesh.patches();
     const auto write = [&](const char* id, const auto& value_of) {
         write_numbers(page, id, patches.size(), value_of);

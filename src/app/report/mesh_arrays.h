@@ -29,8 +29,8 @@ void write_numbers(PageFile& page, const char* id, std::size_t count, const Valu
     page.array(id, count, [&](std::size_t i, std::string& bytes) { append(bytes, value_of(i)); });
 }
 
-/// Writes position, corners, area, face, material and group, and where there are textures
-/// reflectance and emission, as report_page.h lists them.
+/// Writes position, corners, triangles, area, face, material and group, and where there are
+/// textures reflectance and emission, as report_page.h lists them.
 void write_mesh_arrays(PageFile& page, const Mesh& mesh, const CornerClasses& classes);
 
 } // namespace hemilux

@@ -9,6 +9,8 @@
 //   position     float32 x 3  of each vertex, world units, relative to `centre` of the JSON
 //   light        float32 x 3  radiosity of each vertex, smoothed as in smooth.h
 //   corners      uint32  x 4  vertices of each patch; triangle: [3] == [2]
+//   triangles    uint32  x 4  patch and three vertices, in the order of patches: what is drawn of
+//                             those on whose sides corners of others lie (absent where none is)
 //   area         float32
 //   radiosity    float32 x 3
 //   error        float32 x 3  standard error of the radiosity; absent where it is zero, may be NaN
@@ -21,8 +23,8 @@
 //                             (these four where the method is guided by densities)
 //   reflectance, emission  float32 x 3, where there are textures: means over each patch
 //
-// That is 60 bytes a patch, 84 with textures, 41 more with densities of depth 2, and 24 a vertex;
-// base64 makes 4 of 3.
+// That is 60 bytes a patch, 84 with textures, 41 more with densities of depth 2, 24 a vertex, and
+// 16 a listed triangle; base64 makes 4 of 3.
 
 #include "app/report/run_data.h"
 

@@ -131,7 +131,7 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
         light.of_class = std::move(of_class);
         write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
         std::vector<ExrChannel> channels;
-        add_exr_channels(channels, "", lightmap(mesh, charts, corners, light.of_class, size));
+        add_exr_channels(channels, "", lightmap(charts, corners, light.of_class, size));
         write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
     } catch (const LightmapTooSmall& error) {
         throw OutputError(lightmap_path(path),

@@ -174,19 +174,26 @@ ChartCorners divide_by_charts(const Mesh& mesh, const CornerClasses& classes,
     };
     ChartCorners divided;
     divided.classes.of_patch.resize(mesh.patches().size());
+    divided.classes.outlines = classes.outlines;
     std::vector<Last> last(classes.position.size());
+    const auto number_of = [&](std::uint32_t k, std::uint32_t chart) {
+        if (last[k].chart != chart) {
+            last[k] = {chart, static_cast<std::uint32_t>(divided.class_of.size())};
+            divided.class_of.push_back(k);
+            divided.classes.position.push_back(classes.position[k]);
+            divided.place.push_back(charts[chart].place(classes.position[k]));
+        }
+        return last[k].number;
+    };
     for (std::uint32_t c = 0; c < charts.size(); ++c)
-        for (const std::uint32_t i : charts[c].patches)
-            for (std::size_t corner = 0; corner < 4; ++corner) {
-                const std::uint32_t k = classes.of_patch[i][corner];
-                if (last[k].chart != c) {
-                    last[k] = {c, static_cast<std::uint32_t>(divided.class_of.size())};
-                    divided.class_of.push_back(k);
-                    divided.classes.position.push_back(classes.position[k]);
-                    divided.place.push_back(charts[c].place(classes.position[k]));
-                }
-                divided.classes.of_patch[i][corner] = last[k].number;
-            }
+        for (const std::uint32_t i : charts[c].patches) {
+            for (std::size_t corner = 0; corner < 4; ++corner)
+                divided.classes.of_patch[i][corner] = number_of(classes.of_patch[i][corner], c);
+            if (const Outline* const outline = outline_of(classes, i))
+                for (std::uint32_t& k :
+                     divided.classes.outlines[outline - classes.outlines.data()].classes)
+                    k = number_of(k, c);
+        }
     return divided;
 }
 

@@ -36,16 +36,10 @@ class PartBuilder {
     explicit PartBuilder(const CornerClasses& classes)
         : classes_(classes), number_(classes.position.size()), of_(classes.position.size(), none) {}
 
-    Part build(std::uint32_t group, const Mesh& mesh, std::span<const std::uint32_t> patches) {
+    Part build(std::uint32_t group, std::span<const std::uint32_t> patches) {
         Part part{group, {}, {}};
-        for (const std::uint32_t i : patches) {
-            const auto& corner = classes_.of_patch[i];
-            for (const std::size_t c : {0u, 1u, 2u})
-                add(part, corner[c]);
-            if (!mesh.patches()[i].shape.is_triangle())
-                for (const std::size_t c : {0u, 2u, 3u})
-                    add(part, corner[c]);
-        }
+        for (const std::uint32_t i : patches)
+            for_each_triangle(classes_, i, [&](auto... corners) { (add(part, corners), ...); });
         return part;
     }
 
@@ -72,7 +66,7 @@ std::vector<Part> parts_of(const Mesh& mesh, const CornerClasses& classes) {
     std::vector<Part> parts;
     for (std::uint32_t group = 0; group < patches.size(); ++group)
         if (!patches[group].empty())
-            parts.push_back(builder.build(group, mesh, patches[group]));
+            parts.push_back(builder.build(group, patches[group]));
     return parts;
 }
 

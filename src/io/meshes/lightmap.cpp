@@ -1,7 +1,5 @@
 #include "io/meshes/lightmap.h"
 
-#include "radiosity/scene/mesh.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -83,18 +81,16 @@ class Painter {
 
 } // namespace
 
-Image lightmap(const Mesh& mesh, const std::vector<Chart>& charts, const ChartCorners& corners,
+Image lightmap(const std::vector<Chart>& charts, const ChartCorners& corners,
                std::span<const Vec3> light, int size) {
     Painter painter(size);
     for (const Chart& chart : charts)
         for (const std::uint32_t i : chart.patches) {
-            const auto corner = [&](std::size_t c) {
-                const std::uint32_t k = corners.classes.of_patch[i][c];
-                return Corner{corners.place[k], light[k]};
-            };
-            painter.paint(chart, {corner(0), corner(1), corner(2)});
-            if (!mesh.patches()[i].shape.is_triangle())
-                painter.paint(chart, {corner(0), corner(2), corner(3)});
+            const auto corner = [&](std::uint32_t k) { return Corner{corners.place[k], light[k]}; };
+            for_each_triangle(corners.classes, i,
+                              [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                                  painter.paint(chart, {corner(a), corner(b), corner(c)});
+                              });
         }
     return painter.take();
 }

@@ -5,6 +5,8 @@
 #include "io/pictures/image.h"
 #include "radiosity/scene/mesh.h"
 
+#include <span>
+
 namespace hemilux {
 namespace {
 
@@ -51,7 +53,10 @@ void append_colour(std::string& record, const Vec3& light, const Display& displa
 void write_ply(const std::string& path, const Mesh& mesh, const CornerClasses& classes,
                const VertexLight& light, PlyColours colours) {
     AtomicFile file(path);
-    file.write(header(classes.position.size(), mesh.patches().size(), light.bake, colours));
+    std::size_t faces = mesh.patches().size();
+    for (const Outline& outline : classes.outlines)
+        faces += outline.triangles.size() - 1;
+    file.write(header(classes.position.size(), faces, light.bake, colours));
     std::string record;
     for (std::size_t k = 0; k < classes.position.size(); ++k) {
         record.clear();
@@ -61,12 +66,20 @@ void write_ply(const std::string& path, const Mesh& mesh, const CornerClasses& c
         append_colour(record, light.of_class[k], light.display, colours);
         file.write(record);
     }
-    for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
+    const auto append_face = [&](std::span<const std::uint32_t> vertices) {
+        record += static_cast<char>(vertices.size());
+        for (const std::uint32_t vertex : vertices)
+            append_bits(record, vertex);
+    };
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
         record.clear();
         const auto corners = static_cast<std::size_t>(mesh.patches()[i].shape.size());
-        record += static_cast<char>(corners);
-        for (std::size_t c = 0; c < corners; ++c)
-            append_bits(record, classes.of_patch[i][c]);
+        if (outline_of(classes, i))
+            for_each_triangle(classes, i, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                append_face(std::array{a, b, c});
+            });
+        else
+            append_face(std::span(classes.of_patch[i]).first(corners));
         file.write(record);
     }
     file.commit();

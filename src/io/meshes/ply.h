@@ -18,7 +18,8 @@ enum class PlyColours {
 inline constexpr std::array<const char*, 2> ply_colour_names = {"linear", "shown"};
 
 /// Writes vertices x, y, z (double, world units) and their colours; faces are the patches, in the
-/// mesh's order. Patches share a vertex where they share its light. Throws OutputError.
+/// mesh's order; one on whose sides corners of others lie is several triangles. Patches share a
+/// vertex where they share its light. Throws OutputError.
 void write_ply(const std::string& path, const Mesh& mesh, const CornerClasses& classes,
                const VertexLight& light, PlyColours colours = PlyColours::linear);
 

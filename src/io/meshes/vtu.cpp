@@ -5,6 +5,7 @@
 #include "io/files/little_endian.h"
 #include "radiosity/scene/mesh.h"
 
+#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -89,19 +90,23 @@ class Cells {
     }
 
     void add_shapes(Grid& grid) const {
-        constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9;
+        constexpr std::uint8_t vtk_triangle = 5, vtk_polygon = 7, vtk_quad = 9;
         std::vector<std::uint32_t> corners;
         std::vector<std::uint64_t> ends;
         for (const std::uint32_t i : patch_) {
             const auto size = static_cast<std::size_t>(mesh_.patches()[i].shape.size());
-            for (std::size_t c = 0; c < size; ++c)
-                corners.push_back(classes_.of_patch[i][c]);
+            const Outline* const outline = outline_of(classes_, i);
+            const auto vertices = outline ? std::span<const std::uint32_t>(outline->classes)
+                                          : std::span(classes_.of_patch[i]).first(size);
+            corners.insert(corners.end(), vertices.begin(), vertices.end());
             ends.push_back(corners.size());
         }
         grid.add("connectivity", 1, corners);
         grid.add("offsets", 1, ends);
         grid.add("types", 1, column([&](std::uint32_t i) {
-                     return mesh_.patches()[i].shape.is_triangle() ? vtk_triangle : vtk_quad;
+                     return outline_of(classes_, i)                  ? vtk_polygon
+                            : mesh_.patches()[i].shape.is_triangle() ? vtk_triangle
+                                                                     : vtk_quad;
                  }));
     }
 

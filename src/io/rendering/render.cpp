@@ -53,7 +53,7 @@ class Shading {
             return;
         if (!classes_)
             classes_ = &own_classes_.emplace(find_corner_classes(mesh));
-        corner_radiosity_ = smooth(mesh, *classes_, radiosity_, slopes);
+        corner_radiosity_ = smooth(mesh, *classes_, radiosity_, slopes, MeanOver::corners);
     }
     Shading(const Shading&) = delete;
     Shading& operator=(const Shading&) = delete;

@@ -2,82 +2,20 @@
 
 #include "bvh/tracer.h"
 #include "geometry/numeric.h"
+#include "io/polygons/convex_triangles.h"
+#include "io/results/corner_meetings.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <unordered_map>
 
 namespace hemilux {
 namespace {
 
-/// Positions nearer than this, in the local frame, are one.
-constexpr double weld_distance = 1e-9;
-
-struct Corner {
-    std::uint32_t patch;
-    std::uint32_t corner;
-};
-
-/// The corners that meet in each point: those of point v are corner[first[v]] to
-/// corner[first[v + 1]].
-struct Meetings {
-    std::vector<std::uint32_t> first;
-    std::vector<Corner> corner;
-    std::vector<Vec3> position;
-};
-
-/// The first of those that are one with each, by a sweep along a direction in which hardly any two
-/// other points are as near.
-std::vector<std::uint32_t> first_of_point(std::span<const Vec3> corners) {
-    constexpr Vec3 along(0.4896791743, -0.5781243907, 0.6526183259);
-    std::vector<double> place;
-    for (const Vec3& corner : corners)
-        place.push_back(glm::dot(along, corner));
-    std::vector<std::uint32_t> order(corners.size()), first(corners.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::ranges::sort(order, {}, [&](std::uint32_t i) { return std::pair(place[i], i); });
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        const std::uint32_t i = first[order[k]] = order[k];
-        for (std::size_t m = k; m-- > 0 && place[i] - place[order[m]] <= weld_distance;)
-            if (glm::distance(corners[i], corners[order[m]]) <= weld_distance) {
-                first[i] = first[order[m]];
-                break;
-            }
-    }
-    return first;
-}
-
-Meetings find_meetings(std::span<const Patch> patches) {
-    std::vector<Vec3> corners;
-    for (const Patch& patch : patches)
-        corners.insert(corners.end(), patch.shape.corner.begin(),
-                       patch.shape.corner.begin() + patch.shape.size());
-    const std::vector<std::uint32_t> first = first_of_point(corners);
-    Meetings result;
-    std::vector<std::uint32_t> number(corners.size(), none), point;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-        std::uint32_t& of_point = number[first[k]];
-        if (of_point == none) {
-            of_point = static_cast<std::uint32_t>(result.position.size());
-            result.position.push_back(corners[k]);
-        }
-        point.push_back(of_point);
-    }
-    result.first.assign(result.position.size() + 1, 0);
-    for (const std::uint32_t v : point)
-        ++result.first[v + 1];
-    std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
-    std::vector<std::uint32_t> next(result.first.begin(), result.first.end() - 1);
-    result.corner.resize(point.size());
-    std::size_t k = 0;
-    for (std::uint32_t i = 0; i < patches.size(); ++i)
-        for (int c = 0; c < patches[i].shape.size(); ++c)
-            result.corner[next[point[k++]]++] = {i, static_cast<std::uint32_t>(c)};
-    return result;
-}
+const double crease_cosine = std::cos(crease_angle * std::numbers::pi / 180);
 
 /// Classes among the corners of one point. Nearly equal normals share one delegate, so that the
 /// apex of a fan of many facets does not take quadratic time.
@@ -93,7 +31,7 @@ class Classifier {
         const auto d = static_cast<std::uint32_t>(delegates_.size());
         delegates_.push_back({patch.normal, patch.material, d});
         for (std::uint32_t other = 0; other < d; ++other)
-            if (cosine(delegates_[other], patch) > crease_)
+            if (cosine(delegates_[other], patch) > crease_cosine)
                 delegates_[root(other)].parent = root(d);
         return d;
     }
@@ -115,8 +53,95 @@ class Classifier {
     }
 
     double same_ = std::cos(0.5 * std::numbers::pi / 180);
-    double crease_ = std::cos(crease_angle * std::numbers::pi / 180);
     std::vector<Delegate> delegates_;
+};
+
+/// Puts the points on the sides of patches into outlines.
+class OutlineBuilder {
+  public:
+    OutlineBuilder(const Mesh& mesh, const CornerMeetings& meetings, CornerClasses& classes)
+        : patches_(mesh.patches()), meetings_(meetings), classes_(classes) {}
+
+    /// `points`: all those on the sides of one patch.
+    void add(std::span<const PointOnSide> points) {
+        const std::uint32_t patch = points.front().patch;
+        const auto size = static_cast<std::uint32_t>(patches_[patch].shape.size());
+        Outline outline{patch, {}, {}};
+        for (std::uint32_t side = 0; side < size; ++side) {
+            const auto end = std::ranges::find_if(
+                points, [&](const PointOnSide& point) { return point.side != side; });
+            const auto count = static_cast<std::size_t>(end - points.begin());
+            add_side(outline.classes, points.first(count), classes_.of_patch[patch][side],
+                     classes_.of_patch[patch][(side + 1) % size]);
+            points = points.subspan(count);
+        }
+        std::vector<Vec3> corners;
+        for (const std::uint32_t k : outline.classes)
+            corners.push_back(classes_.position[k]);
+        outline.triangles = convex_triangles(corners);
+        classes_.outlines.push_back(std::move(outline));
+    }
+
+  private:
+    /// The classes from the corner `from` to the one before the corner `to`.
+    void add_side(std::vector<std::uint32_t>& outline, std::span<const PointOnSide> points,
+                  std::uint32_t from, std::uint32_t to) {
+        std::vector<std::uint32_t> classes;
+        for (const PointOnSide& point : points)
+            classes.push_back(class_at(point));
+        outline.push_back(from);
+        double place = 0; // of the last class of the outline
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            if (classes[k] == none) {
+                std::size_t next = k;
+                while (next < classes.size() && classes[next] == none)
+                    ++next;
+                const bool is_end = next == classes.size();
+                const double end = is_end ? 1 : points[next].place;
+                classes[k] = add_class(points[k], {outline.back(), is_end ? to : classes[next],
+                                                   (points[k].place - place) / (end - place)});
+            }
+            outline.push_back(classes[k]);
+            place = points[k].place;
+        }
+    }
+
+    /// The class at a point of the corner whose surface is most like the patch's; none where there
+    /// is a crease to all.
+    [[nodiscard]] std::uint32_t class_at(const PointOnSide& point) const {
+        double most = crease_cosine;
+        std::uint32_t best = none;
+        const auto offer = [&](std::uint32_t patch, std::uint32_t of_class) {
+            const Patch &one = patches_[point.patch], &other = patches_[patch];
+            const double cosine = glm::dot(one.normal, other.normal);
+            if (one.material == other.material && cosine > most) {
+                most = cosine;
+                best = of_class;
+            }
+        };
+        for (std::uint32_t k = meetings_.first[point.point]; k < meetings_.first[point.point + 1];
+             ++k)
+            offer(meetings_.corner[k].patch,
+                  classes_.of_patch[meetings_.corner[k].patch][meetings_.corner[k].corner]);
+        if (const auto own = added_.find(point.point); best == none && own != added_.end())
+            for (const auto& [patch, of_class] : own->second)
+                offer(patch, of_class);
+        return best;
+    }
+
+    std::uint32_t add_class(const PointOnSide& point, const BetweenClasses& between) {
+        const auto id = static_cast<std::uint32_t>(classes_.position.size());
+        classes_.position.push_back(meetings_.position[point.point]);
+        classes_.between.push_back(between);
+        added_[point.point].emplace_back(point.patch, id);
+        return id;
+    }
+
+    std::span<const Patch> patches_;
+    const CornerMeetings& meetings_;
+    CornerClasses& classes_;
+    /// Patches and their classes at points where they have no corner and no surface like theirs.
+    std::unordered_map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> added_;
 };
 
 /// The interior angle at a corner [rad].
@@ -163,7 +188,7 @@ std::array<double, 4> quad_weights(const Polygon& shape, const Vec3& point) {
 
 CornerClasses find_corner_classes(const Mesh& mesh) {
     const std::span<const Patch> patches = mesh.patches();
-    const Meetings meetings = find_meetings(patches);
+    const CornerMeetings meetings = find_meetings(mesh);
     CornerClasses result;
     result.of_patch.resize(patches.size());
     Classifier classifier;
@@ -180,41 +205,67 @@ CornerClasses find_corner_classes(const Mesh& mesh) {
                 id = static_cast<std::uint32_t>(result.position.size());
                 result.position.push_back(meetings.position[v]);
             }
-            const Corner corner = meetings.corner[meetings.first[v] + k];
+            const PatchCorner corner = meetings.corner[meetings.first[v] + k];
             result.of_patch[corner.patch][corner.corner] = id;
         }
     }
     for (std::size_t i = 0; i < patches.size(); ++i)
         if (patches[i].shape.is_triangle())
             result.of_patch[i][3] = result.of_patch[i][2];
+    const std::vector<PointOnSide> points = find_points_on_sides(mesh, meetings);
+    OutlineBuilder builder(mesh, meetings, result);
+    for (auto begin = points.begin(); begin != points.end();) {
+        const auto end = std::find_if(begin, points.end(), [&](const PointOnSide& point) {
+            return point.patch != begin->patch;
+        });
+        builder.add({begin, end});
+        begin = end;
+    }
     return result;
 }
 
-std::vector<Vec3>
-smooth(const Mesh& mesh, const CornerClasses& classes,
-       const std::function<Vec3(std::uint32_t patch, const Vec3& corner)>& value) {
-    std::vector<Vec3> sum(classes.position.size(), Vec3(0.0));
-    std::vector<double> weight(classes.position.size(), 0.0);
+const Outline* outline_of(const CornerClasses& classes, std::uint32_t patch) {
+    const auto at = std::ranges::lower_bound(classes.outlines, patch, {}, &Outline::patch);
+    return at != classes.outlines.end() && at->patch == patch ? &*at : nullptr;
+}
+
+std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
+                         const std::function<Vec3(std::uint32_t patch, const Vec3& corner)>& value,
+                         MeanOver over) {
+    const std::size_t of_corners = classes.position.size() - classes.between.size();
+    std::vector<Vec3> sum(of_corners, Vec3(0.0));
+    std::vector<double> weight(of_corners, 0.0);
+    const auto add = [&](std::uint32_t k, double angle, const Vec3& of_patch) {
+        sum[k] += angle * of_patch;
+        weight[k] += angle;
+    };
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
         const Polygon& shape = mesh.patches()[i].shape;
         for (std::size_t c = 0; c < static_cast<std::size_t>(shape.size()); ++c) {
             constexpr double tiny = 1e-6; // a corner of a sliver has a value too
-            const double angle = corner_angle(shape, c) + tiny;
-            sum[classes.of_patch[i][c]] += angle * value(i, shape.corner[c]);
-            weight[classes.of_patch[i][c]] += angle;
+            add(classes.of_patch[i][c], corner_angle(shape, c) + tiny, value(i, shape.corner[c]));
         }
     }
+    if (over == MeanOver::outlines)
+        for (const Outline& outline : classes.outlines)
+            for (const std::uint32_t k : outline.classes)
+                if (k < of_corners && !std::ranges::count(classes.of_patch[outline.patch], k))
+                    add(k, std::numbers::pi, value(outline.patch, classes.position[k]));
     for (std::size_t k = 0; k < sum.size(); ++k)
         sum[k] /= weight[k];
+    for (const auto& [from, to, place] : classes.between)
+        sum.push_back((1 - place) * sum[from] + place * sum[to]);
     return sum;
 }
 
 std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
-                         std::span<const Vec3> radiosity, std::span<const Slope> slope) {
+                         std::span<const Vec3> radiosity, std::span<const Slope> slope,
+                         MeanOver over) {
     const PatchLight light(radiosity, slope);
-    return smooth(mesh, classes, [&](std::uint32_t patch, const Vec3& corner) {
+    const auto value = [&](std::uint32_t patch, const Vec3& corner) {
         return radiosity_at(mesh, light, patch, corner);
-    });
+    };
+    return smooth(mesh, classes, value, over);
 }
 
 std::array<double, 4> corner_weights(const Polygon& shape, const Vec3& point) {

@@ -21,10 +21,27 @@ namespace hemilux {
 class Mesh;
 struct Slope;
 
+/// A patch on whose sides corners of others lie, as meshes are written and drawn: so its
+/// neighbours and it have the same vertices, and no crack shows between them.
+struct Outline {
+    std::uint32_t patch;
+    std::vector<std::uint32_t> classes; ///< round the patch, from its first corner on
+    std::vector<std::array<std::uint32_t, 3>> triangles; ///< indices of `classes`
+};
+
+/// A place on a side where corners of others meet, but none of a surface like the patch's: its
+/// light is interpolated between two classes.
+struct BetweenClasses {
+    std::uint32_t from, to;
+    double place; ///< 0: from, 1: to
+};
+
 struct CornerClasses {
     std::vector<std::array<std::uint32_t, 4>>
-        of_patch;               ///< class of each corner; triangle: [3] == [2]
-    std::vector<Vec3> position; ///< of each class, local frame
+        of_patch;                        ///< class of each corner; triangle: [3] == [2]
+    std::vector<Vec3> position;          ///< of each class, local frame
+    std::vector<BetweenClasses> between; ///< the last classes: those of no patch's corners
+    std::vector<Outline> outlines;       ///< in the order of patches
 };
 
 /// Surfaces that meet at a larger angle [degrees] are shaded apart. A column of twelve sides is
@@ -33,16 +50,42 @@ inline constexpr double crease_angle = 31;
 
 [[nodiscard]] CornerClasses find_corner_classes(const Mesh& mesh);
 
+/// Null where a patch has no vertices but its corners.
+[[nodiscard]] const Outline* outline_of(const CornerClasses& classes, std::uint32_t patch);
+
+/// Calls visit(a, b, c) with the classes of each triangle of a patch. Those of all patches have no
+/// T-junction where facets were divided.
+template <class Visit>
+void for_each_triangle(const CornerClasses& classes, std::uint32_t patch, const Visit& visit) {
+    if (const Outline* const outline = outline_of(classes, patch)) {
+        for (const auto& [a, b, c] : outline->triangles)
+            visit(outline->classes[a], outline->classes[b], outline->classes[c]);
+        return;
+    }
+    const auto& [a, b, c, d] = classes.of_patch[patch];
+    visit(a, b, c);
+    if (c != d)
+        visit(a, c, d);
+}
+
+/// Which patches take part in the mean of a class.
+enum class MeanOver {
+    corners, ///< those with a corner in it: pictures interpolate each patch between its corners
+    outlines ///< those too on whose sides it lies: meshes have it as a vertex there
+};
+
 /// The mean radiosity of each class of corners [W/m2], weighted by the angles at the corners.
 /// `slope`: empty, or by patch, what its light is in its corners.
 [[nodiscard]] std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
                                        std::span<const Vec3> radiosity,
-                                       std::span<const Slope> slope = {});
+                                       std::span<const Slope> slope = {},
+                                       MeanOver over = MeanOver::outlines);
 
 /// The same of any value that patches have in their corners.
 [[nodiscard]] std::vector<Vec3>
 smooth(const Mesh& mesh, const CornerClasses& classes,
-       const std::function<Vec3(std::uint32_t patch, const Vec3& corner)>& value);
+       const std::function<Vec3(std::uint32_t patch, const Vec3& corner)>& value,
+       MeanOver over = MeanOver::outlines);
 
 /// Weights of the corners for a point of the polygon: barycentric in a triangle, the inverse of the
 /// bilinear map in a quad. Linear along edges, so that neighbours agree there.

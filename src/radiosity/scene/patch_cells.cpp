@@ -5,8 +5,6 @@
 namespace hemilux {
 namespace {
 
-Vec3 middle(const Vec3& a, const Vec3& b) { return .5 * (a + b); }
-
 CellShape triangle_of(const Vec3& a, const Vec3& b, const Vec3& c) { return {{a, b, c, c}, true}; }
 
 /// The half of [0, 1] in which x lies; x becomes its place in that half.

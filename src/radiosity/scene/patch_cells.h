@@ -24,6 +24,9 @@ struct CellShape {
     [[nodiscard]] Polygon polygon() const;
 };
 
+/// Where sides are cut: the same bytes whichever end comes first.
+[[nodiscard]] inline Vec3 middle(const Vec3& a, const Vec3& b) { return .5 * (a + b); }
+
 enum class CellCut : std::uint8_t { leaf, four, across_x, across_y };
 
 /// The cut after which the pieces are about as wide as long.

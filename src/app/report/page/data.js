@@ -36,7 +36,7 @@ function readRun() {
   const run = JSON.parse(document.getElementById("run").textContent);
   for (const name of ["position", "light", "area", "radiosity", "error", "hits", "reflectance", "emission"])
     run[name] = readArray(name, Float32Array);
-  for (const name of ["corners", "face", "material", "group"]) run[name] = readArray(name, Uint32Array);
+  for (const name of ["corners", "triangles", "face", "material", "group"]) run[name] = readArray(name, Uint32Array);
   run.patches = run.area.length;
   readDensities(run);
   return run;

@@ -43,13 +43,15 @@ function makeProgram(gl) {
   return program;
 }
 
-/** The patches as triangles: of each triangle's corner the vertex and the patch. */
+/** The patches as triangles: of each triangle's corner the vertex, and where those of each patch begin. */
 function trianglesOf(run) {
-  const vertex = [], first = [0];
-  for (let i = 0; i < run.patches; ++i) {
+  const vertex = [], first = [0], listed = run.triangles || [];
+  for (let i = 0, k = 0; i < run.patches; ++i) {
     const [a, b, c, d] = run.corners.subarray(4 * i, 4 * i + 4);
-    vertex.push(a, b, c);
-    if (c !== d) vertex.push(a, c, d);
+    if (listed[k] === i)
+      for (; listed[k] === i; k += 4) vertex.push(listed[k + 1], listed[k + 2], listed[k + 3]);
+    else if (c !== d) vertex.push(a, b, c, a, c, d);
+    else vertex.push(a, b, c);
     first.push(vertex.length);
   }
   return { vertex, first };
