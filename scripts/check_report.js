@@ -23,6 +23,7 @@
   canvas.setPointerCapture = () => {}; // refuses pointers of scripts
   const first = pixels();
   check("the canvas shows many colours", colours(first) > 50);
+  check("the page says how a patch is chosen", document.getElementById("patch").textContent.includes("Click a surface"));
 
   const box = canvas.getBoundingClientRect();
   const middle = [box.left + box.width / 2, box.top + box.height / 2];
