@@ -76,6 +76,8 @@
   check("the table has a row for each of the CSV", document.querySelectorAll("#steps tbody tr").length === run.rows.length);
   check("nothing is loaded from elsewhere", performance.getEntriesByType("resource").length === 0);
   check("no name has become HTML", document.querySelectorAll("main img, main b, main i").length === 0 && window.hostile === undefined);
+  const summary = document.getElementById("summary").parentElement;
+  check("a wide window shows all columns of the summary", innerWidth < 1000 || summary.scrollWidth <= summary.clientWidth);
   check("nothing is wider than the window",
     document.documentElement.scrollWidth <= document.documentElement.clientWidth);
   document.body.replaceChildren(element("pre", { id: "check", text: "\n" + lines.join("\n") + "\nall checks ran\n" }));

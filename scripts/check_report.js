@@ -23,6 +23,7 @@
   canvas.setPointerCapture = () => {}; // refuses pointers of scripts
   const first = pixels();
   check("the canvas shows many colours", colours(first) > 50);
+  check("the page says how a patch is chosen", document.getElementById("patch").textContent.includes("Click a surface"));
 
   if (run.triangles && run.scene.endsWith("office_3576.obj")) { // a closed room
     const background = gl.getParameter(gl.COLOR_CLEAR_VALUE);

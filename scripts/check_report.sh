@@ -65,7 +65,7 @@ for page in office divided hemisphere hostile sky compared compared-hostile; do
     case $page in compared*) check=check_comparison.js ;; *) check=check_report.js ;; esac
     sed '/^<\/body>/,$d' "$folder/$page.html" >checked.html
     { echo '<script>'; cat "$root/scripts/$check"; echo '</script></body></html>'; } >>checked.html
-    for size in 1360,1000 500,900; do
+    for size in 1240,1000 500,900; do
         echo "== $page, window of $size"
         look --window-size=$size --dump-dom "file://$scratch/checked.html" >dom || status=1
         grep -E '^(holds|FAILS|all)' dom || true

@@ -256,6 +256,33 @@ TEST_CASE("A lamp shines to the side where there is something to light") {
     }
 }
 
+TEST_CASE("A sun is not turned with the room that it stands over") {
+    // The walls of the room have their fronts outside; the sun is a square far above, open, and
+    // dark as long as nobody looks at it.
+    const bool closed = GENERATE(true, false);
+    CAPTURE(closed);
+    Scene scene = empty_scene();
+    const Scene walls = room(Vec3(0, 0, 0), Vec3(4, 3, 4));
+    add(scene, walls, true);
+    if (!closed)
+        std::erase_if(scene.facets, [&](const Facet& facet) {
+            return std::ranges::all_of(facet.vertex,
+                                       [&](std::uint32_t v) { return scene.vertices[v].y == 3; });
+        });
+    add_lamp(scene, 2, 2, 2, .5, false);
+    const std::uint32_t own = scene.faces;
+    scene.materials.push_back(
+        {.name = "sun", .reflectance = Vec3(0.0), .emission = Vec3(100), .is_far = true});
+    const auto sun = static_cast<std::uint32_t>(scene.materials.size() - 1);
+    add_quad(scene, Vec3(-40, 100, -40), Vec3(40, 100, -40), Vec3(40, 100, 40), Vec3(-40, 100, 40),
+             1, 1, sun);
+    const Orientation found = find_orientation(scene);
+    REQUIRE(found.looks_away.size() == scene.faces);
+    CHECK(found.looks_away[scene.facets.front().face]);
+    for (std::uint32_t face = own; face < scene.faces; ++face)
+        CHECK_FALSE(found.looks_away[face]);
+}
+
 TEST_CASE("A small lamp far from a small thing in the open shines outwards") {
     Scene scene = empty_scene();
     add_block(scene, Vec3(-1), Vec3(1));

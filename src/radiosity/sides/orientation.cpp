@@ -93,7 +93,8 @@ class OrientationSearch {
         for (std::uint32_t f = 0; f < light_.size(); ++f) {
             add(light_[f], false, light_of_face_[scene_.facets[f].face]);
             all_light_ += sum_of(light_[f]);
-            if (emits_[shells_.of[f]] || sum_of(light_[f]) == 0 || scene_.facets[f].two_sided)
+            if (emits_[shells_.of[f]] || sum_of(light_[f]) == 0 || scene_.facets[f].two_sided ||
+                is_far(f))
                 continue;
             const double area = area_of(mesh_, f);
             lit += area;
@@ -103,6 +104,11 @@ class OrientationSearch {
         const auto clashing = static_cast<double>(shells_.clashing_edges);
         reversed_ = lit > 0 && from_behind > much_area * lit;
         disordered_ = reversed_ || (clashing > 0 && clashing > many_edges * edges);
+    }
+
+    /// Of a sun or a sky.
+    [[nodiscard]] bool is_far(std::uint32_t facet) const {
+        return scene_.materials[scene_.facets[facet].material].is_far;
     }
 
     static void add(const SideLight& light, bool reversed, SideLight& sum) {
@@ -120,8 +126,11 @@ class OrientationSearch {
         return emitter_side_[s] && emitter_side_[s]->back;
     }
 
+    /// A sun and a sky look at the scene, whatever the scene's own faces do.
     void check(std::uint32_t s) {
         const Shell& shell = shells_.all[s];
+        if (is_far(shells_.facets_of(shell)[0]))
+            return;
         if (!shell.orientable)
             ++result_.one_sided;
         else if (!shell.consistent)

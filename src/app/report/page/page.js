@@ -131,6 +131,7 @@ function showPage(run) {
     describePatch(run, patch);
     if (view) { view.selected = patch; view.redraw(); }
   };
+  describePatch(run, null);
   at("number").max = run.patches - 1;
   at("choose").addEventListener("submit", (event) => {
     event.preventDefault();
