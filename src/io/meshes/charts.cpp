@@ -189,10 +189,11 @@ ChartCorners divide_by_charts(const Mesh& mesh, const CornerClasses& classes,
         for (const std::uint32_t i : charts[c].patches) {
             for (std::size_t corner = 0; corner < 4; ++corner)
                 divided.classes.of_patch[i][corner] = number_of(classes.of_patch[i][corner], c);
-            if (const Outline* const outline = outline_of(classes, i))
-                for (std::uint32_t& k :
-                     divided.classes.outlines[outline - classes.outlines.data()].classes)
+            if (const Outline* const outline = outline_of(classes, i)) {
+                const auto place = static_cast<std::size_t>(outline - classes.outlines.data());
+                for (std::uint32_t& k : divided.classes.outlines[place].classes)
                     k = number_of(k, c);
+            }
         }
     return divided;
 }
