@@ -49,14 +49,14 @@ int info(const InfoSettings& settings) {
             turn_faces(scene, *report.sides);
         const Mesh mesh = divide_scene(std::move(scene), asked);
         report.patches = mesh.patches().size();
-        const Crowd crowd = make_tracer(mesh, needs_tree(mesh)).crowd;
-        if (const std::string slow = crowd_text(crowd, mesh); !slow.empty()) {
+        const MadeTracer made = make_tracer(mesh, needs_tree(mesh));
+        if (const std::string slow = crowd_text(made.crowd, mesh); !slow.empty()) {
             log_line(settings.verbosity, Verbosity::normal, "warning: " + slow);
             report.warnings.push_back(slow);
         }
         report.left_out = left_out(find_needs(mesh));
         if (report.info.bad_reflectances.empty())
-            report.error_division = error_within_patches(mesh, 0);
+            report.error_division = error_within_patches(mesh, *made.tracer, 0);
     }
     std::cout << (settings.json ? to_json(report)
                                 : message_for(STDOUT_FILENO, describe(report, read.scene, asked),

@@ -4,27 +4,25 @@
 #include "parallel/workers.h"
 #include "radiosity/division/adaptive_division.h"
 #include "radiosity/final_gather/division_error.h"
-#include "radiosity/rays/make_tracer.h"
 #include "radiosity/solution/solve_error.h"
 
 #include <cmath>
 
 namespace hemilux {
 
-std::optional<double> error_within_patches(const Mesh& mesh, unsigned threads) {
+std::optional<double> error_within_patches(const Mesh& mesh, const Tracer& tracer,
+                                           unsigned threads) {
     if (mesh.patches().empty() || mesh.patches().size() > most_patches_by_default)
         return {};
     try {
-        const MadeTracer made = make_tracer(mesh, true, threads);
         Monitor monitor;
         const Solution rough =
-            rough_solution(mesh, *made.tracer, {.error = .05, .threads = threads}, monitor);
+            rough_solution(mesh, tracer, {.error = .05, .threads = threads}, monitor);
         if (rough.steps == 0)
             return {};
         constexpr double resolved = .01;
-        const DivisionError found =
-            division_error(mesh, *made.tracer, rough, {.negligible = resolved}, Workers(threads),
-                           monitor.interrupted);
+        const DivisionError found = division_error(mesh, tracer, rough, {.negligible = resolved},
+                                                   Workers(threads), monitor.interrupted);
         return std::isfinite(found.error) ? std::optional(found.error) : std::nullopt;
     } catch (const SolveError&) {
         return {};

@@ -6,10 +6,12 @@
 namespace hemilux {
 
 class Mesh;
+class Tracer;
 
 /// How far the light is off within the patches of a mesh, relative to it, from a rough solution;
 /// empty where nothing is lit or cannot be solved, and where there are more patches than a plain
 /// run divides. `threads`: 0: one per core.
-[[nodiscard]] std::optional<double> error_within_patches(const Mesh& mesh, unsigned threads);
+[[nodiscard]] std::optional<double> error_within_patches(const Mesh& mesh, const Tracer& tracer,
+                                                         unsigned threads);
 
 } // namespace hemilux
