@@ -1,5 +1,6 @@
 // What the program says about how a run ended.
 #include "app/running/run_notes.h"
+#include "app/terminal/summary.h"
 #include "support/catch.h"
 
 #include <cmath>
@@ -56,4 +57,15 @@ TEST_CASE("An error that is not known is said to be unknown") {
     const auto texts = notes.texts(unknown, false);
     REQUIRE(texts.size() == 1);
     CHECK_THAT(texts[0], Contains("unknown") && Contains("no light"));
+}
+
+TEST_CASE("Where the error of the division was not measured, that of sampling is still said") {
+    Statistics run;
+    run.steps = 2;
+    run.estimated_error = run.error_division = unknown;
+    run.error_sampling = .0191;
+    CHECK_THAT(run_text(run), Contains("estimated error unknown: the run ended before that of the "
+                                       "division was measured; sampling 1.91 %"));
+    run.error_sampling = unknown;
+    CHECK_THAT(run_text(run), Contains("estimated error unknown") && !Contains("sampling"));
 }

@@ -34,6 +34,10 @@ std::string uncertainty_text(const Statistics& s) {
 
 /// The estimated error, of what, and what the other part of it is.
 std::string errors_text(const Statistics& s) {
+    if (!std::isfinite(s.estimated_error) && std::isfinite(s.error_sampling))
+        return "estimated error unknown: the run ended before that of the division was measured; "
+               "sampling " +
+               percent(s.error_sampling);
     std::string error = "estimated error " + percent(s.estimated_error) + uncertainty_text(s);
     if (!s.target.empty()) {
         error += ", of the light on ";

@@ -124,7 +124,7 @@ void MaterialTable::warn_of_outside(const std::string& file, const std::string& 
     if (error || (!inside.empty() && *inside.begin() != "..") || std::exchange(outside_, true))
         return;
     warnings.push_back(where + "material library " + in_quotes(file) +
-                       " lies outside the scene's folder (this is the first)");
+                       " lies outside the scene's folder; further ones that do are not named");
 }
 
 void MaterialTable::define(const std::string& file, const MtlMaterial& material) {
