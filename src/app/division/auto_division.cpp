@@ -129,7 +129,7 @@ void AutoDivision::forget_run() {
 DivisionErrorOptions AutoDivision::error_options(std::uint64_t most_rays, double negligible) {
     return {.seed = hash_words({settings_.options.seed, 4, gathers_++}),
             .most_rays = most_rays,
-            .negligible = is_gathered_ ? resolved_gathered_error(settings_) : negligible};
+            .negligible = negligible};
 }
 
 void AutoDivision::measure(const DivisionErrorOptions& options) {
@@ -185,18 +185,25 @@ bool AutoDivision::is_enough(double sampling) {
     return false;
 }
 
-/// The first of several errors to be small enough errs low, so another one confirms it. That of
-/// gathered light varies less.
+/// The first of several errors to be small enough errs low, so another one confirms it. For
+/// gathered light that one is found out better, as it is reported.
 bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
                                 std::span<const double> square) {
-    for (unsigned time = 0; time < (is_gathered_ ? 1 : 2); ++time) {
-        DivisionErrorOptions options = error_options(most_rays, sampling / 2);
-        options.square = square;
-        measure(options);
-        if (is_over() || !is_enough(sampling))
-            return false;
+    constexpr unsigned better = 3, rays_for_that = 2;
+    DivisionErrorOptions first =
+        error_options(most_rays, is_gathered_ ? resolved_gathered_error(settings_) : sampling / 2);
+    first.square = square;
+    measure(first);
+    if (is_over() || !is_enough(sampling))
+        return false;
+    DivisionErrorOptions second = error_options(most_rays, first.negligible);
+    second.square = square;
+    if (is_gathered_) {
+        second.negligible /= better;
+        second.most_rays *= rays_for_that;
     }
-    return true;
+    measure(second);
+    return !is_over() && is_enough(sampling);
 }
 
 void AutoDivision::divide_once(Division& division) {
@@ -246,9 +253,8 @@ Divided AutoDivision::divide() {
             std::max(first_sampling_of_gathered, sampling_of_gathered * whole_);
     run_to(*rough.error, rough);
     if (!is_over()) {
-        const double most = is_gathered_ ? whole_ : share_of_division * whole_;
-        const DivisionErrorOptions options = error_options(rays_of_error(0), most);
-        measure(options);
+        measure(error_options(rays_of_error(0), is_gathered_ ? resolved_gathered_error(settings_)
+                                                             : share_of_division * whole_));
     }
     if (!is_over() && is_gathered_) {
         const double spread = divided_.spread->error;

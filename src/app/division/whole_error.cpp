@@ -27,8 +27,10 @@ void enter(Statistics& statistics, const DivisionError& of_patches, bool divide_
     statistics.error_division = of_patches.error;
     statistics.error_division_uncertainty = of_patches.uncertainty;
     if (gathered) {
-        statistics.estimated_error = gathered->error;
-        statistics.estimated_error_uncertainty = gathered->uncertainty;
+        // Relative to the light itself, whose square is larger than that of the patches' means.
+        const double light = std::sqrt(1 - std::min(of_patches.error * of_patches.error, 1.0));
+        statistics.estimated_error = light * gathered->error;
+        statistics.estimated_error_uncertainty = light * gathered->uncertainty;
     } else if (divide_auto) {
         const double whole = std::hypot(statistics.error_sampling, of_patches.error);
         statistics.estimated_error_uncertainty =
