@@ -74,6 +74,7 @@ class AutoDivision {
     /// Whether the whole error, as far as it is known, is as asked for; else less is left to what
     /// has the larger part.
     [[nodiscard]] bool is_enough(double sampling);
+    void measure_again(DivisionErrorOptions options);
     [[nodiscard]] bool is_confirmed(std::uint64_t most_rays, double sampling,
                                     std::span<const double> square);
     [[nodiscard]] std::uint64_t rays_of_error(std::uint64_t before) const {
@@ -185,25 +186,29 @@ bool AutoDivision::is_enough(double sampling) {
     return false;
 }
 
-/// The first of several errors to be small enough errs low, so another one confirms it. For
-/// gathered light that one is found out better, as it is reported.
+/// The first of several errors to be small enough errs low, so another one confirms it.
 bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
                                 std::span<const double> square) {
-    constexpr unsigned better = 3, rays_for_that = 2;
-    DivisionErrorOptions first =
+    DivisionErrorOptions options =
         error_options(most_rays, is_gathered_ ? resolved_gathered_error(settings_) : sampling / 2);
-    first.square = square;
-    measure(first);
+    options.square = square;
+    measure(options);
     if (is_over() || !is_enough(sampling))
         return false;
-    DivisionErrorOptions second = error_options(most_rays, first.negligible);
-    second.square = square;
-    if (is_gathered_) {
-        second.negligible /= better;
-        second.most_rays *= rays_for_that;
-    }
-    measure(second);
+    measure_again(options);
     return !is_over() && is_enough(sampling);
+}
+
+/// At other points. That of gathered light, which varies more, is found out better, as it is
+/// reported.
+void AutoDivision::measure_again(DivisionErrorOptions options) {
+    constexpr unsigned better = 3, rays_for_that = 2;
+    options.seed = error_options(0, 0).seed;
+    if (is_gathered_) {
+        options.negligible /= better;
+        options.most_rays *= rays_for_that;
+    }
+    measure(options);
 }
 
 void AutoDivision::divide_once(Division& division) {
@@ -253,8 +258,12 @@ Divided AutoDivision::divide() {
             std::max(first_sampling_of_gathered, sampling_of_gathered * whole_);
     run_to(*rough.error, rough);
     if (!is_over()) {
-        measure(error_options(rays_of_error(0), is_gathered_ ? resolved_gathered_error(settings_)
-                                                             : share_of_division * whole_));
+        const DivisionErrorOptions options =
+            error_options(rays_of_error(0), is_gathered_ ? resolved_gathered_error(settings_)
+                                                         : share_of_division * whole_);
+        measure(options);
+        if (is_gathered_ && !is_over() && divided_.spread->error <= safe * whole_)
+            measure_again(options);
     }
     if (!is_over() && is_gathered_) {
         const double spread = divided_.spread->error;
