@@ -6,6 +6,7 @@
 #include "support/catch.h"
 
 #include <cstdlib>
+#include <regex>
 
 using test::Workplace;
 
@@ -32,13 +33,6 @@ std::string without_seconds(const std::string& log) {
             kept += c;
     }
     return kept;
-}
-
-int times(const std::string& text, const std::string& part) {
-    int count = 0;
-    for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; ++at)
-        ++count;
-    return count;
 }
 
 } // namespace
@@ -104,6 +98,12 @@ TEST_CASE("What is wrong for all ranks is said once, with the program's exit cod
         return;
     const Workplace place;
     place.write_room();
+    const auto times = [](const std::string& text, const std::string& part) {
+        int count = 0;
+        for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; ++at)
+            ++count;
+        return count;
+    };
     const auto no_scene = place.hemilux_on(3, "solve none.obj -o x.csv");
     CHECK(no_scene.code == 2);
     CHECK(times(no_scene.err, "hemilux: none.obj: ") == 1);
@@ -127,9 +127,10 @@ TEST_CASE("Where a rank dies all end with one message and exit code 3, and no ha
                             "until rank=$(last_child $(last_child $!)) && [ \"$rank\" ]; "
                             "do sleep .1; done; sleep .5; kill -9 $rank; wait $!");
     CHECK(outcome.code == 3);
-    // Open MPI may tell, in a line of its own, that it could not read the memory of the dead rank.
-    CHECK(times(outcome.err, "hemilux: ") == 1);
-    CHECK(times(outcome.err, "hemilux: a rank was killed by signal 9 (Killed)\n") == 1);
+    // Open MPI itself may tell that it could not read the memory of the dead rank.
+    const std::regex of_mpi("\\[[^\n]*\\] Read -1, expected [0-9]+, errno = [0-9]+\n");
+    CHECK(std::regex_replace(outcome.err, of_mpi, "") ==
+          "hemilux: a rank was killed by signal 9 (Killed)\n");
     CHECK_FALSE(place.has("out.csv"));
 }
 

@@ -59,10 +59,11 @@ class AutoDivision {
   private:
     /// The light of the mesh as it is: by the run to come, where that is of the standard method.
     void run_to(double error, const StopRule& most);
-    /// Of an error that is found out now, at points of its own.
-    [[nodiscard]] DivisionErrorOptions error_options(std::uint64_t most_rays, double negligible);
-    /// How far the light that is given out is off by the division.
-    void measure(const DivisionErrorOptions& options);
+    /// How well the error is to be known. `negligible`: that of patches.
+    [[nodiscard]] DivisionErrorOptions error_options(std::uint64_t most_rays,
+                                                     double negligible) const;
+    /// How far the light that is given out is off by the division, at points of its own.
+    void measure(DivisionErrorOptions options);
     [[nodiscard]] double measured() const {
         return is_gathered_ ? gathered_error(*divided_.spread, mesh_, divided_.rough).error
                             : divided_.error->error;
@@ -127,13 +128,13 @@ void AutoDivision::forget_run() {
     divided_.before = {};
 }
 
-DivisionErrorOptions AutoDivision::error_options(std::uint64_t most_rays, double negligible) {
-    return {.seed = hash_words({settings_.options.seed, 4, gathers_++}),
-            .most_rays = most_rays,
-            .negligible = negligible};
+DivisionErrorOptions AutoDivision::error_options(std::uint64_t most_rays, double negligible) const {
+    return {.most_rays = most_rays,
+            .negligible = is_gathered_ ? resolved_gathered_error(settings_) : negligible};
 }
 
-void AutoDivision::measure(const DivisionErrorOptions& options) {
+void AutoDivision::measure(DivisionErrorOptions options) {
+    options.seed = hash_words({settings_.options.seed, 4, gathers_++});
     const Stopwatch watch;
     const Workers workers(settings_.options.threads);
     const DivisionError found =
@@ -189,8 +190,7 @@ bool AutoDivision::is_enough(double sampling) {
 /// The first of several errors to be small enough errs low, so another one confirms it.
 bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
                                 std::span<const double> square) {
-    DivisionErrorOptions options =
-        error_options(most_rays, is_gathered_ ? resolved_gathered_error(settings_) : sampling / 2);
+    DivisionErrorOptions options = error_options(most_rays, sampling / 2);
     options.square = square;
     measure(options);
     if (is_over() || !is_enough(sampling))
@@ -203,7 +203,6 @@ bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
 /// reported.
 void AutoDivision::measure_again(DivisionErrorOptions options) {
     constexpr unsigned better = 3, rays_for_that = 2;
-    options.seed = error_options(0, 0).seed;
     if (is_gathered_) {
         options.negligible /= better;
         options.most_rays *= rays_for_that;
@@ -259,8 +258,7 @@ Divided AutoDivision::divide() {
     run_to(*rough.error, rough);
     if (!is_over()) {
         const DivisionErrorOptions options =
-            error_options(rays_of_error(0), is_gathered_ ? resolved_gathered_error(settings_)
-                                                         : share_of_division * whole_);
+            error_options(rays_of_error(0), share_of_division * whole_);
         measure(options);
         if (is_gathered_ && !is_over() && divided_.spread->error <= safe * whole_)
             measure_again(options);

@@ -28,7 +28,8 @@ void enter(Statistics& statistics, const DivisionError& of_patches, bool divide_
     statistics.error_division_uncertainty = of_patches.uncertainty;
     if (gathered) {
         // Relative to the light itself, whose square is larger than that of the patches' means.
-        const double light = std::sqrt(1 - std::min(of_patches.error * of_patches.error, 1.0));
+        const double within = std::isfinite(of_patches.error) ? of_patches.error : 0;
+        const double light = std::sqrt(1 - std::min(within * within, 1.0));
         statistics.estimated_error = light * gathered->error;
         statistics.estimated_error_uncertainty = light * gathered->uncertainty;
     } else if (divide_auto) {
