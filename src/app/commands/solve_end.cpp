@@ -49,6 +49,15 @@ constexpr const char* no_step_warning =
     "the time ended before the first step was done; the outputs hold emission alone; a longer "
     "--time or fewer --rays give a solution";
 
+std::string interruption_text(std::uint32_t steps, bool wrote) {
+    const std::string when =
+        steps > 0 ? "interrupted" : "interrupted before the first step was done";
+    if (!wrote)
+        return when;
+    return when + "; the outputs hold " +
+           (steps > 0 ? counted(steps, "step", "steps") : "emission alone");
+}
+
 /// What suns and skies emit, and what all else reflects.
 void add_powers(Statistics& statistics, const Mesh& mesh, const Solution& solution) {
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
@@ -128,12 +137,8 @@ int finish(const SolveSettings& settings, Results results, const WriteReport& of
     }
     report.log(settings.verbosity);
     if (interrupted)
-        log_line(
-            settings.verbosity, Verbosity::quiet,
-            results.solution.steps > 0
-                ? "interrupted; the outputs hold " +
-                      counted(results.solution.steps, "step", "steps")
-                : "interrupted before the first step was done; the outputs hold emission alone");
+        log_line(settings.verbosity, Verbosity::quiet,
+                 interruption_text(results.solution.steps, !report.written.empty()));
     return report.exit_code(results.interrupted);
 }
 

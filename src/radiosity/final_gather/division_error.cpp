@@ -166,7 +166,9 @@ DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double
                               const OffAt& off_at, FinalGather& gather, const OtherError& other,
                               const Manner& manner, const DivisionErrorOptions& options,
                               const Workers& workers, const StopFlag& interrupted) {
-    constexpr double least_growth = 2, most_growth = 4;
+    // Noise falls by f with f times as long gathers or with f^2 as many points, of which those that
+    // there are count.
+    constexpr double growth_pays = 1.6, least_growth = 2, most_growth = 4;
     DivisionError result;
     const double negligible = options.negligible * options.negligible;
     const PointsOverSurface surface(mesh, density_of_points(mesh, solution, options.square));
@@ -191,7 +193,7 @@ DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double
         const double by_noise = uncertainty_by_noise(noise.mean(), rounds.count * points);
         const double growth = std::clamp(by_noise / enough, least_growth, most_growth);
         const auto rays = double(gather.rays()), most_rays = double(options.most_rays);
-        if (by_noise > enough && length < longest && growth * rays <= most_rays) {
+        if (growth_pays * enough < by_noise && length < longest && growth * rays <= most_rays) {
             length = std::min(std::round(growth * length), longest);
             gather.set_rounds(static_cast<unsigned>(length));
             points = std::max(manner.least_points,
