@@ -219,10 +219,22 @@ void add(DivisionError& sum, const DivisionError& error) {
     sum.rays += error.rays;
 }
 
+/// reflected_square(), and the square of what the solution has within patches: with that of the
+/// error it is the square of the light itself.
+double surface_square(const Mesh& mesh, const Solution& solution) {
+    double sum = reflected_square(mesh, solution);
+    for (std::uint32_t i = 0; i < solution.slope.size(); ++i) {
+        const Vec3 variance = variance_of(mesh.patches()[i], solution.slope[i]);
+        sum +=
+            solution.weight_of(i) * mesh.patches()[i].area * (variance.x + variance.y + variance.z);
+    }
+    return sum;
+}
+
 DivisionError what_has_spread(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
                               bool reads_near, const Manner& manner, DivisionErrorOptions options,
                               const Workers& workers, const StopFlag& interrupted) {
-    const double size = reflected_square(mesh, solution);
+    const double size = surface_square(mesh, solution);
     if (!(size > 0))
         return {};
     FinalGather gather(mesh, tracer, solution);
@@ -273,7 +285,7 @@ DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
 DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
                              const DivisionErrorOptions& options, const Workers& workers,
                              const StopFlag& interrupted) {
-    const double size = reflected_square(mesh, solution);
+    const double size = surface_square(mesh, solution);
     if (!(size > 0))
         return {};
     const KnownVariance known = known_variance(mesh, solution, size);
