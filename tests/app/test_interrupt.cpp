@@ -73,20 +73,6 @@ TEST_CASE("Ctrl-C before the first step is done leaves emission alone, and says 
     CHECK_THAT(place.read("a.csv"), Contains(",10,8,6,10,8,6,") && Contains(",0,0,0,0,0,0,"));
 }
 
-TEST_CASE("Ctrl-C before the first step says nothing of outputs where the picture is left out") {
-    const Workplace place;
-    place.write_room();
-    Running run(place, "solve room.obj --max-edge .1 --rays 1e8 -v -o a.png --method hemisphere",
-                place.path("stderr.txt").c_str());
-    REQUIRE(wait_for(place, "stderr.txt", "BVH:"));
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    run.interrupt();
-    CHECK(run.wait() == 130);
-    CHECK_THAT(place.read("stderr.txt"), Contains("interrupted; left out a.png") &&
-                                             Contains("before the first step was done") &&
-                                             !Contains("outputs hold"));
-}
-
 TEST_CASE("Ctrl-C ends a comparison with the files and the table of what was done") {
     const Workplace place;
     place.write_room();
