@@ -50,12 +50,12 @@ constexpr const char* no_step_warning =
     "--time or fewer --rays give a solution";
 
 std::string interruption_text(std::uint32_t steps, bool wrote) {
-    const std::string when =
-        steps > 0 ? "interrupted" : "interrupted before the first step was done";
-    if (!wrote)
-        return when;
-    return when + "; the outputs hold " +
-           (steps > 0 ? counted(steps, "step", "steps") : "emission alone");
+    std::string when = "interrupted", outputs = counted(steps, "step", "steps");
+    if (steps == 0) {
+        when += " before the first step was done";
+        outputs = "emission alone";
+    }
+    return wrote ? when + "; the outputs hold " + outputs : when;
 }
 
 /// What suns and skies emit, and what all else reflects.

@@ -166,8 +166,8 @@ DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double
                               const OffAt& off_at, FinalGather& gather, const OtherError& other,
                               const Manner& manner, const DivisionErrorOptions& options,
                               const Workers& workers, const StopFlag& interrupted) {
-    // Noise falls by f with f times as long gathers or with f^2 as many points, of which those that
-    // there are count.
+    // For f times less noise longer gathers, which begin anew, cost f times the rays so far, and
+    // more points f^2 - 1 times.
     constexpr double growth_pays = 1.6, least_growth = 2, most_growth = 4;
     DivisionError result;
     const double negligible = options.negligible * options.negligible;
@@ -224,9 +224,8 @@ void add(DivisionError& sum, const DivisionError& error) {
 double surface_square(const Mesh& mesh, const Solution& solution) {
     double sum = reflected_square(mesh, solution);
     for (std::uint32_t i = 0; i < solution.slope.size(); ++i) {
-        const Vec3 variance = variance_of(mesh.patches()[i], solution.slope[i]);
-        sum +=
-            solution.weight_of(i) * mesh.patches()[i].area * (variance.x + variance.y + variance.z);
+        const Patch& patch = mesh.patches()[i];
+        sum += solution.weight_of(i) * patch.area * variance_of(patch, solution.slope[i]);
     }
     return sum;
 }
@@ -332,10 +331,8 @@ std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,
         const double sampling = glm::dot(sigma, sigma) * area / size;
         const Patch& patch = mesh.patches()[i];
         double off = within.square[i];
-        if (solution.slope.empty()) {
-            const Vec3 variance = variance_of(patch, agreed_slope(patch, within.slopes[i]).slope);
-            off += patch.area * (variance.x + variance.y + variance.z);
-        }
+        if (solution.slope.empty())
+            off += patch.area * variance_of(patch, agreed_slope(patch, within.slopes[i]).slope);
         const double of_place = patch.area > 0 ? off / size * area / patch.area : 0;
         levels[i] = std::sqrt(std::max(of_place, 0.0) + (std::isfinite(sampling) ? sampling : 0));
     }

@@ -64,7 +64,7 @@ struct DivisionErrorOptions {
                                            const Solution& solution);
 
 /// The sum over patches of weight, area and reflected radiosity squared, to which errors are
-/// relative.
+/// relative; the square that those of the division are relative to has what slopes add, too.
 [[nodiscard]] double reflected_square(const Mesh& mesh, const Solution& solution);
 
 /// How far a solution, with a step at least, is off by the division of the patches: within them, by

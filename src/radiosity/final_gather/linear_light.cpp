@@ -71,7 +71,7 @@ Vec3 radiosity_at(const Mesh& mesh, const PatchLight& light, std::uint32_t patch
 }
 
 /// By the middles of edges: exact for triangles; of a parallelogram's mean square it is 3 / 2.
-Vec3 variance_of(const Patch& patch, const Slope& slope) {
+double variance_of(const Patch& patch, const Slope& slope) {
     const Frame frame = Frame::from_normal(patch.normal);
     const bool triangle = patch.shape.is_triangle();
     const std::size_t corners = triangle ? 3 : 4;
@@ -82,19 +82,16 @@ Vec3 variance_of(const Patch& patch, const Slope& slope) {
         const Vec3 rises = rise(slope, along_axes(frame, middle));
         squares += rises * rises;
     }
-    return squares / (triangle ? 3.0 : 6.0);
+    const Vec3 variance = squares / (triangle ? 3.0 : 6.0);
+    return variance.x + variance.y + variance.z;
 }
 
 AgreedSlope agreed_slope(const Patch& patch, const std::array<Slope, 2>& estimates) {
     const auto& [a, b] = estimates;
     const Slope mean{.5 * (a.x + b.x), .5 * (a.y + b.y)};
     const Slope off{.5 * (a.x - b.x), .5 * (a.y - b.y)};
-    const auto size = [&](const Slope& slope) {
-        const Vec3 variance = variance_of(patch, slope);
-        return variance.x + variance.y + variance.z;
-    };
     // The product of the estimates, free of noise, beside the square of their mean.
-    const double square = size(mean), noise = size(off);
+    const double square = variance_of(patch, mean), noise = variance_of(patch, off);
     const double agreed = square > 0 ? std::clamp(1 - noise / square, 0.0, 1.0) : 0;
     return {{agreed * mean.x, agreed * mean.y}, agreed * agreed * patch.area * noise};
 }

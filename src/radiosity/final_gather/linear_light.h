@@ -58,8 +58,9 @@ struct PatchLight {
 [[nodiscard]] Vec3 radiosity_at(const Mesh& mesh, const PatchLight& light, std::uint32_t patch,
                                 const Vec3& point);
 
-/// The variance of a linear function over its patch, by channel; of a quad as of a parallelogram.
-[[nodiscard]] Vec3 variance_of(const Patch& patch, const Slope& slope);
+/// The variance of a linear function over its patch, summed over channels; of a quad as of a
+/// parallelogram.
+[[nodiscard]] double variance_of(const Patch& patch, const Slope& slope);
 
 /// The mean of two estimates of a slope, less where they do not agree, and area times the variance
 /// over the patch that it has from their noise, summed over channels.
