@@ -38,7 +38,7 @@ class SomeRanks final : public Ranks {
     [[nodiscard]] unsigned index() const override { return 0; }
 
   private:
-    void do_gather(Bytes, std::span<const std::size_t>, std::span<std::byte>) const override {}
+    void do_gather(std::span<const std::size_t>, std::span<std::byte>) const override {}
     void do_exchange(std::span<const Bytes>, std::span<const std::span<std::byte>>) const override {
     }
     unsigned count_;

@@ -24,27 +24,23 @@ class RanksByMpi final : public Ranks {
     [[nodiscard]] unsigned index() const override { return static_cast<unsigned>(index_); }
 
   private:
-    void do_gather(Bytes own, std::span<const std::size_t> sizes,
-                   std::span<std::byte> all) const override {
+    void do_gather(std::span<const std::size_t> sizes, std::span<std::byte> all) const override {
         const bool of_one = std::ranges::find(sizes, all.size()) != sizes.end();
         if (of_one || all.size() > most_bytes)
-            return gather_in_turn(own, sizes, all);
+            return gather_in_turn(sizes, all);
         std::vector<int> counts, places;
         for (const std::size_t size : sizes) {
             places.push_back(places.empty() ? 0 : places.back() + counts.back());
             counts.push_back(static_cast<int>(size));
         }
-        MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_BYTE, all.data(),
-                       counts.data(), places.data(), MPI_BYTE, MPI_COMM_WORLD);
+        MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_BYTE, all.data(), counts.data(), places.data(),
+                       MPI_BYTE, MPI_COMM_WORLD);
     }
 
     /// From one rank after the other, in messages that are not too long.
-    void gather_in_turn(Bytes own, std::span<const std::size_t> sizes,
-                        std::span<std::byte> all) const {
+    void gather_in_turn(std::span<const std::size_t> sizes, std::span<std::byte> all) const {
         for (int rank = 0; rank < count_; ++rank) {
             const std::size_t size = sizes[static_cast<std::size_t>(rank)];
-            if (rank == index_)
-                std::ranges::copy(own, all.begin());
             for_messages(all.first(size), [&](std::byte* data, int bytes) {
                 MPI_Bcast(data, bytes, MPI_BYTE, rank, MPI_COMM_WORLD);
             });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -13,10 +14,8 @@ class OneRank final : public Ranks {
     [[nodiscard]] unsigned index() const override { return 0; }
 
   private:
-    void do_gather(std::span<const std::byte> own, std::span<const std::size_t> /*sizes*/,
-                   std::span<std::byte> all) const override {
-        std::ranges::copy(own, all.begin());
-    }
+    void do_gather(std::span<const std::size_t> /*sizes*/,
+                   std::span<std::byte> /*all*/) const override {}
     void do_exchange(std::span<const std::span<const std::byte>> sent,
                      std::span<const std::span<std::byte>> received) const override {
         std::ranges::copy(sent[0], received[0].begin());
@@ -33,11 +32,11 @@ const Ranks& one_rank() {
     return one;
 }
 
-void Ranks::gather(std::span<const std::byte> own, std::span<const std::size_t> sizes,
-                   std::span<std::byte> all) const {
-    do_gather(own, sizes, all);
-    sent_ += own.size() * (count() - 1);
-    received_ += all.size() - own.size();
+void Ranks::gather(std::span<const std::size_t> sizes, std::span<std::byte> all) const {
+    do_gather(sizes, all);
+    const std::size_t own = sizes[index()];
+    sent_ += own * (count() - 1);
+    received_ += all.size() - own;
 }
 
 void Ranks::exchange_bytes(std::span<const Bytes> sent,
@@ -60,14 +59,14 @@ std::uint64_t Ranks::sum(std::uint64_t value) const {
     return std::accumulate(values.begin(), values.end(), std::uint64_t{0});
 }
 
-std::size_t OwnBlocks::items_of(unsigned rank) const {
-    const std::size_t round = block_ * ranks_->count(), rest = all_ % round;
+std::size_t OwnBlocks::items_of(std::size_t rank) const {
+    const std::size_t round = block_ * count_, rest = all_ % round;
     const std::size_t before = std::min(rest, rank * block_);
     return all_ / round * block_ + std::min(rest - before, block_);
 }
 
 void OwnBlocks::gather_bytes(std::span<std::byte> all, std::size_t bytes_each) const {
-    const std::size_t block = block_ * bytes_each, round = block * ranks_->count();
+    const std::size_t block = block_ * bytes_each, round = block * count_;
     const std::size_t piece = round * std::max<std::size_t>(1, bytes_at_a_time / round);
     for (std::size_t begin = 0; begin < all.size(); begin += piece)
         gather_rounds(all.subspan(begin, std::min(piece, all.size() - begin)), block);
@@ -75,30 +74,31 @@ void OwnBlocks::gather_bytes(std::span<std::byte> all, std::size_t bytes_each) c
 
 /// Of whole rounds of blocks, but for the last.
 void OwnBlocks::gather_rounds(std::span<std::byte> some, std::size_t bytes_of_block) const {
-    const std::size_t count = ranks_->count(), round = bytes_of_block * count;
+    const std::size_t round = bytes_of_block * count_;
     std::vector<std::size_t> sizes;
-    for (unsigned r = 0; r < count; ++r)
+    for (std::size_t r = 0; r < count_; ++r)
         sizes.push_back(OwnBlocks(*ranks_, some.size(), bytes_of_block).items_of(r));
-    const auto for_blocks_of = [&](std::size_t r, std::byte* packed, const auto& copy) {
+    const auto packed = std::make_unique_for_overwrite<std::byte[]>(some.size());
+    std::size_t place = 0;
+    std::vector<std::size_t> places;
+    for (const std::size_t size : sizes)
+        places.push_back(std::exchange(place, place + size));
+    const auto for_blocks_of = [&](std::size_t r, const auto& copy) {
+        std::byte* next = &packed[places[r]];
         for (std::size_t at = r * bytes_of_block; at < some.size(); at += round) {
             const std::size_t size = std::min(bytes_of_block, some.size() - at);
-            copy(&some[at], packed, size);
-            packed += size;
+            copy(&some[at], next, size);
+            next += size;
         }
     };
-    const std::size_t own_size = sizes[ranks_->index()];
-    const auto own = std::make_unique_for_overwrite<std::byte[]>(own_size);
-    const auto all = std::make_unique_for_overwrite<std::byte[]>(some.size());
-    for_blocks_of(ranks_->index(), own.get(),
-                  [](const std::byte* item, std::byte* packed, std::size_t size) {
-                      std::memcpy(packed, item, size);
-                  });
-    ranks_->gather({own.get(), own_size}, sizes, {all.get(), some.size()});
-    std::byte* packed = all.get();
-    for (std::size_t r = 0; r < count; packed += sizes[r++])
-        if (r != ranks_->index())
-            for_blocks_of(r, packed, [](std::byte* item, const std::byte* from, std::size_t size) {
-                std::memcpy(item, from, size);
+    for_blocks_of(index_, [](const std::byte* items, std::byte* to, std::size_t size) {
+        std::memcpy(to, items, size);
+    });
+    ranks_->gather(sizes, {packed.get(), some.size()});
+    for (std::size_t r = 0; r < count_; ++r)
+        if (r != index_)
+            for_blocks_of(r, [](std::byte* items, const std::byte* from, std::size_t size) {
+                std::memcpy(items, from, size);
             });
 }
 

@@ -105,8 +105,8 @@ const StopRule many_steps{.seconds = 1e9};
 TEST_CASE("Methods that share their work find the same bytes on any number of ranks and threads",
           "[slow]") {
     const Model open(test::open_scene(), divided), room(test::room_with_block(), divided);
-    REQUIRE(room.mesh.patches().size() > 5 * OwnBlocks::usual_block);
-    REQUIRE(open.mesh.patches().size() > 5 * OwnBlocks::usual_block);
+    REQUIRE(room.mesh.patches().size() > 5 * OwnBlocks::least_block);
+    REQUIRE(open.mesh.patches().size() > 5 * OwnBlocks::least_block);
     for (const Model* model : {&open, &room})
         for (const Method* method : methods()) {
             if (!method->can_resume())

@@ -59,13 +59,14 @@ class RankThread final : public Ranks {
     [[nodiscard]] unsigned index() const override { return index_; }
 
   private:
-    void do_gather(Bytes own, std::span<const std::size_t> /*sizes*/,
-                   std::span<std::byte> all) const override {
-        table_.shown[index_].assign(1, own);
+    void do_gather(std::span<const std::size_t> sizes, std::span<std::byte> all) const override {
+        table_.shown[index_].assign(1, all);
         table_.wait_for_all();
-        auto place = all.begin();
-        for (const std::vector<Bytes>& shown : table_.shown)
-            place = std::ranges::copy(shown[0], place).out;
+        std::size_t place = 0;
+        for (std::size_t r = 0; r < sizes.size(); place += sizes[r++])
+            if (r != index_)
+                std::ranges::copy(table_.shown[r][0].subspan(place, sizes[r]),
+                                  all.subspan(place).begin());
         table_.wait_for_all();
     }
     void do_exchange(std::span<const Bytes> sent,

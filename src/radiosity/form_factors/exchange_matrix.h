@@ -73,6 +73,7 @@ class ExchangeMatrix {
         own_.ranks().add_work(0, rows_.entries() * static_cast<std::size_t>(products));
     }
     static constexpr std::size_t rows_per_chunk = SparseRows::rows_per_chunk;
+    static_assert(OwnBlocks::least_block % rows_per_chunk == 0, "a chunk is one rank's");
     /// Those that this rank has; of one rank alone all.
     [[nodiscard]] const OwnBlocks& own_rows() const { return own_; }
 

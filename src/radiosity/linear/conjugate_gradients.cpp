@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace hemilux {
 namespace {
@@ -49,11 +50,13 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
                                   std::vector<Vec3>& h, const Workers& workers,
                                   const GradientOptions& options) {
     const std::size_t n = h.size();
-    std::vector<Vec3> weight(n), r(n), p(n), q(n);
+    // Only of this rank's patches; the others' are never touched.
+    const auto of_patches = [n] { return std::make_unique_for_overwrite<Vec3[]>(n); };
+    const auto weight = of_patches(), r = of_patches(), p = of_patches(), q = of_patches();
     std::vector<Lanes> reflected(n);
     const std::size_t chunks = (n + factors.rows_per_chunk - 1) / factors.rows_per_chunk;
     const OwnBlocks& rows = factors.own_rows();
-    const OwnBlocks own_chunks(rows.ranks(), chunks, 1);
+    const OwnBlocks own_chunks(rows.ranks(), chunks, rows.block() / factors.rows_per_chunk);
     /// Sum of term(i) over all patches, in an order that does not depend on the threads or ranks.
     const auto sum = [&](const auto& term) {
         using Term = decltype(term(std::size_t{0}));
@@ -80,6 +83,7 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
     factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             weight[i] = area[i] * reflectance[i];
+            p[i] = Vec3(0.0);
             reflect(i, h[i]);
         }
     });
@@ -120,8 +124,10 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
         more = ratio_or_zero(sums.squares, before);
     }
     // Where nothing is reflected the weight is 0: there one more step without a product gives h.
-    for (std::size_t i = 0; i < n; ++i)
-        h[i] += r[i];
+    factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            h[i] += r[i];
+    });
     rows.gather(h);
     factors.count_products(1 + result.iterations);
     return result;
