@@ -4,6 +4,7 @@
 #include "radiosity/form_factors/pair_factor.h"
 #include "radiosity/hierarchy/links.h"
 #include "radiosity/sampling/rng.h"
+#include "radiosity/solution/solve_error.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -249,4 +250,10 @@ TEST_CASE("Hierarchical radiosity gives the same bytes whatever the threads", "[
     const std::vector<Vec3> one = radiosity(1);
     CHECK(test::same_bits(one, radiosity(2)));
     CHECK(test::same_bits(one, radiosity(3)));
+}
+
+TEST_CASE("Planes that would take too many links are refused before there is no memory") {
+    const test::Model model(test::sphere(4, 1, .5, 1)); // 2048 planes, all of which see each other
+    const PatchTree tree(model.mesh);
+    CHECK_THROWS_AS(Links(model.mesh, tree), SolveError);
 }

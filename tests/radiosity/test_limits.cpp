@@ -98,6 +98,22 @@ std::size_t united(const Scene& scene) {
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+/// Does something when so many shadow rays have been traced.
+class AfterShadowRays final : public test::WatchedTracer {
+  public:
+    AfterShadowRays(const Tracer& tracer, int rays, std::function<void()> what)
+        : WatchedTracer(tracer, [](std::span<const Ray>) {}), left_(rays), what_(std::move(what)) {}
+    [[nodiscard]] bool occluded(const Ray& ray, std::uint32_t target) const override {
+        if (--left_ == 0)
+            what_();
+        return WatchedTracer::occluded(ray, target);
+    }
+
+  private:
+    mutable std::atomic<int> left_;
+    std::function<void()> what_;
+};
+
 } // namespace
 
 TEST_CASE("Facets in one place make no more pairs than the few that are kept") {
@@ -209,6 +225,24 @@ TEST_CASE("At the end of its time every method leaves the step it is in") {
         CHECK(solver->solution().steps == (counts ? 1 : 0));
         CHECK_FALSE(monitor.interrupted.load());
         CHECK(monitor.rays < 4000 * model.mesh.patches().size());
+    }
+}
+
+TEST_CASE("The light of a shot that the time has cut short is still to be shot") {
+    const Model model(test::room_with_block());
+    const Method& method = *find_method("progressive");
+    const SolveOptions options{.rays = 256, .threads = 1};
+    const auto rays = double(test::solve(model, method, options, test::steps(1)).rays_energy);
+    for (const double share : {.7, .8, .9}) {
+        CAPTURE(share);
+        Monitor monitor;
+        const AfterShadowRays tracer(model.bvh, int(share * rays),
+                                     [&] { monitor.interrupted.set_out_of_time(true); });
+        const auto solver = method.make({model.mesh, tracer, options, monitor});
+        REQUIRE(solver->step());
+        const EnergyBalance& energy = solver->solution().energy;
+        CHECK(energy.imbalance() < 1e-9);
+        CHECK(glm::length(energy.unshot) > 0);
     }
 }
 

@@ -119,4 +119,8 @@ TEST_CASE("Meshes that cannot be made") {
     CHECK_THROWS_AS(Mesh(odd_facets(), {.max_edge = .01, .max_patches = 1000}),
                     std::invalid_argument);
     CHECK_NOTHROW(Mesh(odd_facets(), {.max_patches = 4}));
+    // Both sides of a face are patches.
+    const std::size_t patches = Mesh(odd_facets(), {.max_edge = .1}).patches().size();
+    CHECK_THROWS_AS(Mesh(odd_facets(), {.max_edge = .1, .two_sided = true, .max_patches = patches}),
+                    std::invalid_argument);
 }

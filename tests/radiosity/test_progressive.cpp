@@ -185,6 +185,33 @@ TEST_CASE("The factor of a pair and its standard error against the closed form")
     CHECK(may_see(model.mesh.patches()[0], model.mesh.patches()[3]));
 }
 
+TEST_CASE("The factor of a pair that sees each other through a slit is right on average") {
+    Scene scene = test::cube_with_lit_floor(1, .5);
+    for (const auto& [low, high] : {std::pair{0.0, .48}, {.52, 1.0}})
+        test::add_quad(scene, {low, .5, 0}, {high, .5, 0}, {high, .5, 1}, {low, .5, 1}, 1, 1, 0);
+    const Model model(scene);
+    struct Mean {
+        double value = 0, variance = 0, reported = 0;
+    };
+    const auto mean_of = [&](double importance) {
+        constexpr int runs = 20'000;
+        double sum = 0, squares = 0, reported = 0;
+        for (std::uint64_t seed = 0; seed < runs; ++seed) {
+            const PairFactor f = pair_factor(model.mesh, model.bvh, 0, 1, importance, seed);
+            sum += f.factor;
+            squares += f.factor * f.factor;
+            reported += f.variance / runs;
+        }
+        return Mean{sum / runs, (squares - sum * sum / runs) / runs, reported};
+    };
+    const Mean fixed = mean_of(31), adaptive = mean_of(40); // as many points each time, or not
+    const double sigma = std::sqrt((fixed.variance + adaptive.variance) / 20'000);
+    CAPTURE(fixed.value, adaptive.value, adaptive.variance, adaptive.reported);
+    CHECK(std::abs(adaptive.value - fixed.value) < 4.5 * sigma); // two-sided 7e-6
+    CHECK(adaptive.reported / adaptive.variance > .5);
+    CHECK(adaptive.reported / adaptive.variance < 4);
+}
+
 TEST_CASE("Progressive radiosity of rooms that reflect nothing or hold no light") {
     Scene scene = test::cube_with_lit_floor(2, 0);
     const Solution black = to_the_end(Model(scene), {});

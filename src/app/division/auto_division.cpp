@@ -159,8 +159,9 @@ void AutoDivision::begin_gathered() {
 
 /// Of patches, by less than gathered light is to gain: its error falls faster than theirs.
 void AutoDivision::lower_goals() {
+    const double step = std::sqrt(safe * whole_ / measured()); // not a number where it is unknown
     options_.error *=
-        std::clamp(std::sqrt(safe * whole_ / measured()), least_step_of_gathered, most_step);
+        step > least_step_of_gathered ? std::min(step, most_step) : least_step_of_gathered;
     divided_.sampling = sampling_of_gathered * whole_;
 }
 

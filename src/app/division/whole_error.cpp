@@ -101,8 +101,9 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
     }
     if (!of_patches) {
         options.seed = hash_words({settings.options.seed, 1});
-        options.negligible = std::max(statistics.error_sampling / 2,
-                                      settings.divide_auto ? 0 : resolved_on_fixed_patches);
+        options.negligible = settings.divide_auto ? 0 : resolved_on_fixed_patches;
+        if (statistics.error_sampling > 2 * options.negligible) // unknown after one step
+            options.negligible = statistics.error_sampling / 2;
         of_patches = division_error(mesh, tracer, solution, options, workers, interrupted);
         statistics.rays_division_error += of_patches->rays;
         const double before = statistics.seconds_division_error;

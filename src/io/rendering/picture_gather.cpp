@@ -93,7 +93,7 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
                 own.samples.back().partly_aimed = grid_[k].aims;
             }
             const std::vector<IndirectLight> lights = in_parts_.indirect(own.points, own.samples);
-            const std::vector<DirectLight> direct =
+            const std::vector<EmitterLight> direct =
                 in_parts_.direct(own.points, own.samples, shadows);
             for (std::size_t i = 0; i < lights.size(); ++i) {
                 GridPoint& point = grid_[own.places[i]];
@@ -178,7 +178,7 @@ std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Plac
         samples.count = each * place.count;
         in_penumbra.add(k, place.at, samples);
     }
-    const std::vector<DirectLight> direct =
+    const std::vector<EmitterLight> direct =
         in_parts_.direct(in_penumbra.points, in_penumbra.samples, Shadows::traced);
     for (std::size_t i = 0; i < direct.size(); ++i)
         found[in_penumbra.which[i]].direct = direct[i];

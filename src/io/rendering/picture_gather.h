@@ -47,7 +47,7 @@ class PictureGather {
     /// Direct light is slow.unshadowed times the share of it that arrives: the ratio of sums over
     /// `direct` of places around, as the few rays of one place estimate it badly.
     struct Light {
-        DirectLight direct;
+        EmitterLight direct;
         SlowLight slow;
     };
     /// The light at each place. May be called by several threads.

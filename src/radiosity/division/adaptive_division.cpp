@@ -215,6 +215,9 @@ bool Division::cut(Solution& light, double goal) {
          .most_pieces = std::min(options_.most_patches, times(most_growth) + least_room)});
     if (std::ranges::none_of(levels, [](std::uint8_t level) { return level > 0; }))
         return false;
+    std::vector<Vec3> emission; // of a texture, which differs from piece to piece
+    for (std::uint32_t i = 0; i < before; ++i)
+        emission.push_back(mesh_.material(i).emission);
     const std::vector<std::uint32_t> parents = mesh_.refine(levels);
     square_ = inherited(square_, parents);
     slopes_ = inherited(slopes_, parents);
@@ -231,6 +234,8 @@ bool Division::cut(Solution& light, double goal) {
             is_due_[k] = 1;
         }
     inherit(light, parents);
+    for (std::uint32_t k = 0; k < parents.size(); ++k)
+        light.radiosity[k] += mesh_.material(k).emission - emission[parents[k]];
     return true;
 }
 

@@ -132,7 +132,7 @@ KnownVariance known_variance(const Mesh& mesh, const Solution& solution, double 
         sum += solution.weight_of(i) * mesh.patches()[i].area * glm::dot(sigma, sigma);
     }
     const double all = solution.variance.value_or(std::isfinite(sum) ? sum : 0) / size;
-    const double freedom = std::max(error_spread(mesh, solution).freedom, 1.0);
+    const double freedom = std::max(1.0, error_spread(mesh, solution).freedom); // 1 if unknown
     return {all * (1 - 1 / freedom), all / freedom, freedom};
 }
 

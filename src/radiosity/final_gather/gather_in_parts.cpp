@@ -22,10 +22,10 @@ constexpr std::uint32_t shared_weights = 64;
 
 } // namespace
 
-std::vector<DirectLight> GatherInParts::direct(std::span<const SurfacePoint> points,
-                                               std::span<const GatherSamples> samples,
-                                               Shadows shadows) const {
-    std::vector<DirectLight> found(points.size());
+std::vector<EmitterLight> GatherInParts::direct(std::span<const SurfacePoint> points,
+                                                std::span<const GatherSamples> samples,
+                                                Shadows shadows) const {
+    std::vector<EmitterLight> found(points.size());
     WeighedEmitters weighed;
     ShadowRays rays;
     const auto trace = [&] {

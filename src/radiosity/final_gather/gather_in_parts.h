@@ -27,7 +27,7 @@ struct GatherSamples {
 
 /// Light straight from small emitters [W/m2]. What varies from sample to sample varies in both
 /// alike, but for shadows.
-struct DirectLight {
+struct EmitterLight {
     Vec3 arriving{0.0};
     Vec3 unshadowed{0.0}; ///< what would arrive if nothing stood between
     double nearness = 0;  ///< mean inverse distance of the emitters, by that light; local frame
@@ -51,9 +51,9 @@ class GatherInParts {
 
     /// At each point by its own samples, on the calling thread: a shadow ray for each. Where
     /// shadows are left out no ray is traced, and nothing arrives.
-    [[nodiscard]] std::vector<DirectLight> direct(std::span<const SurfacePoint> points,
-                                                  std::span<const GatherSamples> samples,
-                                                  Shadows shadows) const;
+    [[nodiscard]] std::vector<EmitterLight> direct(std::span<const SurfacePoint> points,
+                                                   std::span<const GatherSamples> samples,
+                                                   Shadows shadows) const;
     /// In the same way by a cosine-distributed ray for each sample, which reads the patch that it
     /// meets, however near; or half of the samples by rays to bright patches (bright_patches.h).
     [[nodiscard]] std::vector<IndirectLight> indirect(std::span<const SurfacePoint> points,

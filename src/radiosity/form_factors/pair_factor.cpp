@@ -113,10 +113,10 @@ PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t fro
     const PairLook look(mesh, tracer, from, to, visibility);
     PairFactor result;
     std::array<double, adaptive_sets> sum{};
-    std::uint32_t begin = 0, end = adaptive ? points_per_set(least_share * importance, sets) : most;
-    for (;; begin = end, end *= 2) {
+    std::uint32_t first_set = 0;
+    const auto look_at_points = [&](std::uint32_t begin, std::uint32_t end) {
         for (std::uint32_t set = 0; set < sets; ++set) {
-            SobolBlocks<4> points(hash_words({seed, from, set}));
+            SobolBlocks<4> points(hash_words({seed, from, first_set + set}));
             result.points += end - begin;
             for (std::uint32_t k = begin; k < end; ++k) {
                 const double f = look.factor(points.at(k), result.rays);
@@ -125,6 +125,20 @@ PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t fro
             }
         }
         result.average({sum.data(), sets}, end);
+    };
+    std::uint32_t begin = 0, end = adaptive ? points_per_set(least_share * importance, sets) : most;
+    for (;; begin = end, end *= 2) {
+        look_at_points(begin, end);
+        // There may be a gap all the same. Pairs that met something go on to `most` points, of
+        // which these are a share; other points, as many, stand for the rest.
+        if (result.hits == 0 && end < most) {
+            first_set = sets;
+            look_at_points(0, end);
+            const double rest = 1 - double(end) / most;
+            result.factor *= rest;
+            result.variance *= rest;
+            return result;
+        }
         const double allowed = relative_variance * result.factor * result.factor / importance;
         if (end >= most || result.variance <= allowed) {
             // To stop when the sets agree is to stop when they happen to: not better than allowed.

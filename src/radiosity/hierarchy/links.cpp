@@ -7,6 +7,7 @@
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/solver.h"
 
 #include <algorithm>
@@ -54,8 +55,17 @@ double rough_factor(const Node& to, const Node& from) {
 Links::Links(const Mesh& mesh, const PatchTree& tree) : mesh_(mesh), tree_(tree) {
     for (const std::uint32_t to : tree.roots())
         for (const std::uint32_t from : tree.roots())
-            if (const Link link{to, from}; to != from && may_see(link))
+            if (const Link link{to, from}; to != from && may_see(link)) {
+                if (links_.size() == most_links)
+                    throw SolveError(
+                        "the faces lie in " + std::to_string(tree.roots().size()) +
+                            " planes, each of which is linked with all that it may see: more "
+                            "than " +
+                            std::to_string(most_links) +
+                            " links; --method stored-transport needs none",
+                        0);
                 links_.push_back(link);
+            }
 }
 
 bool Links::may_see(const Link& link) const {

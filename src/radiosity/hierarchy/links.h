@@ -27,7 +27,8 @@ enum class Refinement { not_needed, done, too_many_links };
 
 class Links {
   public:
-    /// Between all roots that may see each other. What is referred to outlives this.
+    /// Between all roots that may see each other. What is referred to outlives this. Throws
+    /// SolveError where these are too many.
     Links(const Mesh& mesh, const PatchTree& tree);
 
     /// Divides the links by which more than `most_power` may be reflected, the larger node of each:

@@ -16,6 +16,7 @@
 #include "radiosity/plain/batches.h"
 #include "radiosity/plain/plain.h"
 #include "radiosity/rays/patch_start.h"
+#include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/check_input.h"
 
 #include <array>
@@ -26,6 +27,7 @@ namespace hemilux::plain {
 namespace {
 
 constexpr int scalings = 20;
+constexpr int most_sweeps = 100'000;
 
 /// What rays hit: row i of c belongs to those of patch i.
 struct Counts {
@@ -116,7 +118,11 @@ class StoredTransport final : public Solver {
         const std::vector<double> S = exchange(counts, N);
         std::vector<Vec3> B(n_, Vec3(0.0));
         double change = 1, all = 0;
-        while (change > 1e-12 * all && !input_.monitor.interrupted) {
+        for (int sweep = 0; change > 1e-12 * all && !input_.monitor.interrupted; ++sweep) {
+            if (sweep == most_sweeps)
+                throw SolveError("these rays have not seen where light leaves the scene or is "
+                                 "absorbed; a larger --rays looks for it with more",
+                                 0);
             change = all = 0;
             for (std::uint32_t i = 0; i < n_; ++i) {
                 Vec3 arriving(0.0);

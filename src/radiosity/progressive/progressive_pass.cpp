@@ -110,8 +110,9 @@ double ProgressivePass::unshot_power(std::uint32_t patch) const {
 
 void ProgressivePass::shoot(std::uint32_t step) {
     const auto shooter = static_cast<std::uint32_t>(brightest_.index_of_largest());
-    Vec3 shot = unshot_[shooter]; // dB_s
+    const Vec3 unshot = unshot_[shooter]; // dB_s
     const Vec3 shot_variance = unshot_variance_[shooter];
+    Vec3 shot = unshot;
     unshot_[shooter] = unshot_variance_[shooter] = Vec3(0.0);
     if (options_.overshoot) {
         // At most so much that it converges: as over-relaxation by less than 2 does.
@@ -123,8 +124,12 @@ void ProgressivePass::shoot(std::uint32_t step) {
     check_finite(input_.mesh, shooter, shot, "the radiosity to be shot", step);
     rank(shooter);
     const ShotShares shares = look(shooter, shot);
-    if (input_.monitor.interrupted)
+    if (input_.monitor.interrupted) { // the light is still to be shot
+        unshot_[shooter] = unshot;
+        unshot_variance_[shooter] = shot_variance;
+        rank(shooter);
         return;
+    }
     receive(shot, shot_variance, shares);
     note_power_variance(shot, shares);
     const Vec3 power = shot * input_.mesh.patches()[shooter].area;

@@ -159,7 +159,8 @@ void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
         !(options.max_edge > 0) || scene_.materials[scene_.facets[f].material].is_far;
     const double max_edge =
         is_whole ? std::numeric_limits<double>::infinity() : options.max_edge * frame_.scale;
-    const std::size_t most = options.max_patches - std::min(options.max_patches, patches_.size());
+    const std::size_t left = options.max_patches - std::min(options.max_patches, patches_.size());
+    const std::size_t most = has_back(f) ? left / 2 : left;
     const FacetDivision division(shape, max_edge, most);
     const auto first_patch = static_cast<std::uint32_t>(patches_.size());
     for (const Polygon& piece : division.cut(shape))

@@ -6,7 +6,7 @@
 
 namespace hemilux {
 
-Vec3 bright_radiosity(const PatchLight& light) {
+Vec3 bright_radiosity(const LightFoundByRays& light) {
     Vec3 power(0.0), squares(0.0), result(0.0);
     for (std::size_t i = 0; i < light.area.size(); ++i) {
         power += light.area[i] * light.leaving[i];
@@ -20,7 +20,7 @@ Vec3 bright_radiosity(const PatchLight& light) {
 namespace {
 
 /// Rays per area of the patches that most light comes from.
-double rays_of_bright(const PatchLight& light) {
+double rays_of_bright(const LightFoundByRays& light) {
     double rays = 0, area = 0;
     for (std::size_t i = 0; i < light.area.size(); ++i) {
         const double weight = glm::dot(light.leaving[i], light.leaving[i]);
@@ -32,11 +32,12 @@ double rays_of_bright(const PatchLight& light) {
 
 } // namespace
 
-std::vector<Vec3> missed_by_rays(const PatchLight& light) {
+std::vector<Vec3> missed_by_rays(const LightFoundByRays& light) {
     constexpr double darker = 4; // patches so many times darker, as in a room beyond, show nothing
     const Vec3 bright = bright_radiosity(light);
     const auto arrives = [&](std::uint32_t i) {
-        return light.incident[i].x + light.incident[i].y + light.incident[i].z;
+        // By rounding it may be less than nothing.
+        return std::max(light.incident[i].x + light.incident[i].y + light.incident[i].z, 0.0);
     };
     std::vector<std::uint32_t> order(light.area.size());
     std::iota(order.begin(), order.end(), 0u);

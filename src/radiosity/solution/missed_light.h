@@ -14,7 +14,7 @@ namespace hemilux {
 inline constexpr double rule_of_three = 3;
 
 /// What is known of the light, all by patch.
-struct PatchLight {
+struct LightFoundByRays {
     std::span<const double> area;
     std::span<const Vec3> reflectance;
     std::span<const Vec3> incident; ///< arrives [W/m2]
@@ -24,10 +24,10 @@ struct PatchLight {
 
 /// The mean of `leaving`, weighted by itself: the radiosity of the patches that most light comes
 /// from [W/m2].
-[[nodiscard]] Vec3 bright_radiosity(const PatchLight& light);
+[[nodiscard]] Vec3 bright_radiosity(const LightFoundByRays& light);
 
 /// By patch: the light that it would reflect [W/m2] if three rays had met something bright, among
 /// those of all patches that are about as dark as it and those by which bright patches look at it.
-[[nodiscard]] std::vector<Vec3> missed_by_rays(const PatchLight& light);
+[[nodiscard]] std::vector<Vec3> missed_by_rays(const LightFoundByRays& light);
 
 } // namespace hemilux

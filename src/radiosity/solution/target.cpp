@@ -66,7 +66,7 @@ std::vector<double> weights_of_points(const Mesh& mesh, const Tracer& tracer,
         }
     }
     for (std::size_t i = 0; i < weights.size(); ++i)
-        weights[i] /= mesh.patches()[i].area;
+        weights[i] = mesh.patches()[i].area > 0 ? weights[i] / mesh.patches()[i].area : 0;
     const double largest = weights.empty() ? 0 : std::ranges::max(weights);
     for (double& weight : weights)
         weight = largest > 0 ? weight / largest : 0;

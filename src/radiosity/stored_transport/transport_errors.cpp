@@ -63,7 +63,7 @@ class Account {
         std::vector<Vec3> all_leaving(n);
         for (std::uint32_t i = 0; i < n; ++i)
             all_leaving[i] = leaving(i);
-        const PatchLight light{area_, rho_, incident_, all_leaving, rays_};
+        const LightFoundByRays light{area_, rho_, incident_, all_leaving, rays_};
         bright_radiosity_ = bright_radiosity(light);
         missed_by_rays_ = missed_by_rays(light);
     }
