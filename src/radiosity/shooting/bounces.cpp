@@ -13,10 +13,8 @@
 namespace hemilux {
 namespace {
 
-/// Work ranges whose receivers are kept until they are summed: of two million rays, about.
-constexpr std::size_t ranges_at_once = 244;
-/// A thread that works alone takes work items of so many together: tracing likes many rays at once.
-constexpr double rays_at_least = 4096;
+/// Work items whose receivers are kept until they are summed: of two million rays, about.
+constexpr std::size_t items_at_once = 244;
 /// Fewer rays than this are traced sooner than others would have come to help.
 constexpr double rays_for_one_thread = 500;
 
@@ -77,21 +75,19 @@ std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
     const bool few = rays_before_.back() - rays_before_[0] < rays_for_one_thread;
     const Workers workers = few ? Workers(1) : task_->workers;
     Place next{0, rays_by_power() ? whole_below(rays_before_[0]) : 0};
-    while (cut(next) && !input_.monitor.interrupted) {
-        divide_work(workers.threads() > 1 ? 0 : rays_at_least);
-        shoot_ranges(workers, stream, result);
-    }
+    while (cut(next) && !input_.monitor.interrupted)
+        shoot_items(workers, stream, result);
     if (has_balls() && !input_.monitor.interrupted)
         shoot_to_balls(workers, stream, result);
     return result.rays - before;
 }
 
-void Bounces::shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result) {
-    batches_.resize(std::min(ranges_at_once, ranges_.size()));
-    for (std::size_t begin = 0; begin < ranges_.size(); begin += ranges_at_once) {
-        const std::size_t count = std::min(ranges_at_once, ranges_.size() - begin);
+void Bounces::shoot_items(const Workers& workers, std::uint64_t stream, StepResult& result) {
+    batches_.resize(std::min(items_at_once, items_.size()));
+    for (std::size_t begin = 0; begin < items_.size(); begin += items_at_once) {
+        const std::size_t count = std::min(items_at_once, items_.size() - begin);
         workers.for_each_in_order(
-            count, [&](std::size_t k) { shoot_range(ranges_[begin + k], stream, batches_[k]); },
+            count, [&](std::size_t k) { shoot_item(items_[begin + k], stream, batches_[k]); },
             [&](std::size_t k) {
                 if (!input_.monitor.interrupted) // else batches may not be whole
                     collect(batches_[k], result);
@@ -104,14 +100,13 @@ void Bounces::shoot_ranges(const Workers& workers, std::uint64_t stream, StepRes
     }
 }
 
-void Bounces::shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const {
+void Bounces::shoot_item(const WorkItem& item, std::uint64_t stream, RayBatch& batch) const {
     batch.groups.clear();
     batch.receivers.clear();
     batch.arrivals.clear();
     if (input_.monitor.interrupted)
         return;
-    for (std::size_t k = range.first; k < range.last; ++k)
-        schedule(items_[k], batch.groups);
+    schedule(item, batch.groups);
     trace(stream, batch);
     input_.monitor.rays += batch.receivers.size();
 }

@@ -40,7 +40,7 @@ class Bounces {
     bool shoot(const StepTask& task, StepResult& result);
 
   private:
-    /// The rays that one thread shoots at a time at least: those of the line (see plan()) in (from,
+    /// The rays that one thread shoots at a time: those of the line (see plan()) in (from,
     /// to], which are of senders from `first` to before `last`.
     struct WorkItem {
         std::uint32_t first, last;
@@ -52,11 +52,7 @@ class Bounces {
         std::uint32_t sender;
         double ray;
     };
-    /// Work items that one thread takes together.
-    struct WorkRange {
-        std::size_t first, last;
-    };
-    /// The rays of a work range, and where each arrived.
+    /// The rays of a work item, and where each arrived.
     struct RayBatch {
         std::vector<RayGroup> groups;
         std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
@@ -90,7 +86,6 @@ class Bounces {
     bool cut(Place& next);
     void cut_line(Place& next);
     void cut_same_number(Place& next);
-    void divide_work(double rays);
     // These add the rays to be drawn to `groups`.
     void schedule(const WorkItem& item, std::vector<RayGroup>& groups) const;
     void schedule(std::size_t sender, const WorkItem& item, const Allocation& allocation,
@@ -99,8 +94,8 @@ class Bounces {
                               const Allocation& allocation, std::vector<RayGroup>& groups) const;
 
     // What becomes of them.
-    void shoot_ranges(const Workers& workers, std::uint64_t stream, StepResult& result);
-    void shoot_range(const WorkRange& range, std::uint64_t stream, RayBatch& batch) const;
+    void shoot_items(const Workers& workers, std::uint64_t stream, StepResult& result);
+    void shoot_item(const WorkItem& item, std::uint64_t stream, RayBatch& batch) const;
     void trace(std::uint64_t stream, RayBatch& batch) const;
     // The same to the balls of a target (bounces_to_balls.cpp).
     void shoot_to_balls(const Workers& workers, std::uint64_t of_bounce, StepResult& result);
@@ -131,7 +126,6 @@ class Bounces {
     std::vector<Arrived> received_;  ///< by patch
     std::vector<std::uint64_t> hit_; ///< a bit for each patch that received any
     std::vector<WorkItem> items_;
-    std::vector<WorkRange> ranges_;
     std::vector<RayBatch> batches_; ///< kept for their memory
 };
 

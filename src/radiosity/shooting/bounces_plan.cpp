@@ -83,20 +83,6 @@ void Bounces::cut_same_number(Place& next) {
     }
 }
 
-/// Work items in their order to ranges of so many rays at least.
-void Bounces::divide_work(double rays) {
-    ranges_.clear();
-    double from = 0;
-    for (const WorkItem& item : items_) {
-        if (ranges_.empty() || item.to - from >= rays) {
-            const std::size_t first = ranges_.empty() ? 0 : ranges_.back().last;
-            ranges_.push_back({first, first});
-            from = item.from;
-        }
-        ++ranges_.back().last;
-    }
-}
-
 void Bounces::schedule(const WorkItem& item, std::vector<RayGroup>& groups) const {
     thread_local AllocatedCells memory;
     const auto allocate = [&](std::size_t k) {
