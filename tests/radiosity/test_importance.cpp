@@ -141,7 +141,7 @@ TEST_CASE("Rays go where they are important, and a quarter of the mean everywher
 TEST_CASE("A picture's weights are what it shows and what lights that") {
     const Model model(test::cube_with_lit_floor(2, .5));
     const auto patches = model.mesh.patches();
-    std::vector<VisiblePoint> points;
+    std::vector<SurfacePoint> points;
     for (int k = 0; k < 64; ++k)
         points.push_back({patches[0].centre, patches[0].normal, patches[0].facet, 0});
     const std::vector<double> weight =

@@ -25,7 +25,7 @@ std::vector<double> weights_of_camera(const SolveSettings& settings, const Mesh&
     const auto columns = static_cast<int>(std::ceil(share * width));
     const auto rows = static_cast<int>(std::ceil(share * height));
     const CameraRays camera(*settings.view.camera, mesh, static_cast<double>(width) / height);
-    std::vector<VisiblePoint> seen;
+    std::vector<SurfacePoint> seen;
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x) {
             const Ray ray = camera.ray((x + .5) / columns, (y + .5) / rows);

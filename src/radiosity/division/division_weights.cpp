@@ -43,8 +43,7 @@ std::vector<double> division_weights(const Mesh& mesh, const Tracer& tracer,
             Rng rng(hash_words({seed, k}));
             const Frame frame = Frame::from_normal(at.normal);
             for (std::size_t r = 0; r < rays_of_point; ++r) {
-                Ray ray{at.position, frame.to_world(sample_cosine(rng))};
-                ray.from = at.facet;
+                const Ray ray = at.ray(frame.to_world(sample_cosine(rng)));
                 reads[k * rays_of_point + r] =
                     read_along(ray, mesh.material(points[k].patch).reflectance, mesh, tracer);
             }

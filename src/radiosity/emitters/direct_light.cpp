@@ -1,8 +1,5 @@
 #include "radiosity/emitters/direct_light.h"
 
-#include "radiosity/emitters/small_emitters.h"
-#include "radiosity/form_factors/pair_factor.h"
-#include "radiosity/form_factors/point_to_patch.h"
 #include "radiosity/rays/receivers.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
@@ -26,37 +23,24 @@ constexpr std::size_t patches_per_chunk = 8;
 
 } // namespace
 
-/// Samples whose rays are not traced yet, the first `size` of each array.
+/// Samples whose rays are not traced yet.
 struct DirectLight::RayBatch {
     struct Sample {
         std::uint32_t patch, estimate;
         Vec3 light; ///< if the ray arrives
     };
-    std::size_t size = 0;
-    std::vector<Sample> samples = std::vector<Sample>(rays_at_a_time);
-    std::vector<Ray> rays = std::vector<Ray>(rays_at_a_time);
-    std::vector<std::uint32_t> targets = std::vector<std::uint32_t>(rays_at_a_time); ///< facets
-    std::vector<std::uint8_t> blocked = std::vector<std::uint8_t>(rays_at_a_time);
+    ShadowRays<Sample> rays;
     std::uint64_t traced = 0;
     EmitterChoice::Cut cut; ///< of the present patch
-
-    [[nodiscard]] bool full() const { return size == rays_at_a_time; }
 };
-
-DirectLight::Shape::Shape(const Patch& of) : patch(&of), points(of.shape) {}
 
 DirectLight::DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                          std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds,
                          const Ranks& ranks)
     : mesh_(mesh), tracer_(tracer), needs_(needs), own_(ranks, mesh.patches().size()),
-      emitters_(whole_sides(mesh, one_of_each_side(mesh, emitters))), choice_(mesh, emitters_),
-      seeds_(std::move(seeds)), sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)),
-      samples_(mesh.patches().size()), hits_(mesh.patches().size()),
-      unblocked_(mesh.patches().size()) {
-    for (const Patch& emitter : emitters_)
-        emitter_shapes_.push_back(
-            {Shape(emitter), mesh.material(emitter).emission, near_radii * radius_of(emitter)});
-}
+      emitters_(mesh, emitters), seeds_(std::move(seeds)),
+      sum_(mesh.patches().size() * seeds_.size(), Vec3(0.0)), samples_(mesh.patches().size()),
+      hits_(mesh.patches().size()), unblocked_(mesh.patches().size()) {}
 
 Vec3 DirectLight::irradiance(std::uint32_t patch) const {
     Vec3 sum(0.0);
@@ -98,14 +82,15 @@ void DirectLight::gather() {
 void DirectLight::sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch) {
     const std::uint32_t begin = std::exchange(samples_[patch], end);
     EmitterChoice::Cut& cut = batch.cut;
-    choice_.weigh(patch, cut);
+    emitters_.choice().weigh(patch, cut);
     if (cut.dark())
         return;
     if (!cut.pays()) {
         samples_[patch] = 0;
         return;
     }
-    const Shape receiver(mesh_.patches()[patch]);
+    const Patch& receiver = mesh_.patches()[patch];
+    const PolygonSampler places(receiver.shape);
     EmitterChoice::Choices choices;
     for (std::uint32_t s = 0; s < seeds_.size(); ++s) {
         SobolBlocks<5> points(hash_words({seeds_[s], patch}));
@@ -113,47 +98,32 @@ void DirectLight::sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch
             const std::size_t in_block = k % samples_per_block;
             if (k == begin || in_block == 0) {
                 points.move_to(k);
-                choice_.choose(cut, points.coordinate(4), choices);
+                emitters_.choice().choose(cut, points.coordinate(4), choices);
             }
-            look(patch, s, receiver, points.point(k), choices[in_block], batch);
-            if (batch.full())
+            const std::array<double, 5> u = points.point(k);
+            const SurfacePoint at{places.sample({u[0], u[1]}), receiver.normal, receiver.facet};
+            if (const auto aimed = emitters_.aim(choices[in_block], at, {u[2], u[3]}))
+                batch.rays.add(aimed->ray, aimed->target,
+                               {patch, s, aimed->factor * aimed->emission});
+            if (batch.rays.size() == rays_at_a_time)
                 send(batch);
         }
     }
 }
 
-void DirectLight::look(std::uint32_t patch, std::uint32_t estimate, const Shape& receiver,
-                       const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
-                       RayBatch& batch) const {
-    const Emitter& emitter = emitter_shapes_[choice.emitter];
-    const std::size_t next = batch.size;
-    const double factor = look_at(*receiver.patch, receiver.points, *emitter.patch, emitter.points,
-                                  {u[0], u[1], u[2], u[3]}, emitter.near, batch.rays[next]);
-    if (!(factor > 0))
-        return;
-    batch.samples[next] = {patch, estimate, factor / choice.chance * emitter.emission};
-    batch.targets[next] = emitter.patch->facet;
-    ++batch.size;
-}
-
 void DirectLight::send(RayBatch& batch) {
-    const std::size_t size = std::exchange(batch.size, 0);
-    const std::span blocked = std::span(batch.blocked).first(size);
-    if (needs_.visibility) {
-        tracer_.occluded_stream(std::span(batch.rays).first(size),
-                                std::span(batch.targets).first(size), blocked);
-        batch.traced += size;
-    } else {
-        std::ranges::fill(blocked, std::uint8_t{0});
-    }
-    for (std::size_t k = 0; k < size; ++k) {
-        const auto& [patch, estimate, light] = batch.samples[k];
+    const auto use = [&](const RayBatch::Sample& sample, bool arrives) {
+        const auto& [patch, estimate, light] = sample;
         unblocked_[patch] += mean_of_channels(light);
-        if (!blocked[k]) {
+        if (arrives) {
             sum_[patch * seeds_.size() + estimate] += light;
             ++hits_[patch];
         }
-    }
+    };
+    if (needs_.visibility)
+        batch.traced += batch.rays.trace(tracer_, use);
+    else
+        batch.rays.take_all(use);
 }
 
 void DirectLight::save(StateWriter& state) const {

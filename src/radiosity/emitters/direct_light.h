@@ -8,11 +8,10 @@
 // point and polygon, or of two points where the emitter looks small.
 
 #include "bvh/tracer.h"
-#include "geometry/polygon_sampler.h"
 #include "geometry/vector.h"
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
-#include "radiosity/emitters/emitter_choice.h"
+#include "radiosity/emitters/reached_emitters.h"
 #include "radiosity/scene/needs.h"
 
 #include <cstdint>
@@ -71,20 +70,8 @@ class DirectLight {
     void load(StateReader& state);
 
   private:
-    struct Shape {
-        explicit Shape(const Patch& of);
-        const Patch* patch;
-        PolygonSampler points;
-    };
-    struct Emitter : Shape {
-        Vec3 emission;
-        double near; ///< from the centre, see look_at
-    };
     struct RayBatch;
     void sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch);
-    void look(std::uint32_t patch, std::uint32_t estimate, const Shape& receiver,
-              const std::array<double, 5>& u, const EmitterChoice::Choice& choice,
-              RayBatch& batch) const;
     void send(RayBatch& batch);
     void gather();
 
@@ -92,13 +79,11 @@ class DirectLight {
     const Tracer& tracer_;
     const Needs& needs_;
     OwnBlocks own_;
-    std::vector<Patch> emitters_; ///< whole sides of facets
-    EmitterChoice choice_;
+    ReachedEmitters emitters_;
     std::vector<std::uint64_t> seeds_;
     std::vector<Vec3> sum_; ///< by patch and estimate
     std::vector<std::uint32_t> samples_, hits_;
     std::vector<double> unblocked_; ///< sum over the samples of a patch
-    std::vector<Emitter> emitter_shapes_;
 };
 
 } // namespace hemilux

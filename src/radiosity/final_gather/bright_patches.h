@@ -4,7 +4,7 @@
 // few cosine-distributed rays find it.
 
 #include "geometry/polygon_sampler.h"
-#include "radiosity/final_gather/reached_emitters.h"
+#include "radiosity/emitters/reached_emitters.h"
 #include "radiosity/final_gather/surface_points.h"
 
 #include <cstdint>

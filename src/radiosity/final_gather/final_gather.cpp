@@ -57,13 +57,12 @@ void FinalGather::add_rays(const SurfacePoint& point, std::uint64_t seed, std::s
         SobolBlocks<5> numbers(hash_words({seed, e}));
         for (std::uint32_t k = 0; k < random_rays; ++k) {
             const auto u = numbers.at(k);
-            Ray ray{point.position, frame.to_world(cosine_direction({u[0], u[1]}))};
-            ray.from = point.facet;
-            rays.add(ray, {.seed = hash_words({seed, e, k}),
-                           .place = place,
-                           .share = Vec3(1.0 / random_rays),
-                           .sees_emission = !by_shadow_rays,
-                           .in_gather = !finds_light});
+            rays.add(point.ray(frame.to_world(cosine_direction({u[0], u[1]}))),
+                     {.seed = hash_words({seed, e, k}),
+                      .place = place,
+                      .share = Vec3(1.0 / random_rays),
+                      .sees_emission = !by_shadow_rays,
+                      .in_gather = !finds_light});
         }
         if (by_shadow_rays && finds_light)
             emitters.add_rays(point, rays.weighed, numbers, 0, shadow_rays, place, rays.shadow);

@@ -27,10 +27,12 @@ std::vector<EmitterLight> GatherInParts::direct(std::span<const SurfacePoint> po
                                                 Shadows shadows) const {
     std::vector<EmitterLight> found(points.size());
     WeighedEmitters weighed;
-    ShadowRays rays;
+    ShadowRays<LightAtPlace> rays;
     const auto trace = [&] {
-        rays.trace(tracer_,
-                   [&](std::uint32_t place, const Vec3& light) { found[place].arriving += light; });
+        rays.trace(tracer_, [&](const LightAtPlace& sample, bool arrives) {
+            if (arrives)
+                found[sample.place].arriving += sample.light;
+        });
     };
     for (std::uint32_t k = 0; k < points.size(); ++k) {
         const GatherSamples& own = samples[k];
@@ -40,20 +42,20 @@ std::vector<EmitterLight> GatherInParts::direct(std::span<const SurfacePoint> po
             emitters_.weigh(points[k], weighed);
         if (weighed.cut.dark())
             continue;
-        const std::size_t before = rays.samples.size();
+        const std::size_t before = rays.size();
         SobolBlocks<5> numbers(own.seed);
         emitters_.add_rays(points[k], weighed, numbers, own.first, own.count, k, rays);
         double by_nearness = 0;
-        for (std::size_t ray = before; ray < rays.samples.size(); ++ray) {
-            const Vec3& light = rays.samples[ray].light;
+        for (std::size_t ray = before; ray < rays.size(); ++ray) {
+            const Vec3& light = rays.sample(ray).light;
             found[k].unshadowed += light;
-            by_nearness += mean_of_channels(light) / rays.rays[ray].t_max;
+            by_nearness += mean_of_channels(light) / rays.ray(ray).t_max;
         }
         if (by_nearness > 0)
             found[k].nearness = by_nearness / mean_of_channels(found[k].unshadowed);
         if (shadows == Shadows::left_out)
             rays.clear();
-        else if (rays.rays.size() >= rays_traced_together)
+        else if (rays.size() >= rays_traced_together)
             trace();
     }
     trace();
@@ -128,9 +130,7 @@ std::vector<IndirectLight> GatherInParts::indirect(std::span<const SurfacePoint>
         }
         const unsigned at_random = count - rays.aimed;
         const auto add = [&](const Vec3& direction, std::uint32_t target) {
-            Ray ray{point.position, direction};
-            ray.from = point.facet;
-            rays.rays.push_back(ray);
+            rays.rays.push_back(point.ray(direction));
             rays.samples.push_back({k, at_random, target});
         };
         const Frame frame = Frame::from_normal(point.normal);

@@ -4,9 +4,9 @@
 // slowly.
 
 #include "bvh/tracer.h"
+#include "radiosity/emitters/reached_emitters.h"
 #include "radiosity/final_gather/bright_patches.h"
 #include "radiosity/final_gather/linear_light.h"
-#include "radiosity/final_gather/reached_emitters.h"
 #include "radiosity/final_gather/surface_points.h"
 
 #include <cstdint>

@@ -26,8 +26,10 @@ constexpr double most_kept = .9;
 GatherPaths::Traced GatherPaths::trace(PathRays rays, std::span<Vec3> found) const {
     Traced traced{};
     for (unsigned bounce = 0; !rays.random.empty(); ++bounce) {
-        traced.rays += rays.shadow.trace(
-            tracer_, [&](std::uint32_t place, const Vec3& light) { found[place] += light; });
+        traced.rays += rays.shadow.trace(tracer_, [&](const LightAtPlace& sample, bool arrives) {
+            if (arrives)
+                found[sample.place] += sample.light;
+        });
         traced.rays += rays.random.size();
         std::vector<std::uint32_t> receivers;
         find_receivers(rays.random, mesh_, tracer_, receivers);
@@ -122,8 +124,7 @@ void GatherPaths::add_rays(const SurfacePoint& at, const PathRays::State& state,
                            PathRays& next) const {
     Rng rng(state.seed);
     const bool by_shadow_ray = !state.in_gather && next.weighed.pays();
-    Ray further{at.position, Frame::from_normal(at.normal).to_world(sample_cosine(rng))};
-    further.from = at.facet;
+    const Ray further = at.ray(Frame::from_normal(at.normal).to_world(sample_cosine(rng)));
     PathRays::State then = state;
     then.seed = hash_words({state.seed, 1});
     then.sees_emission = !by_shadow_ray;

@@ -9,8 +9,8 @@
 // mean of its patch.
 
 #include "bvh/tracer.h"
+#include "radiosity/emitters/reached_emitters.h"
 #include "radiosity/final_gather/linear_light.h"
-#include "radiosity/final_gather/reached_emitters.h"
 #include "radiosity/final_gather/surface_points.h"
 
 #include <cstddef>
@@ -35,7 +35,7 @@ struct PathRays {
     };
     std::vector<Ray> random;
     std::vector<State> states; ///< of each ray at random
-    ShadowRays shadow;
+    ShadowRays<LightAtPlace> shadow;
     WeighedEmitters weighed; ///< for the point that rays were added at last
 
     void add(const Ray& ray, const State& state) {

@@ -1,26 +1,15 @@
 #pragma once
-// Points on the surfaces of a scene, where light is to be known.
+// Draws points on the surfaces of a scene, where light is to be known.
 
-#include "geometry/vector.h"
+#include "radiosity/rays/surface_point.h"
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 namespace hemilux {
 
 class Mesh;
-
-/// Lies in the local frame.
-struct SurfacePoint {
-    Vec3 position;
-    Vec3 normal;         ///< unit, to the side that receives
-    std::uint32_t facet; ///< that it lies on, or none
-    /// Points of one patch that follow each other may choose emitters by the same chances. None: by
-    /// its own.
-    std::uint32_t patch = std::numeric_limits<std::uint32_t>::max();
-};
 
 /// A point of a patch, which stands for `area` of it.
 struct PatchPoint {

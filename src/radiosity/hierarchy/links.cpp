@@ -4,6 +4,7 @@
 #include "radiosity/form_factors/pair_factor.h"
 #include "radiosity/form_factors/point_to_patch.h"
 #include "radiosity/rays/receivers.h"
+#include "radiosity/rays/shadow_rays.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/scene/mesh.h"
@@ -144,22 +145,15 @@ class LinkLooks {
                                       PolygonSampler(source.shape), u, everywhere, ray);
         if (!(factor > 0))
             return;
-        rays_.push_back(ray);
-        targets_.push_back(source.facet);
-        terms_.push_back({weight * factor * (from.area / source.area), &sum});
+        rays_.add(ray, source.facet, {weight * factor * (from.area / source.area), &sum});
         if (rays_.size() == rays_at_a_time)
             finish();
     }
     void finish() {
-        blocked_.resize(rays_.size());
-        tracer_.occluded_stream(rays_, targets_, blocked_);
-        for (std::size_t k = 0; k < terms_.size(); ++k)
-            if (blocked_[k] == 0)
-                *terms_[k].sum += terms_[k].factor;
-        traced_ += rays_.size();
-        rays_.clear();
-        targets_.clear();
-        terms_.clear();
+        traced_ += rays_.trace(tracer_, [](const Term& term, bool arrives) {
+            if (arrives)
+                *term.sum += term.factor;
+        });
     }
     [[nodiscard]] std::uint64_t traced() const { return traced_; }
 
@@ -171,10 +165,7 @@ class LinkLooks {
     const Mesh& mesh_;
     const Tracer& tracer_;
     const PatchTree& tree_;
-    std::vector<Ray> rays_;
-    std::vector<std::uint32_t> targets_;
-    std::vector<Term> terms_;
-    std::vector<std::uint8_t> blocked_;
+    ShadowRays<Term> rays_;
     std::uint64_t traced_ = 0;
 };
 

@@ -16,17 +16,14 @@ namespace {
 constexpr std::size_t points_per_chunk = 64;
 
 /// What the rays from some points meet, point by point.
-std::vector<std::uint32_t> met_from(std::span<const VisiblePoint> points, std::size_t first,
+std::vector<std::uint32_t> met_from(std::span<const SurfacePoint> points, std::size_t first,
                                     const Mesh& mesh, const Tracer& tracer, unsigned rays) {
     std::vector<Ray> all;
     for (std::size_t k = 0; k < points.size(); ++k) {
         Rng rng(hash_words({first + k}));
         const Frame frame = Frame::from_normal(points[k].normal);
-        for (unsigned r = 0; r < rays; ++r) {
-            Ray ray{points[k].position, frame.to_world(sample_cosine(rng))};
-            ray.from = points[k].facet;
-            all.push_back(ray);
-        }
+        for (unsigned r = 0; r < rays; ++r)
+            all.push_back(points[k].ray(frame.to_world(sample_cosine(rng))));
     }
     std::vector<std::uint32_t> met;
     find_receivers(all, mesh, tracer, met);
@@ -45,7 +42,7 @@ std::vector<double> weights_of_groups(const Mesh& mesh, std::span<const std::uin
 }
 
 std::vector<double> weights_of_points(const Mesh& mesh, const Tracer& tracer,
-                                      std::span<const VisiblePoint> points, unsigned rays,
+                                      std::span<const SurfacePoint> points, unsigned rays,
                                       const Workers& workers) {
     std::vector<std::vector<std::uint32_t>> met((points.size() + points_per_chunk - 1) /
                                                 points_per_chunk);

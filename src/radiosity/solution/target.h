@@ -7,7 +7,7 @@
 // depends on is the method's to find out (stored_transport/importance.h).
 
 #include "bvh/tracer.h"
-#include "geometry/vector.h"
+#include "radiosity/rays/surface_point.h"
 
 #include <cstdint>
 #include <span>
@@ -22,23 +22,15 @@ class Workers;
 [[nodiscard]] std::vector<double> weights_of_groups(const Mesh& mesh,
                                                     std::span<const std::uint32_t> groups);
 
-/// Where a picture shows a surface, in the local frame.
-struct VisiblePoint {
-    Vec3 position;
-    Vec3 normal; ///< unit, to the side that is seen
-    std::uint32_t facet;
-    std::uint32_t patch;
-};
-
-/// Of a picture that shows these points, one for each pixel: each counts at the patch that it lies
-/// on, and by the square of what that reflects at those that `rays` cosine-distributed rays from it
-/// meet, as a gathered picture reads them (Smits, Arvo and Salesin 1992 start importance at what
-/// the eye sees; the second part is theirs after one step of transport). The square, as these are
-/// weights of squared errors: the light gathered at a point is off by rho sum_k F_k e_k, whose
-/// square is at most rho^2 sum_k F_k e_k^2 (Jensen). A patch has what it gets over its area; the
-/// largest weight is 1. The same for any number of threads.
+/// Of a picture that shows these points of patches, one for each pixel: each counts at the patch
+/// that it lies on, and by the square of what that reflects at those that `rays` cosine-distributed
+/// rays from it meet, as a gathered picture reads them (Smits, Arvo and Salesin 1992 start
+/// importance at what the eye sees; the second part is theirs after one step of transport). The
+/// square, as these are weights of squared errors: the light gathered at a point is off by rho
+/// sum_k F_k e_k, whose square is at most rho^2 sum_k F_k e_k^2 (Jensen). A patch has what it gets
+/// over its area; the largest weight is 1. The same for any number of threads.
 [[nodiscard]] std::vector<double> weights_of_points(const Mesh& mesh, const Tracer& tracer,
-                                                    std::span<const VisiblePoint> points,
+                                                    std::span<const SurfacePoint> points,
                                                     unsigned rays, const Workers& workers);
 
 /// Nearly surely another one for other weights: a saved state belongs to its target.

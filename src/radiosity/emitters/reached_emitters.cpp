@@ -1,4 +1,4 @@
-#include "radiosity/final_gather/reached_emitters.h"
+#include "radiosity/emitters/reached_emitters.h"
 
 #include "radiosity/emitters/small_emitters.h"
 #include "radiosity/form_factors/point_to_patch.h"
@@ -10,7 +10,7 @@ namespace hemilux {
 
 ReachedEmitters::ReachedEmitters(const Mesh& mesh) : ReachedEmitters(mesh, small_emitters(mesh)) {}
 
-ReachedEmitters::ReachedEmitters(const Mesh& mesh, const std::vector<std::uint32_t>& emitters)
+ReachedEmitters::ReachedEmitters(const Mesh& mesh, std::span<const std::uint32_t> emitters)
     : emission_(mesh.patches().size(), Vec3(0.0)),
       sides_(whole_sides(mesh, one_of_each_side(mesh, emitters))), choice_(mesh, sides_) {
     for (const std::uint32_t i : emitters)
@@ -30,45 +30,41 @@ void ReachedEmitters::weigh(const SurfacePoint& point, WeighedEmitters& weighed)
     weighed.patch = point.patch;
 }
 
-double ReachedEmitters::aim(const EmitterChoice::Choice& chosen, const SurfacePoint& point, Vec2 u,
-                            Ray& ray) const {
+std::optional<ReachedEmitters::Aimed>
+ReachedEmitters::aim(const EmitterChoice::Choice& chosen, const SurfacePoint& point, Vec2 u) const {
     const Emitter& emitter = emitters_[chosen.emitter];
-    return look_from(point.position, point.normal, point.facet, emitter.side, emitter.points, u,
-                     emitter.near, ray) /
-           chosen.chance;
+    Ray ray{};
+    const double factor = look_from(point.position, point.normal, point.facet, emitter.side,
+                                    emitter.points, u, emitter.near, ray);
+    if (!(factor > 0))
+        return std::nullopt;
+    return Aimed{ray, emitter.side.facet, factor / chosen.chance, emitter.emission};
 }
 
 void ReachedEmitters::add_rays(const SurfacePoint& point, const WeighedEmitters& weighed,
                                SobolBlocks<5>& numbers, std::uint32_t first, std::uint32_t count,
-                               std::uint32_t place, ShadowRays& rays) const {
+                               std::uint32_t place, ShadowRays<LightAtPlace>& rays) const {
     EmitterChoice::Choices choices;
     std::uint32_t chosen = none; // the block of the choices
     for (std::uint32_t k = first; k < first + count; ++k) {
         const auto u = numbers.at(k);
         if (std::exchange(chosen, k / samples_per_block) != k / samples_per_block)
             choice_.choose(weighed.cut, numbers.coordinate(4), choices);
-        const EmitterChoice::Choice& choice = choices[k % samples_per_block];
-        const Emitter& emitter = emitters_[choice.emitter];
-        Ray ray{};
-        const double factor = aim(choice, point, {u[2], u[3]}, ray);
-        if (factor > 0)
-            rays.add(ray, emitter.side.facet, {place, factor / count * emitter.emission});
+        if (const auto aimed = aim(choices[k % samples_per_block], point, {u[2], u[3]}))
+            rays.add(aimed->ray, aimed->target, {place, aimed->factor / count * aimed->emission});
     }
 }
 
 void ReachedEmitters::add_ray(const SurfacePoint& point, const WeighedEmitters& weighed, Rng& rng,
-                              const Vec3& share, std::uint32_t place, ShadowRays& rays) const {
+                              const Vec3& share, std::uint32_t place,
+                              ShadowRays<LightAtPlace>& rays) const {
     EmitterChoice::Choices choices;
     std::array<double, samples_per_block> which{};
     which.fill(rng.uniform());
     choice_.choose(weighed.cut, which.data(), choices);
-    const EmitterChoice::Choice& choice = choices.front();
-    const Emitter& emitter = emitters_[choice.emitter];
     const double u = rng.uniform(), v = rng.uniform();
-    Ray ray{};
-    const double factor = aim(choice, point, {u, v}, ray);
-    if (factor > 0)
-        rays.add(ray, emitter.side.facet, {place, factor * share * emitter.emission});
+    if (const auto aimed = aim(choices.front(), point, {u, v}))
+        rays.add(aimed->ray, aimed->target, {place, aimed->factor * share * aimed->emission});
 }
 
 } // namespace hemilux

@@ -5,11 +5,13 @@
 #include "bvh/tracer.h"
 #include "geometry/polygon_sampler.h"
 #include "radiosity/emitters/emitter_choice.h"
-#include "radiosity/final_gather/surface_points.h"
+#include "radiosity/rays/shadow_rays.h"
+#include "radiosity/rays/surface_point.h"
 #include "radiosity/sampling/sobol.h"
 #include "radiosity/scene/mesh.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,40 +19,10 @@ namespace hemilux {
 
 class Rng;
 
-/// Shadow rays that are not traced yet.
-struct ShadowRays {
-    struct Sample {
-        std::uint32_t place; ///< of the estimate
-        Vec3 light;          ///< if nothing is in the way [W/m2]
-    };
-    std::vector<Ray> rays;
-    std::vector<Sample> samples;        ///< of each ray
-    std::vector<std::uint32_t> targets; ///< the facet of each ray's emitter
-    std::vector<std::uint8_t> blocked;  ///< of those that were traced last
-
-    /// Traces them and forgets them; calls add(place, light) for what arrives. Returns how many
-    /// there were.
-    template <class Add>
-    std::size_t trace(const Tracer& tracer, const Add& add) {
-        blocked.resize(rays.size());
-        tracer.occluded_stream(rays, targets, blocked);
-        for (std::size_t k = 0; k < rays.size(); ++k)
-            if (!blocked[k])
-                add(samples[k].place, samples[k].light);
-        const std::size_t traced = rays.size();
-        clear();
-        return traced;
-    }
-    void add(const Ray& ray, std::uint32_t target, const Sample& sample) {
-        rays.push_back(ray);
-        targets.push_back(target);
-        samples.push_back(sample);
-    }
-    void clear() {
-        rays.clear();
-        samples.clear();
-        targets.clear();
-    }
+/// What an emitter brings.
+struct LightAtPlace {
+    std::uint32_t place; ///< of the estimate
+    Vec3 light;          ///< [W/m2]
 };
 
 /// The chances of emitters, for a point or for those of a patch. Dark before they are weighed.
@@ -67,6 +39,11 @@ class ReachedEmitters {
     /// The small emitters of a mesh (small_emitters.h), which outlives this.
     explicit ReachedEmitters(const Mesh& mesh);
 
+    /// These emitters, of which a facet's are either all among them or none.
+    ReachedEmitters(const Mesh& mesh, std::span<const std::uint32_t> emitters);
+
+    [[nodiscard]] bool empty() const { return emitters_.empty(); }
+    [[nodiscard]] const EmitterChoice& choice() const { return choice_; }
     /// What a patch emits that shadow rays find [W/m2].
     [[nodiscard]] const Vec3& emission(std::uint32_t patch) const { return emission_[patch]; }
     /// Prepares shadow rays of a point. It has the chances of its patch, where it names that.
@@ -75,24 +52,29 @@ class ReachedEmitters {
     /// of their emitter and are left out. The light of each is its share of their mean.
     void add_rays(const SurfacePoint& point, const WeighedEmitters& weighed,
                   SobolBlocks<5>& numbers, std::uint32_t first, std::uint32_t count,
-                  std::uint32_t place, ShadowRays& rays) const;
+                  std::uint32_t place, ShadowRays<LightAtPlace>& rays) const;
     /// Adds one ray, of which `share` of the light counts.
     void add_ray(const SurfacePoint& point, const WeighedEmitters& weighed, Rng& rng,
-                 const Vec3& share, std::uint32_t place, ShadowRays& rays) const;
+                 const Vec3& share, std::uint32_t place, ShadowRays<LightAtPlace>& rays) const;
+
+    /// A shadow ray to a point of an emitter, and the light that it brings [W/m2] over the chance
+    /// of the emitter; nothing where the point does not face it.
+    struct Aimed {
+        Ray ray;
+        std::uint32_t target; ///< the emitter's facet
+        double factor;        ///< [-], of the emission
+        const Vec3& emission;
+    };
+    [[nodiscard]] std::optional<Aimed> aim(const EmitterChoice::Choice& chosen,
+                                           const SurfacePoint& point, Vec2 u) const;
 
   private:
-    ReachedEmitters(const Mesh& mesh, const std::vector<std::uint32_t>& emitters);
-
     struct Emitter {
         Patch side; ///< of a whole facet
         PolygonSampler points;
-        double near; ///< from the centre, see look_at
+        double near; ///< from the centre, see look_from
         Vec3 emission;
     };
-    /// Makes a ray to a point of the emitter. Returns how much of the emission it brings there
-    /// [-], over the chance of the emitter; 0 where the point does not face it.
-    [[nodiscard]] double aim(const EmitterChoice::Choice& chosen, const SurfacePoint& point, Vec2 u,
-                             Ray& ray) const;
 
     std::vector<Vec3> emission_; ///< by patch
     std::vector<Patch> sides_;
