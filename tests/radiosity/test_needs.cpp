@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 using namespace hemilux;
 using test::Model;
@@ -160,8 +161,11 @@ TEST_CASE("In a convex enclosure all densities are 1 and nothing hides a patch")
                 const std::array<double, 4> u{rng.uniform(), rng.uniform(), rng.uniform(),
                                               rng.uniform()};
                 std::uint64_t rays = 0, none_traced = 0;
-                const double seen = point_to_patch(model.mesh, model.bvh, i, j, u, rays);
-                CHECK(point_to_patch(model.mesh, model.bvh, i, j, u, none_traced, false) == seen);
+                constexpr double everywhere = std::numeric_limits<double>::infinity();
+                const PairLook look(model.mesh, model.bvh, i, j, everywhere);
+                const PairLook blind(model.mesh, model.bvh, i, j, everywhere, false);
+                const double seen = look.factor(u, rays);
+                CHECK(blind.factor(u, none_traced) == seen);
                 CHECK(none_traced == 0);
             }
         }

@@ -27,7 +27,4 @@ struct Patch;
 [[nodiscard]] std::vector<Patch> whole_sides(const Mesh& mesh,
                                              std::span<const std::uint32_t> patches);
 
-/// An emitter is near to points within so many of its radii, from its centre.
-inline constexpr double near_radii = 4;
-
 } // namespace hemilux

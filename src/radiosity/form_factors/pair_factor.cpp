@@ -1,6 +1,5 @@
 #include "radiosity/form_factors/pair_factor.h"
 
-#include "geometry/polygon_sampler.h"
 #include "radiosity/form_factors/point_to_patch.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sobol.h"
@@ -28,40 +27,6 @@ constexpr double relative_variance = 0.03;
 
 /// Whatever a pair deserves.
 constexpr double most_rays = 8192;
-
-/// From farther than this many radii of the target, a point sees it as almost a point, and the
-/// factor to a random point of it is as good as the closed form and computed much sooner.
-constexpr double near_radii = 4;
-
-/// A receiver and the patch that it looks to; each look is one ray at most.
-class PairLook {
-  public:
-    PairLook(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
-             bool visibility)
-        : tracer_(tracer), from_(mesh.patches()[from]), to_(mesh.patches()[to]),
-          origins_(from_.shape), targets_(to_.shape), visibility_(visibility) {
-        for (const Vec3& corner : to_.shape.corner)
-            near_ = std::max(near_, near_radii * glm::distance(corner, to_.centre));
-    }
-
-    /// The factor from a random point, or 0 if something stands between. Adds to `rays` if a ray
-    /// had to be traced.
-    [[nodiscard]] double factor(const std::array<double, 4>& u, std::uint64_t& rays) const {
-        Ray ray{};
-        const double f = look_at(from_, origins_, to_, targets_, u, near_, ray);
-        if (!(f > 0) || !visibility_)
-            return f;
-        ++rays;
-        return tracer_.occluded(ray, to_.facet) ? 0 : f;
-    }
-
-  private:
-    const Tracer& tracer_;
-    const Patch &from_, &to_;
-    PolygonSampler origins_, targets_;
-    double near_ = 0;
-    bool visibility_;
-};
 
 /// Points of each set, a power of two, for which they are best distributed.
 std::uint32_t points_per_set(double rays, std::uint32_t sets) {
@@ -110,7 +75,8 @@ PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t fro
     const std::uint32_t sets = adaptive ? adaptive_sets : 2;
     const std::uint32_t most =
         points_per_set(adaptive ? most_share * importance : importance, sets);
-    const PairLook look(mesh, tracer, from, to, visibility);
+    const PairLook look(mesh, tracer, from, to, near_radii * radius_of(mesh.patches()[to]),
+                        visibility);
     PairFactor result;
     std::array<double, adaptive_sets> sum{};
     std::uint32_t first_set = 0;

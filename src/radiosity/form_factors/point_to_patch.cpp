@@ -1,11 +1,9 @@
 #include "radiosity/form_factors/point_to_patch.h"
 
-#include "geometry/polygon_sampler.h"
 #include "geometry/projected_polygon.h"
 #include "radiosity/scene/mesh.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace hemilux {
@@ -49,17 +47,18 @@ double look_at(const Patch& source, const PolygonSampler& origins, const Patch& 
                      {u[2], u[3]}, near, ray);
 }
 
-double point_to_patch(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
-                      const std::array<double, 4>& u, std::uint64_t& rays, bool visibility) {
-    const Patch &source = mesh.patches()[from], &target = mesh.patches()[to];
-    constexpr double everywhere = std::numeric_limits<double>::infinity();
+PairLook::PairLook(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
+                   double near, bool visibility)
+    : tracer_(tracer), from_(mesh.patches()[from]), to_(mesh.patches()[to]), origins_(from_.shape),
+      targets_(to_.shape), near_(near), visibility_(visibility) {}
+
+double PairLook::factor(const std::array<double, 4>& u, std::uint64_t& rays) const {
     Ray ray{};
-    const double factor = look_at(source, PolygonSampler(source.shape), target,
-                                  PolygonSampler(target.shape), u, everywhere, ray);
-    if (!(factor > 0) || !visibility)
-        return factor;
+    const double f = look_at(from_, origins_, to_, targets_, u, near_, ray);
+    if (!(f > 0) || !visibility_)
+        return f;
     ++rays;
-    return tracer.occluded(ray, target.facet) ? 0 : factor;
+    return tracer_.occluded(ray, to_.facet) ? 0 : f;
 }
 
 } // namespace hemilux

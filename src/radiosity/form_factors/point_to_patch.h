@@ -4,6 +4,7 @@
 // point and polygon in place of their disc.
 
 #include "bvh/tracer.h"
+#include "geometry/polygon_sampler.h"
 
 #include <array>
 #include <cstdint>
@@ -11,7 +12,6 @@
 namespace hemilux {
 
 class Mesh;
-class PolygonSampler;
 struct Patch;
 
 /// Returns the factor [-] of a ray. The mean over u in [0,1)^4, of the rays that nothing blocks, is
@@ -30,10 +30,27 @@ struct Patch;
                                const Patch& target, const PolygonSampler& targets, Vec2 u,
                                double near, Ray& ray);
 
-/// look_at with its ray traced: the factor, or 0 if something stands between. Adds to `rays` if a
-/// ray had to be traced. `visibility`: false where nothing can stand between two patches.
-[[nodiscard]] double point_to_patch(const Mesh& mesh, const Tracer& tracer, std::uint32_t from,
-                                    std::uint32_t to, const std::array<double, 4>& u,
-                                    std::uint64_t& rays, bool visibility = true);
+/// An emitter is near to points within so many of its radii, from its centre.
+inline constexpr double near_radii = 4;
+
+/// A patch that looks to another one; each look is one ray at most.
+class PairLook {
+  public:
+    /// `near` as of look_at; `visibility`: false where nothing can stand between two patches. All
+    /// of it outlives this.
+    PairLook(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
+             double near, bool visibility = true);
+
+    /// The factor [-] from a random point, or 0 if something stands between. Adds to `rays` if a
+    /// ray had to be traced.
+    [[nodiscard]] double factor(const std::array<double, 4>& u, std::uint64_t& rays) const;
+
+  private:
+    const Tracer& tracer_;
+    const Patch &from_, &to_;
+    PolygonSampler origins_, targets_;
+    double near_;
+    bool visibility_;
+};
 
 } // namespace hemilux
