@@ -53,8 +53,7 @@ class StoredTransportSolver final : public Solver {
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
           rays_(input), system_(input.mesh, rays_.emitters(), input.needs.closed),
           aim_(input.mesh, system_, input.target),
-          plan_(first_plan(input, !rays_.emitters().empty())),
-          light_(batches, input.mesh.patches().size()) {
+          plan_(first_plan(input, !rays_.emitters().empty())), light_(input.mesh.patches().size()) {
         solution_.standard_error.assign(input.mesh.patches().size(), Vec3(0.0)); // can be saved
         plan_.aim(aim_.importance());
     }
@@ -188,7 +187,7 @@ class StoredTransportSolver final : public Solver {
         const TransportResult result{input_.mesh, system_,        light_,       all,
                                      rows,        rays_.direct(), input_.target};
         const BatchSpread spread = spread_of_batches(result, aim_, workers_);
-        const TransportErrors errors = errors_of<batches>(result, workers_);
+        const TransportErrors errors = errors_of(result, workers_);
         errors_ = StepErrors(errors, spread);
         report(errors, spread, input_.needs, solution_);
         if (aim_.has_target()) {

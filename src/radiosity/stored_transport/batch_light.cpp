@@ -9,19 +9,19 @@
 namespace hemilux {
 
 EnergyBalance BatchLight::energy() const {
-    const EnergyBalance& now = solved_[batches_].energy;
+    const EnergyBalance& now = solved_[batches].energy;
     EnergyBalance sum = now;
     if (!before_.empty()) {
-        sum.absorbed += before_[batches_].energy.absorbed;
-        sum.escaped += before_[batches_].energy.escaped;
+        sum.absorbed += before_[batches].energy.absorbed;
+        sum.escaped += before_[batches].energy.escaped;
     }
     return {now.emitted, sum.absorbed / generations(), sum.escaped / generations(), Vec3(0.0)};
 }
 
 void BatchLight::begin_generation() {
     if (before_.empty())
-        before_.resize(batches_ + 1, Light(solved_[0].incident.size()));
-    for (std::size_t s = 0; s <= batches_; ++s) {
+        before_.resize(batches + 1, Light(solved_[0].incident.size()));
+    for (std::size_t s = 0; s <= batches; ++s) {
         for (std::size_t i = 0; i < solved_[s].incident.size(); ++i)
             before_[s].incident[i] += solved_[s].incident[i];
         before_[s].energy.absorbed += solved_[s].energy.absorbed;
@@ -41,7 +41,7 @@ void BatchLight::save(StateWriter& state) const {
 
 void BatchLight::load(StateReader& state) {
     generation_ = state.whole_up_to(std::numeric_limits<std::uint32_t>::max());
-    before_.resize(generation_ > 0 ? batches_ + 1 : 0, Light(solved_[0].incident.size()));
+    before_.resize(generation_ > 0 ? batches + 1 : 0, Light(solved_[0].incident.size()));
     for (std::vector<Light>* lights : {&solved_, &before_})
         for (Light& light : *lights) {
             load_light(light.incident, generations() * largest_radiosity, state);

@@ -16,10 +16,9 @@ class StateWriter;
 
 class BatchLight {
   public:
-    BatchLight(std::size_t batches, std::size_t patches)
-        : batches_(batches), solved_(batches + 1, Light(patches)) {}
+    static constexpr unsigned batches = 4;
 
-    [[nodiscard]] std::size_t batches() const { return batches_; }
+    explicit BatchLight(std::size_t patches) : solved_(batches + 1, Light(patches)) {}
 
     /// The light that one batch has found.
     struct Light {
@@ -36,12 +35,11 @@ class BatchLight {
         return before_.empty() ? now : (before_[batch].incident[patch] + now) / generations();
     }
     /// How far each of the batches is off their mean [W/m2].
-    template <std::size_t Sets>
-    [[nodiscard]] std::array<Vec3, Sets> deviations(std::size_t patch) const {
-        std::array<Vec3, Sets> off;
+    [[nodiscard]] std::array<Vec3, batches> deviations(std::size_t patch) const {
+        std::array<Vec3, batches> off;
         Vec3 mean(0.0);
-        for (std::size_t s = 0; s < Sets; ++s)
-            mean += (off[s] = incident(s, patch)) / double(Sets);
+        for (std::size_t s = 0; s < batches; ++s)
+            mean += (off[s] = incident(s, patch)) / double(batches);
         for (Vec3& each : off)
             each -= mean;
         return off;
@@ -60,7 +58,6 @@ class BatchLight {
     void load(StateReader& state);
 
   private:
-    std::size_t batches_;
     std::vector<Light> solved_;
     std::vector<Light> before_; ///< sums over the generations that ended, if any
     std::uint64_t generation_ = 0;

@@ -16,7 +16,7 @@
 namespace hemilux {
 namespace {
 
-constexpr unsigned batches = StoredRays::batches;
+constexpr unsigned batches = BatchLight::batches;
 constexpr std::size_t patches_per_chunk = 512;
 
 /// Of some patches.
@@ -28,7 +28,7 @@ struct Sums {
 /// Adds the products of a patch's deviations from the mean of the batches.
 void add_products(const TransportResult& result, std::uint32_t i, Sums& sums) {
     const Vec3 rho = result.system.reflectance()[i];
-    const auto off = result.light.deviations<batches>(i);
+    const auto off = result.light.deviations(i);
     const double counts = result.weight.empty() ? 1 : result.weight[i];
     const Vec3 weight = counts * result.system.area()[i] * rho * rho;
     for (std::size_t s = 0; s < batches; ++s)

@@ -6,6 +6,7 @@
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/solving/solver.h"
+#include "radiosity/stored_transport/batch_light.h"
 #include "radiosity/stored_transport/ray_plan.h"
 
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace hemilux {
 
 class StoredRays {
   public:
-    static constexpr unsigned batches = 4;
+    static constexpr unsigned batches = BatchLight::batches;
 
     /// No rays yet, of generation 0. What the input refers to outlives this.
     explicit StoredRays(const SolverInput& input);

@@ -51,7 +51,7 @@ class Account {
         lit_.resize(n);
         incident_.resize(n);
         for (std::uint32_t i = 0; i < n; ++i) {
-            incident_[i] = result.light.incident(result.light.batches(), i);
+            incident_[i] = result.light.incident(BatchLight::batches, i);
             lit_[i] = any(incident_[i]) || any(result.system.emission()[i]);
             enter(i);
         }
@@ -124,7 +124,7 @@ class Account {
     /// Of the share of a patch's rays that are lost. Where few are, each is lost by chance; of many
     /// well-distributed ones only those at the edge of an opening are.
     [[nodiscard]] double variance_of_loss(std::uint32_t i) const {
-        const auto batches = static_cast<double>(result_.light.batches());
+        constexpr double batches = BatchLight::batches;
         const double share = result_.factors.lost()[i].escaped + result_.factors.lost()[i].absorbed;
         const double of_set = std::max(rays_[i] * std::min(share, 1 - share) / batches, 0.0);
         return batches * std::min(of_set, std::sqrt(of_set)) / (rays_[i] * rays_[i]);
@@ -203,11 +203,10 @@ double raised(double together) {
 }
 
 /// How far a patch and its neighbours are off the mean in each batch.
-template <std::size_t Sets>
 class Window {
   public:
-    void add(const std::array<Vec3, Sets>& off) {
-        for (std::size_t s = 0; s < Sets; ++s) {
+    void add(const std::array<Vec3, BatchLight::batches>& off) {
+        for (std::size_t s = 0; s < off.size(); ++s) {
             sum_[s] += off[s];
             squares_ += glm::dot(off[s], off[s]);
         }
@@ -224,14 +223,14 @@ class Window {
     }
 
   private:
-    std::array<Vec3, Sets> sum_{};
+    std::array<Vec3, BatchLight::batches> sum_{};
     double squares_ = 0, count_ = 0;
 };
 
 } // namespace
 
-template <std::size_t Sets>
 TransportErrors errors_of(const TransportResult& result, const Workers& workers) {
+    constexpr double batches = BatchLight::batches;
     constexpr std::size_t patches_per_chunk = 512;
     const std::size_t n = result.system.area().size();
     TransportErrors errors;
@@ -241,15 +240,14 @@ TransportErrors errors_of(const TransportResult& result, const Workers& workers)
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
             const Vec3 rho = result.system.reflectance()[i];
             Vec3 squares(0.0);
-            const auto own = result.light.deviations<Sets>(i);
-            Window<Sets> window;
+            const auto own = result.light.deviations(i);
+            Window window;
             window.add(own);
             for (const Vec3& off : own)
                 squares += off * off;
-            for_alike_neighbours(result.mesh, i, [&](std::uint32_t j) {
-                window.add(result.light.deviations<Sets>(j));
-            });
-            variance[i] = rho * rho * squares / double(Sets * (Sets - 1));
+            for_alike_neighbours(result.mesh, i,
+                                 [&](std::uint32_t j) { window.add(result.light.deviations(j)); });
+            variance[i] = rho * rho * squares / (batches * (batches - 1));
             raise[i] = raised(window.together());
         }
     });
@@ -261,7 +259,5 @@ TransportErrors errors_of(const TransportResult& result, const Workers& workers)
     Account(result).add_missed(errors);
     return errors;
 }
-
-template TransportErrors errors_of<4>(const TransportResult& result, const Workers& workers);
 
 } // namespace hemilux

@@ -50,10 +50,6 @@ struct TransportResult {
     std::span<const double> weight = {}; ///< by patch, in the sums of errors; empty: 1
 };
 
-/// `Sets`: of light.
-template <std::size_t Sets>
 [[nodiscard]] TransportErrors errors_of(const TransportResult& result, const Workers& workers);
-
-extern template TransportErrors errors_of<4>(const TransportResult& result, const Workers& workers);
 
 } // namespace hemilux
