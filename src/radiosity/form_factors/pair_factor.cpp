@@ -15,34 +15,34 @@
 namespace hemilux {
 namespace {
 
-/// A pair that deserves fewer rays gets just these, in two sets of points: too few to judge by.
+/// A pair that deserves fewer rays gets just these, in two batches of points: too few to judge by.
 constexpr double least_importance_to_adapt = 32;
 
-/// Others get from a quarter to four times what they deserve, in four sets, whose agreement is
+/// Others get from a quarter to four times what they deserve, in four batches, whose agreement is
 /// seldom chance: until the variance is that of `importance` points with this relative variance
 /// each.
 constexpr double least_share = 0.25, most_share = 4;
-constexpr std::uint32_t adaptive_sets = 4;
+constexpr std::uint32_t adaptive_batches = 4;
 constexpr double relative_variance = 0.03;
 
 /// Whatever a pair deserves.
 constexpr double most_rays = 8192;
 
-/// Points of each set, a power of two, for which they are best distributed.
-std::uint32_t points_per_set(double rays, std::uint32_t sets) {
-    const double points = std::clamp(rays, 2.0, most_rays) / sets;
+/// Points of each batch, a power of two, for which they are best distributed.
+std::uint32_t points_per_batch(double rays, std::uint32_t batches) {
+    const double points = std::clamp(rays, 2.0, most_rays) / batches;
     return std::bit_ceil(static_cast<std::uint32_t>(std::max(points, 1.0)));
 }
 
 } // namespace
 
 void PairFactor::average(std::span<const double> sums, double points_each) {
-    const auto sets = static_cast<double>(sums.size());
-    factor = std::accumulate(sums.begin(), sums.end(), 0.0) / (sets * points_each);
+    const auto batches = static_cast<double>(sums.size());
+    factor = std::accumulate(sums.begin(), sums.end(), 0.0) / (batches * points_each);
     double squares = 0;
     for (const double sum : sums)
         squares += (sum / points_each - factor) * (sum / points_each - factor);
-    variance = squares / (sets * (sets - 1));
+    variance = squares / (batches * (batches - 1));
 }
 
 bool may_see(const Patch& a, const Patch& b) {
@@ -72,33 +72,34 @@ double rough_factor(const Patch& from, const Patch& to) {
 PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t from, std::uint32_t to,
                        double importance, std::uint64_t seed, bool visibility) {
     const bool adaptive = importance >= least_importance_to_adapt;
-    const std::uint32_t sets = adaptive ? adaptive_sets : 2;
+    const std::uint32_t batches = adaptive ? adaptive_batches : 2;
     const std::uint32_t most =
-        points_per_set(adaptive ? most_share * importance : importance, sets);
+        points_per_batch(adaptive ? most_share * importance : importance, batches);
     const PairLook look(mesh, tracer, from, to, near_radii * radius_of(mesh.patches()[to]),
                         visibility);
     PairFactor result;
-    std::array<double, adaptive_sets> sum{};
-    std::uint32_t first_set = 0;
+    std::array<double, adaptive_batches> sum{};
+    std::uint32_t first_batch = 0;
     const auto look_at_points = [&](std::uint32_t begin, std::uint32_t end) {
-        for (std::uint32_t set = 0; set < sets; ++set) {
-            SobolBlocks<4> points(hash_words({seed, from, first_set + set}));
+        for (std::uint32_t batch = 0; batch < batches; ++batch) {
+            SobolBlocks<4> points(hash_words({seed, from, first_batch + batch}));
             result.points += end - begin;
             for (std::uint32_t k = begin; k < end; ++k) {
                 const double f = look.factor(points.at(k), result.rays);
-                sum[set] += f;
+                sum[batch] += f;
                 result.hits += f > 0;
             }
         }
-        result.average({sum.data(), sets}, end);
+        result.average({sum.data(), batches}, end);
     };
-    std::uint32_t begin = 0, end = adaptive ? points_per_set(least_share * importance, sets) : most;
+    std::uint32_t begin = 0,
+                  end = adaptive ? points_per_batch(least_share * importance, batches) : most;
     for (;; begin = end, end *= 2) {
         look_at_points(begin, end);
         // There may be a gap all the same. Pairs that met something go on to `most` points, of
         // which these are a share; other points, as many, stand for the rest.
         if (result.hits == 0 && end < most) {
-            first_set = sets;
+            first_batch = batches;
             look_at_points(0, end);
             const double rest = 1 - double(end) / most;
             result.factor *= rest;
@@ -107,7 +108,8 @@ PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t fro
         }
         const double allowed = relative_variance * result.factor * result.factor / importance;
         if (end >= most || result.variance <= allowed) {
-            // To stop when the sets agree is to stop when they happen to: not better than allowed.
+            // To stop when the batches agree is to stop when they happen to: not better than
+            // allowed.
             if (adaptive)
                 result.variance = std::max(result.variance, allowed);
             return result;

@@ -18,7 +18,7 @@ namespace hemilux {
 namespace {
 
 /// A row with more of them is traced in parts.
-constexpr std::uint32_t rays_in_burst = 1u << 14;
+constexpr std::uint32_t rays_in_batch = 1u << 14;
 
 /// Some of a block's rays. Of the four dimensions the first two are the best distributed.
 void draw(const PatchStart& start, const SobolBlocks<4>& points, std::size_t first,
@@ -152,7 +152,7 @@ void RayCounts::draw_row(std::uint32_t patch, std::uint32_t end, RayBatch& batch
     SobolBlocks<4> points(hash_words({seed_, patch}));
     while (rows_[patch].rays < end) {
         const std::uint32_t first = rows_[patch].rays;
-        const std::uint32_t last = first + std::min(end - first, rays_in_burst);
+        const std::uint32_t last = first + std::min(end - first, rays_in_batch);
         for (std::uint32_t k = first; k < last;) {
             const std::size_t in_block = k % samples_per_block;
             const auto count = std::min<std::size_t>(samples_per_block - in_block, last - k);

@@ -16,7 +16,7 @@ constexpr std::size_t receivers_per_chunk = 256;
 
 /// Pairs that deserve less than this many rays are looked at by chance only, and count for those
 /// that are not.
-constexpr double least_worth = .05;
+constexpr double least_importance = .05;
 
 } // namespace
 
@@ -96,7 +96,7 @@ ReceiverFactor ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot,
         glm::max(input_.mesh.material(receiver).reflectance, least_reflectance_of_receivers);
     const double rays = rays_per_light / std::sqrt(crowding_) *
                         importance(receiver, mean_of_channels(rho * glm::abs(shot)) * rough);
-    const double chance = std::min(rays / least_worth, 1.0);
+    const double chance = std::min(rays / least_importance, 1.0);
     const double at_risk = chance < 1 ? rough / crowding_ : 0;
     // Of a factor that is `rough` with a probability of 1 / crowding_, looked at with `chance`.
     const double left_to_chance = rays > 0 ? (1 - chance) / chance * rough * rough / crowding_ : 0;

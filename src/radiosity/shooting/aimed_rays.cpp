@@ -41,10 +41,10 @@ struct Found {
 };
 
 /// Rays by the cosine law, which find what light does for the target where they arrive.
-class Watching final : public Strategy {
+class ArrivalsRecorder final : public Strategy {
   public:
     /// By patch. Nothing is found without `importance`.
-    Watching(std::span<const double> importance, std::span<Found> found)
+    ArrivalsRecorder(std::span<const double> importance, std::span<Found> found)
         : importance_(importance), found_(found) {}
 
     Allocation allocate(std::uint32_t, AllocatedCells&) const override {
@@ -69,11 +69,11 @@ class Watching final : public Strategy {
 };
 
 /// All bounces of the light that `result` has as radiosity; false when interrupted.
-[[nodiscard]] bool shoot(const SolverInput& input, const StepTask& task, const Watching& watching,
-                         StepResult& result) {
+[[nodiscard]] bool shoot(const SolverInput& input, const StepTask& task,
+                         const ArrivalsRecorder& recorder, StepResult& result) {
     const ShootingTools tools{input, ShootingRules{}, Hemisphere(0),
                               CellDirections(tools.hemisphere, tools.rules.area),
-                              std::make_unique<Watching>(watching)};
+                              std::make_unique<ArrivalsRecorder>(recorder)};
     return Bounces(tools).shoot(task, result);
 }
 
@@ -130,7 +130,7 @@ std::vector<Found> shoot_importance(const SolverInput& input, std::span<const do
         result.radiosity[i] = source[i] * mesh.material(i).reflectance;
     task.stream = stream_of_importance;
     task.ray_power *= power_of(mesh, result.radiosity) / power_of_light;
-    if (!shoot(input, task, Watching({}, {}), result))
+    if (!shoot(input, task, ArrivalsRecorder({}, {}), result))
         return {};
     rays += result.rays;
     std::vector<Found> found;
@@ -212,7 +212,7 @@ Aim aim_rays(const SolverInput& input, const StepTask& task, bool balls, StepRes
     for (std::uint32_t i = 0; i < found.size(); ++i)
         importance.push_back(mean_of_channels(input.mesh.material(i).reflectance) *
                              (source[i] + around(input.mesh, found, i).mean()));
-    if (found.empty() || !shoot(input, task, Watching(importance, found), pilot))
+    if (found.empty() || !shoot(input, task, ArrivalsRecorder(importance, found), pilot))
         return {};
     Aim aim{times_of(input.mesh, found, pilot.radiosity), {}};
     if (balls)

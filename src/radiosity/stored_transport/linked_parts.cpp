@@ -77,13 +77,13 @@ LinkedParts find_linked_parts(const ExchangeMatrix& factors) {
     return parts_of_all(sets, factors.own_rows(), n);
 }
 
-LinkedParts find_linked_parts(std::span<const RayCounts> sets_of_rays) {
-    DisjointSets sets(sets_of_rays[0].patches());
-    for (const RayCounts& set : sets_of_rays)
-        for (std::uint32_t i = 0; i < set.patches(); ++i)
-            for (const RayCounts::Count& seen : set.row(i))
+LinkedParts find_linked_parts(std::span<const RayCounts> batches) {
+    DisjointSets sets(batches[0].patches());
+    for (const RayCounts& batch : batches)
+        for (std::uint32_t i = 0; i < batch.patches(); ++i)
+            for (const RayCounts::Count& seen : batch.row(i))
                 sets.join(i, seen.patch);
-    return parts_of_all(sets, sets_of_rays[0].own_rows(), sets_of_rays[0].patches());
+    return parts_of_all(sets, batches[0].own_rows(), batches[0].patches());
 }
 
 } // namespace hemilux

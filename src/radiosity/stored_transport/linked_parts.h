@@ -21,6 +21,6 @@ struct LinkedParts {
 /// third. Parts are numbered in the order of their first patches. O(entries).
 [[nodiscard]] LinkedParts find_linked_parts(const ExchangeMatrix& factors);
 /// Finds the same from several batches of rays.
-[[nodiscard]] LinkedParts find_linked_parts(std::span<const RayCounts> sets);
+[[nodiscard]] LinkedParts find_linked_parts(std::span<const RayCounts> batches);
 
 } // namespace hemilux

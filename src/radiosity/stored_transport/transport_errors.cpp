@@ -35,7 +35,7 @@ struct PartLedger {
     Vec3 leaving{0.0};       ///< power that rays at random stand for
     Vec3 one_ray{0.0};       ///< its mean per ray, weighted by itself
     Vec3 loss_variance{0.0}; ///< of the power that random rays lose
-    Vec3 appetite{0.0};      ///< area times absorptance
+    Vec3 absorbing{0.0};     ///< area times absorptance
     double area = 0;
     double rays = 0, lost = 0; ///< numbers of rays
     bool lit = false;
@@ -112,7 +112,7 @@ class Account {
         part.rays += rays_[i];
         part.lost += rays_[i] * (escaped + absorbed);
         part.lit = part.lit || lit_[i];
-        part.appetite += area_[i] * (1.0 - rho_[i]);
+        part.absorbing += area_[i] * (1.0 - rho_[i]);
         part.used += area_[i] * (1.0 - rho_[i]) * incident_[i] + (escaped + absorbed) * power;
         if (rays_[i] > 0) {
             const Vec3 kept = (1 - escaped - absorbed) * power;
@@ -126,8 +126,8 @@ class Account {
     [[nodiscard]] double variance_of_loss(std::uint32_t i) const {
         constexpr double batches = BatchLight::batches;
         const double share = result_.factors.lost()[i].escaped + result_.factors.lost()[i].absorbed;
-        const double of_set = std::max(rays_[i] * std::min(share, 1 - share) / batches, 0.0);
-        return batches * std::min(of_set, std::sqrt(of_set)) / (rays_[i] * rays_[i]);
+        const double of_batch = std::max(rays_[i] * std::min(share, 1 - share) / batches, 0.0);
+        return batches * std::min(of_batch, std::sqrt(of_batch)) / (rays_[i] * rays_[i]);
     }
     [[nodiscard]] const PartLedger& ledger(std::uint32_t i) const { return ledgers_[parts_.of[i]]; }
 
@@ -160,7 +160,7 @@ class Account {
         const Vec3 by_own = rule_of_three * bright_radiosity_ * (part.area / part.rays);
         const Vec3 by_lit = rule_of_three * lit_one_ray_;
         const Vec3 power = ratio_or_zero(by_own * by_lit, by_own + by_lit);
-        return rho_[i] * ratio_or_zero(power, part.appetite);
+        return rho_[i] * ratio_or_zero(power, part.absorbing);
     }
 
     /// What a single ray at random stands for, where light comes from: one of the patch's own rays,

@@ -12,7 +12,7 @@ namespace {
 
 /// Of the standard error, what may be left where solving ends: of the batches, which say no more
 /// than that error, and of the whole.
-constexpr double left_of_sets = .1, left_of_all = 1e-3;
+constexpr double left_of_batches = .1, left_of_all = 1e-3;
 
 /// Residuals, relative to the light: never less; and of the batches, times what a reflection takes
 /// away, never more.
@@ -65,7 +65,7 @@ ExchangeMatrix TransportSystem::solve(const Rays& rays, double error,
     const Vec3 variance = sample_variance(power);
     std::vector<BatchLight::Light> found = light;
     // What a residual makes of the light is no larger than its sum over all reflections.
-    const double known = std::fmin(left_of_sets * error, first_residual); // unknown: the latter
+    const double known = std::fmin(left_of_batches * error, first_residual); // unknown: the latter
     const double residual = std::max(known * lost_at_least_, least_residual);
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
         direct[batch].variance = variance;
