@@ -201,10 +201,9 @@ void SolveRun::take_steps() {
     Progress progress(monitor_, share_of(stop, *settings_.method),
                       settings_.verbosity != Verbosity::quiet && stderr_is_terminal());
     const Stopwatch solving;
-    const bool is_begun = divided_.begun && !resumed_;
-    solver_ = is_begun ? std::move(divided_.begun) : begin();
+    solver_ = divided_.begun ? std::move(divided_.begun) : begin();
     log_rays_of_step(settings_.verbosity, settings_.options.rays, options_.rays);
-    Before before = divided_.before;
+    Before before = divided_.before();
     before.seconds += statistics_.seconds_divide; // a time limit is of both
     if (resumed_) {
         before = resume(*resumed_, settings_, mesh(), *solver_);
@@ -213,22 +212,30 @@ void SolveRun::take_steps() {
     Checkpointer checkpointer(settings_, mesh(), *solver_);
     StepPictures step_pictures(settings_, mesh(), tracer(), monitor_.interrupted);
     notes_.emplace(stop, settings_.work().estimates_error);
-    const auto after_step = [&](const StepRecord& record, const Solution& solution) {
+    const auto add_row = [&](const StepRecord& record) {
         notes_->step_done(record);
         rows_.push_back({std::string(settings_.method->name), 0, record, std::nullopt});
+        progress.step_done(record);
+    };
+    const auto show_last_row = [&](const Solution& solution) {
         if (reference_)
             rows_.back().error = reference_->error(mesh(), solution.radiosity);
-        progress.step_done(record);
         if (settings_.every_step)
-            step_pictures.write(solution.radiosity, record.step);
+            step_pictures.write(solution.radiosity, solution.steps);
         if (settings_.verbosity == Verbosity::verbose)
             progress.log(step_text(rows_.back()));
+    };
+    const auto after_step = [&](const StepRecord& record, const Solution& solution) {
+        add_row(record);
+        show_last_row(solution);
         checkpointer.step_done(rows_, record.seconds);
     };
-    if (is_begun && before.steps > 0) {
-        divided_.last.seconds = before.seconds;
-        after_step(divided_.last, solver_->solution());
+    for (StepRecord record : divided_.steps) {
+        record.seconds += statistics_.seconds_divide;
+        add_row(record);
     }
+    if (!divided_.steps.empty())
+        show_last_row(solver_->solution());
     try {
         completed_ = run(*solver_, *input_, stop, after_step, before);
     } catch (const SolveError& error) {
@@ -236,7 +243,8 @@ void SolveRun::take_steps() {
         if (solver_->solution().steps == 0)
             throw *fault_;
     }
-    seconds_solver_ = solving.seconds() + (resumed_ ? resumed_->seconds : divided_.before.seconds);
+    seconds_solver_ =
+        solving.seconds() + (resumed_ ? resumed_->seconds : divided_.before().seconds);
     progress.close();
     checkpointer.finish(rows_, seconds_solver_);
     of_steps_ = step_pictures.report();
