@@ -77,6 +77,19 @@ TEST_CASE("The camera of a glTF file says which axis is upwards where it is leve
     CHECK_THAT(camera_chosen(blender), Contains("40,0,0,1"));
     CHECK_THAT(camera_chosen("[0,0,0,1]"), !Contains("40,0,0,1") && Contains(",40"));
     CHECK_THAT(camera_chosen("[-0.7071068,0,0,0.7071068]"), !Contains("40,0,0,1"));
+
+    // That holds for a mesh without a picture, too, and for the other pictures of the scene.
+    place.write("s.gltf", scene(blender));
+    const std::string solve = "solve s.gltf --divide none --seed 2 --size 8x6 -o a.glb ";
+    REQUIRE(place.hemilux(solve).code == 0);
+    const std::string alone = place.read("a.glb");
+    CHECK_THAT(place.hemilux(solve + "-o a.png").err, Contains("camera 'camera 0' of the scene"));
+    CHECK(alone.substr(alone.find("BIN")) ==
+          place.read("a.glb").substr(place.read("a.glb").find("BIN")));
+    for (const std::string command : {"solve s.gltf --error-map e.png", "density s.gltf -o e.png"})
+        CHECK_THAT(place.hemilux(command + " --size 200x150").err,
+                   Contains("camera 'camera 0' of the scene"));
+    CHECK_THAT(place.hemilux("density s.gltf -o e.svg").err, !Contains("camera"));
 }
 
 TEST_CASE("A sun brings its irradiance times the cosine") {

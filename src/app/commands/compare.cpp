@@ -177,7 +177,7 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
                   bytes_of_compared_pictures(settings.view.size));
     face_lines = std::move(loaded.face_lines);
     const Mesh& mesh = loaded.mesh;
-    settings.view = view_of(settings.view, loaded, settings.verbosity);
+    settings.view = view_of(settings.view, loaded.view, settings.verbosity);
     check_camera(settings.view, mesh);
     check_own_options(settings.options, methods, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);

@@ -125,9 +125,7 @@ void write_hemisphere(const Preprocessed& made, const PatchDensities& densities,
 
 void write_picture(const Preprocessed& made, const PatchDensities& densities,
                    const std::string& path) {
-    ViewSettings view = made.settings.view;
-    if (!view.up)
-        view.up = up_of(made.settings.scene.path);
+    const ViewSettings& view = made.settings.view;
     std::vector<Vec3> light; // for the choice of a camera: everything is lit
     for (const double mean : densities.mean)
         light.emplace_back(1 + mean);
@@ -180,12 +178,14 @@ void log_summary(const Preprocessed& made, const PatchDensities& densities) {
 
 } // namespace
 
-int density(const DensitySettings& settings) {
+int density(DensitySettings settings) {
     const RunFiles files = check_files(settings.outputs, settings.scene.path);
     check(settings);
     Monitor monitor;
     InterruptGuard guard;
-    const Mesh mesh = load_geometry(settings.scene, files, settings.verbosity);
+    const auto [mesh, view] = load_geometry(settings.scene, files, settings.verbosity);
+    if (!std::ranges::all_of(settings.outputs, is_svg))
+        settings.view = view_of(settings.view, view, settings.verbosity);
     check_camera(settings.view, mesh);
     check_patch(settings, mesh);
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});

@@ -19,6 +19,6 @@ struct DensitySettings {
 };
 
 /// Returns the exit code or throws UsageError, InputError or OutputError.
-int density(const DensitySettings& settings);
+int density(DensitySettings settings);
 
 } // namespace hemilux

@@ -85,6 +85,10 @@ class SolveRun {
     [[nodiscard]] InputError as_input_error(const SolveError& error) const {
         return hemilux::as_input_error(error, settings_.scene.path, loaded_->face_lines);
     }
+    [[nodiscard]] bool has_pictures() const {
+        return std::ranges::any_of(settings_.outputs, is_picture, &Output::kind) ||
+               !settings_.error_map.empty();
+    }
     [[nodiscard]] double bytes_of_outputs() const;
     [[nodiscard]] std::unique_ptr<Solver> begin();
     void mesh_changed();
@@ -129,9 +133,9 @@ void SolveRun::read_scene() {
                         bytes_of_outputs());
     settings_.divide_auto |= divides_by_default(settings_, mesh().patches().size());
     check_distances(settings_, points_, mesh());
-    if (!settings_.report.empty() ||
-        std::ranges::any_of(settings_.outputs, is_picture, &Output::kind))
-        settings_.view = view_of(settings_.view, *loaded_, settings_.verbosity);
+    settings_.view = view_of(settings_.view, loaded_->view,
+                             has_pictures() || !settings_.report.empty() ? settings_.verbosity
+                                                                         : Verbosity::quiet);
     check_camera(settings_.view, mesh());
     check_own_options(settings_.options, methods, mesh().patches().size());
     check_plain(settings_, mesh().patches().size());
@@ -139,9 +143,7 @@ void SolveRun::read_scene() {
 }
 
 double SolveRun::bytes_of_outputs() const {
-    const bool pictures = std::ranges::any_of(settings_.outputs, is_picture, &Output::kind) ||
-                          !settings_.error_map.empty();
-    return (pictures ? bytes_of_picture(settings_.view.size, settings_.gather_pictures) : 0) +
+    return (has_pictures() ? bytes_of_picture(settings_.view.size, settings_.gather_pictures) : 0) +
            bytes_of_points(points_.size(), settings_.gather) +
            bytes_of_lightmap(settings_.lightmap.value_or(0));
 }

@@ -148,8 +148,7 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
     light.display = display_of(settings.view, results.mesh, classes, light.of_class);
     if (output.kind == OutputKind::ply)
         return write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
-    const int up = up_axis(settings.view.up ? settings.view.up : up_of(settings.scene.path),
-                           results.mesh, settings.verbosity);
+    const int up = up_axis(settings.view.up, results.mesh, settings.verbosity);
     if (settings.lightmap)
         write_lightmapped(settings, output.path, results.mesh, classes, light, up);
     else
