@@ -21,6 +21,7 @@
 
 #include <atomic>
 #include <iostream>
+#include <span>
 #include <unistd.h>
 
 namespace hemilux {
@@ -162,6 +163,7 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     std::vector<const Method*> methods;
     for (const MethodVariant& variant : settings.variants)
         methods.push_back(variant.method);
+    const std::size_t variants = methods.size();
     const Method& of_reference = method_of(Role::reference);
     if (!of_reference.work_with(settings.options).estimates_error) // the reference is without it
         check_own_options(settings.options, methods);
@@ -173,8 +175,9 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     Monitor monitor;
     InterruptGuard guard;
     LoadedMesh loaded =
-        load_mesh(settings.scene, files, settings.options, methods, settings.verbosity,
-                  bytes_of_compared_pictures(settings.view.size));
+        load_mesh(settings.scene, files, settings.options, std::span(methods).first(variants),
+                  settings.verbosity, bytes_of_compared_pictures(settings.view.size),
+                  settings.reference.empty() ? &of_reference : nullptr);
     face_lines = std::move(loaded.face_lines);
     const Mesh& mesh = loaded.mesh;
     settings.view = view_of(settings.view, loaded.view, settings.verbosity);

@@ -90,7 +90,7 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
     write("reference.png", truth, display);
     std::vector<std::vector<float>> differences;
     for (const MethodRuns& result : results) {
-        const Image image = picture(result.runs.front().radiosity);
+        const Image image = picture(result.radiosity);
         write(result.variant.name + ".png", image, display);
         differences.push_back(luminance_difference(image, truth, display.exposure));
     }

@@ -179,14 +179,14 @@ std::string crowd_text(const Crowd& crowd, const Mesh& mesh) {
 
 LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                      const SolveOptions& options, std::span<const Method* const> methods,
-                     Verbosity verbosity, double bytes_of_pictures) {
+                     Verbosity verbosity, double bytes_of_pictures, const Method* before) {
     const Stopwatch reading;
     check_memory_to_read(settings.path, settings.memory);
     ReadResult read = load_scene(settings, files);
     log_warnings(verbosity, read.warnings);
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
-    MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods);
+    MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods, before);
     need.pictures = bytes_of_pictures;
     check_memory(need, settings.memory, settings.path);
     const Stopwatch dividing;

@@ -49,12 +49,12 @@ struct LoadedMesh {
     std::vector<std::string> warnings; ///< that were logged
 };
 
-/// Does all of this, with what there is to report. Throws MemoryError if the methods would need
-/// more memory than they may.
+/// Does all of this, with what there is to report. Throws MemoryError if the methods side by side,
+/// or `before` alone, would need more memory than they may.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                                    const SolveOptions& options,
                                    std::span<const Method* const> methods, Verbosity verbosity,
-                                   double bytes_of_pictures);
+                                   double bytes_of_pictures, const Method* before = nullptr);
 
 struct Prepared {
     Needs needs; ///< everything with --keep-all
