@@ -101,6 +101,7 @@ class SolveRun {
     SolveOptions options_;
     std::optional<Checkpoint> resumed_;
     std::vector<NamedPoint> points_;
+    std::vector<TargetPoints> target_points_;
     std::vector<double> target_; ///< SolverInput::target
     std::optional<LoadedMesh> loaded_;
     std::optional<Prepared> prepared_;
@@ -129,6 +130,7 @@ void SolveRun::read_scene() {
     Workers(settings_.options.threads).start();
     resumed_ = read_resumed(settings_);
     points_ = points_of(settings_);
+    target_points_ = points_of_target(settings_.target);
     loaded_ = load_mesh(settings_.scene, files, settings_.options, methods, settings_.verbosity,
                         bytes_of_outputs());
     settings_.divide_auto |= divides_by_default(settings_, mesh().patches().size());
@@ -153,7 +155,7 @@ void SolveRun::build_tree() {
     statistics_.seconds_bvh = prepared_->seconds;
     log_line(settings_.verbosity, Verbosity::verbose,
              tracer_text(prepared_->made.tree, statistics_.seconds_bvh));
-    target_ = target_weights(settings_, mesh(), tracer());
+    target_ = target_weights(settings_, target_points_, mesh(), tracer());
     input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs, target_,
                                *settings_.ranks});
     monitor_.interrupted.share(*settings_.ranks);
@@ -173,7 +175,7 @@ std::unique_ptr<Solver> SolveRun::begin() {
 void SolveRun::mesh_changed() {
     if (!settings_.options.keep_all)
         prepared_->needs = find_needs(mesh());
-    target_ = target_weights(settings_, mesh(), tracer());
+    target_ = target_weights(settings_, target_points_, mesh(), tracer());
     input_->target = target_;
 }
 
