@@ -284,11 +284,10 @@ int SolveRun::write() {
     const bool interrupted = !completed_ && !fault_;
     SolveSettings shown = settings_;
     shown.view.camera = camera_;
-    const int code = finish(shown,
-                            {mesh(), tracer(), *solution_, statistics_, rows_, points_,
-                             loaded_->warnings, monitor_.interrupted},
-                            of_steps_, reference_, *notes_, interrupted, started_,
-                            resumed_ ? resumed_->seconds : 0);
+    const int code = finish(
+        shown,
+        {mesh(), tracer(), *solution_, statistics_, rows_, points_, loaded_->warnings, monitor_},
+        of_steps_, reference_, *notes_, interrupted, started_, resumed_ ? resumed_->seconds : 0);
     if (interrupted && !settings_.ranks->are_several())
         end_at_once(code);
     if (!fault_ || code != exit_done)

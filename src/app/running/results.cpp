@@ -52,7 +52,7 @@ class Picture {
     Picture(const SolveSettings& settings, const Results& results, SharedClasses& classes)
         : settings_(settings), view_(settings.view), from_(settings.from),
           gather_(settings.gather_pictures ? settings.gather : 0), results_(results),
-          classes_(classes), time_(results.interrupted) {}
+          classes_(classes), time_(results.monitor.interrupted) {}
 
     /// Of rendering, where the light is gathered.
     [[nodiscard]] double seconds_gather() const { return seconds_gather_; }
@@ -71,7 +71,7 @@ class Picture {
 
   private:
     [[nodiscard]] Image render() {
-        const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
+        const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] =
             results_;
         camera_ = camera_of(view_, mesh, tracer, solution.radiosity);
         if (!view_.camera)
@@ -178,8 +178,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
 }
 
 void write_report(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
-        results;
+    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] = results;
     ReportContent content{mesh,
                           solution,
                           statistics,
@@ -193,12 +192,13 @@ void write_report(const SolveSettings& settings, const Results& results) {
                               guide_of(settings.options) == Guide::density && !settings.plain;
     if (!by_densities)
         return write_report_page(settings.report, content);
-    Monitor monitor; // counted anew, as the method does not keep all
+    // Counted anew, as the method does not keep all.
     const Hemisphere hemisphere(settings.options.depth);
     const double threshold = settings.options.threshold;
     const DensityMap map(mesh, tracer, hemisphere, threshold, Workers(statistics.threads), monitor);
     const ReportDensities densities{hemisphere, map, threshold};
-    content.densities = &densities;
+    if (!monitor.interrupted)
+        content.densities = &densities;
     write_report_page(settings.report, content);
 }
 
