@@ -66,7 +66,7 @@ void write_chart(const Comparison& comparison, std::span<const MethodSummary> su
 
 Camera camera_of(const Comparison& comparison) {
     return camera_of(comparison.settings.view, comparison.mesh, comparison.tracer,
-                     comparison.reference.radiosity);
+                     comparison.reference.radiosity, comparison.settings.options.threads);
 }
 
 void write_pictures(const Comparison& comparison, std::span<const MethodRuns> results,

@@ -129,7 +129,8 @@ void write_picture(const Preprocessed& made, const PatchDensities& densities,
     std::vector<Vec3> light; // for the choice of a camera: everything is lit
     for (const double mean : densities.mean)
         light.emplace_back(1 + mean);
-    const Camera camera = camera_of(view, made.mesh, made.tracer, light);
+    const Camera camera =
+        camera_of(view, made.mesh, made.tracer, light, made.settings.options.threads);
     const PictureTime time(made.monitor.interrupted);
     const RenderOptions options{.width = view.size.width,
                                 .height = view.size.height,
@@ -183,7 +184,8 @@ int density(DensitySettings settings) {
     check(settings);
     Monitor monitor;
     InterruptGuard guard;
-    const auto [mesh, view] = load_geometry(settings.scene, files, settings.verbosity);
+    const auto [mesh, view] =
+        load_geometry(settings.scene, files, settings.options, settings.verbosity);
     if (!std::ranges::all_of(settings.outputs, is_svg))
         settings.view = view_of(settings.view, view, settings.verbosity);
     check_camera(settings.view, mesh);

@@ -100,7 +100,8 @@ int formfactors(const FormFactorSettings& settings) {
     const RunFiles files = check_files(settings.outputs, settings.scene.path);
     Monitor monitor;
     InterruptGuard guard;
-    const Mesh mesh = load_geometry(settings.scene, files, settings.verbosity).mesh;
+    const Mesh mesh =
+        load_geometry(settings.scene, files, settings.options, settings.verbosity).mesh;
     check_size(settings, mesh.patches().size());
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted);

@@ -100,9 +100,11 @@ InputError as_input_error(const SolveError& error, const std::string& path,
                                           : InputError(path, error.what());
 }
 
-Mesh divide_scene(Scene scene, const SceneSettings& settings) {
+Mesh divide_scene(Scene scene, const SceneSettings& settings, unsigned threads) {
+    MeshOptions options = settings.mesh;
+    options.threads = threads;
     try {
-        return Mesh(std::move(scene), settings.mesh);
+        return Mesh(std::move(scene), options);
     } catch (const std::invalid_argument& error) {
         if (settings.mesh.max_edge > 0)
             throw UsageError(std::string("--max-edge: ") + error.what());

@@ -69,6 +69,6 @@ struct Prepared {
 [[nodiscard]] std::string crowd_text(const Crowd& crowd, const Mesh& mesh);
 
 /// Divides the faces; throws UsageError where --max-edge would give too many patches.
-[[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings);
+[[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings, unsigned threads = 0);
 
 } // namespace hemilux

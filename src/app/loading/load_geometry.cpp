@@ -8,13 +8,13 @@
 namespace hemilux {
 
 LoadedGeometry load_geometry(const SceneSettings& settings, const RunFiles& files,
-                             Verbosity verbosity) {
+                             const SolveOptions& options, Verbosity verbosity) {
     ReadResult read = load_scene(settings, files);
     log_warnings(verbosity, read.warnings);
     if (read.scene.facets.empty())
         throw InputError(settings.path, "there is no face with an area");
     FileView view = view_of_file(settings.path, read);
-    Mesh mesh = divide_with_sides(std::move(read.scene), settings, {}, verbosity).mesh;
+    Mesh mesh = divide_with_sides(std::move(read.scene), settings, options, verbosity).mesh;
     log_line(verbosity, Verbosity::verbose, mesh_text(mesh));
     return {std::move(mesh), std::move(view)};
 }

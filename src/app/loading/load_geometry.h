@@ -12,6 +12,6 @@ struct LoadedGeometry {
 /// Reads and divides a scene, with warnings and figures as the user wants them. Throws InputError
 /// and UsageError.
 [[nodiscard]] LoadedGeometry load_geometry(const SceneSettings& settings, const RunFiles& files,
-                                           Verbosity verbosity);
+                                           const SolveOptions& options, Verbosity verbosity);
 
 } // namespace hemilux

@@ -73,7 +73,7 @@ class Picture {
     [[nodiscard]] Image render() {
         const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] =
             results_;
-        camera_ = camera_of(view_, mesh, tracer, solution.radiosity);
+        camera_ = camera_of(view_, mesh, tracer, solution.radiosity, statistics.threads);
         if (!view_.camera)
             log_line(settings_.verbosity, Verbosity::normal,
                      "pictures are seen by " + camera_text(camera_) +
@@ -179,15 +179,16 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
 
 void write_report(const SolveSettings& settings, const Results& results) {
     const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] = results;
-    ReportContent content{mesh,
-                          solution,
-                          statistics,
-                          steps,
-                          warnings,
-                          settings.scene.path,
-                          settings.from.command,
-                          camera_of(settings.view, mesh, tracer, solution.radiosity),
-                          settings.view.exposure};
+    ReportContent content{
+        mesh,
+        solution,
+        statistics,
+        steps,
+        warnings,
+        settings.scene.path,
+        settings.from.command,
+        camera_of(settings.view, mesh, tracer, solution.radiosity, statistics.threads),
+        settings.view.exposure};
     const bool by_densities = settings.method == &method_of(Role::paper) &&
                               guide_of(settings.options) == Guide::density && !settings.plain;
     if (!by_densities)
