@@ -15,6 +15,7 @@
 #include "app/terminal/log.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/summary.h"
+#include "app/terminal/unused_options.h"
 #include "app/terminal/wrap.h"
 #include "io/files/error.h"
 #include "radiosity/sampling/rng.h"
@@ -170,6 +171,7 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     if (settings.reference.empty())
         methods.push_back(&of_reference);
     check_own_options(settings.options, methods);
+    warn_of_unused(settings);
     make_folder(settings.folder);
     const RunFiles files = check_files(settings);
     Monitor monitor;

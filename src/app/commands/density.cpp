@@ -11,6 +11,7 @@
 #include "app/settings/text.h"
 #include "app/settings/view.h"
 #include "app/terminal/log.h"
+#include "app/terminal/unused_options.h"
 #include "bvh/wide/wide_bvh.h"
 #include "io/drawings/density_picture.h"
 #include "io/drawings/plane_svg.h"
@@ -19,6 +20,7 @@
 #include "radiosity/hemisphere/subdivision_1997.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -182,11 +184,15 @@ void log_summary(const Preprocessed& made, const PatchDensities& densities) {
 int density(DensitySettings settings) {
     const RunFiles files = check_files(settings.outputs, settings.scene.path);
     check(settings);
+    const bool draws_pictures = !std::ranges::all_of(settings.outputs, is_svg);
+    const std::array<OptionUse, 2> uses{
+        {{"--camera", draws_pictures, ".png outputs"}, {"--size", draws_pictures, ".png outputs"}}};
+    warn_of_unused(settings.given, uses, settings.verbosity);
     Monitor monitor;
     InterruptGuard guard;
     const auto [mesh, view] =
         load_geometry(settings.scene, files, settings.options, settings.verbosity);
-    if (!std::ranges::all_of(settings.outputs, is_svg))
+    if (draws_pictures)
         settings.view = view_of(settings.view, view, settings.verbosity);
     check_camera(settings.view, mesh);
     check_patch(settings, mesh);

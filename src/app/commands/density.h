@@ -15,6 +15,7 @@ struct DensitySettings {
     bool plane = false;                             ///< a cross-section instead (figure 1)
     ViewSettings view;
     std::vector<std::string> outputs; ///< .svg: a hemisphere; .png: mean densities
+    std::vector<GivenOption> given;   ///< options and their values
     Verbosity verbosity = Verbosity::normal;
 };
 

@@ -25,6 +25,7 @@
 #include "app/terminal/progress.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
+#include "app/terminal/unused_options.h"
 #include "parallel/workers.h"
 #include "radiosity/scene/needs.h"
 #include "radiosity/solving/left_out.h"
@@ -127,6 +128,7 @@ void SolveRun::read_scene() {
     check_plain(settings_);
     check_target(settings_);
     check_checkpoint_options(settings_);
+    warn_of_unused(settings_);
     Workers(settings_.options.threads).start();
     resumed_ = read_resumed(settings_);
     points_ = points_of(settings_);
