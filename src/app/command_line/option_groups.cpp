@@ -239,15 +239,13 @@ void add_report_option(Command command, std::string& report, const char* content
 
 void add_verbosity_options(Command command, Verbosity& verbosity) {
     command = command.under("Verbosity");
-    const auto set = [&verbosity](Verbosity value) {
-        return [&verbosity, value] {
-            if (verbosity != Verbosity::normal)
-                throw UsageError("-q and -v contradict each other");
-            verbosity = value;
-        };
-    };
-    command.add_action("-q,--quiet", set(Verbosity::quiet), "say nothing but errors");
-    command.add_action("-v,--verbose", set(Verbosity::verbose), "a line per step, and details");
+    const Option quiet = command.add_action(
+        "-q,--quiet", [&verbosity] { verbosity = Verbosity::quiet; }, "say nothing but errors");
+    command
+        .add_action(
+            "-v,--verbose", [&verbosity] { verbosity = Verbosity::verbose; },
+            "a line per step, and details")
+        .excludes(quiet);
     command.add_version("--version", "hemilux " HEMILUX_VERSION, "print the version");
     command.add_help("-h,--help", "print this");
 }
