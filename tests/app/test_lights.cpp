@@ -97,6 +97,10 @@ TEST_CASE("A sun brings its irradiance times the cosine") {
     write_ground(place);
     CHECK(ground_light(place, "--sun 0,-1,0,800") == Approx(400).epsilon(.01));
     CHECK(ground_light(place, "--sun 3,-4,0,800") == Approx(320).epsilon(.01));
+    for (const std::string length : {"1e-320", "1e-170", "1e200", "1e308"})
+        CHECK(ground_light(place, "--sun 0,-" + length + ",0,800") == Approx(400).epsilon(.01));
+    CHECK(ground_light(place, "--light 'disc at 0,2,0 towards 0,-1e-170,0 radius .2 watts 6'") ==
+          Approx(ground_light(place, "--light 'disc at 0,2,0 towards 0,-1,0 radius .2 watts 6'")));
     CHECK(ground_light(place, "--sun 3,-4,0,800 --sky 100") == Approx(370).epsilon(.01));
     CHECK(ground_light(place, "--sun 0,-2,0,800,1,2 --sun 1,-1,0,100") ==
           Approx(400 + 50 / std::sqrt(2)).epsilon(.01));
