@@ -115,9 +115,10 @@ int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
     return up;
 }
 
-/// A .glb file and its lightmap.
+/// A .glb file, and its lightmap as an attempt of its own.
 void write_lightmapped(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
-                       const CornerClasses& classes, VertexLight light, int up) {
+                       const CornerClasses& classes, VertexLight light, int up,
+                       WriteReport& report) {
     const int size = *settings.lightmap;
     try {
         const std::vector<Chart> charts = find_charts(mesh, size);
@@ -132,7 +133,9 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
         write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
         std::vector<ExrChannel> channels;
         add_exr_channels(channels, "", lightmap(charts, corners, light.of_class, size));
-        write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
+        report.attempt(lightmap_path(path), [&] {
+            write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
+        });
     } catch (const LightmapTooSmall& error) {
         throw OutputError(lightmap_path(path),
                           std::string(error.what()) + "; --lightmap asks for more");
@@ -140,7 +143,7 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
 }
 
 void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,
-                const CornerClasses& classes) {
+                const CornerClasses& classes, WriteReport& report) {
     VertexLight light{settings.bake == Bake::indirect
                           ? smooth(results.mesh, classes, indirect_light(settings, results))
                           : baked_light(results.mesh, classes, results.solution, settings.bake),
@@ -150,13 +153,13 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
         return write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
     const int up = up_axis(settings.view.up, results.mesh, settings.verbosity);
     if (settings.lightmap)
-        write_lightmapped(settings, output.path, results.mesh, classes, light, up);
+        write_lightmapped(settings, output.path, results.mesh, classes, light, up, report);
     else
         write_glb(output.path, results.mesh, classes, light, settings.from, up);
 }
 
 void write_output(const SolveSettings& settings, const Output& output, const Results& results,
-                  SharedClasses& classes, Picture& picture) {
+                  SharedClasses& classes, Picture& picture, WriteReport& report) {
     const Solution& solution = results.solution;
     switch (output.kind) {
     case OutputKind::png:
@@ -165,7 +168,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
         return picture.write(output);
     case OutputKind::ply:
     case OutputKind::glb:
-        return write_mesh(settings, output, results, classes.get());
+        return write_mesh(settings, output, results, classes.get(), report);
     case OutputKind::vtu:
         return write_vtu(output.path, results.mesh, classes.get(), solution, settings.from);
     case OutputKind::csv:
@@ -227,10 +230,9 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     std::vector<WriteReport> reports(settings.outputs.size());
     const auto write = [&](std::size_t k) {
         const Output& output = settings.outputs[k];
-        reports[k].attempt(output.path,
-                           [&] { write_output(settings, output, results, classes, picture); });
-        if (settings.lightmap && output.kind == OutputKind::glb && !reports[k].written.empty())
-            reports[k].written.push_back(lightmap_path(output.path));
+        reports[k].attempt(output.path, [&] {
+            write_output(settings, output, results, classes, picture, reports[k]);
+        });
     };
     // All pictures are one, made by all threads; meanwhile each of the tables has one. A single
     // thread writes the tables first, as a signal may end the pictures.
