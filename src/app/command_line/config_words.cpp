@@ -28,13 +28,6 @@ bool is_option(const std::string& word, const std::vector<std::string>& names) {
     });
 }
 
-std::string with_commas(const std::vector<std::string>& values) {
-    std::string text;
-    for (const std::string& value : values)
-        text += (text.empty() ? "" : ",") + value;
-    return text;
-}
-
 /// The words that an entry stands for.
 std::vector<std::string> words_of(const std::string& path, const ConfigEntry& entry,
                                   const OptionText& option) {
@@ -46,7 +39,7 @@ std::vector<std::string> words_of(const std::string& path, const ConfigEntry& en
     if (entry.truth)
         return entry.values.front() == "true" ? std::vector{name} : std::vector<std::string>();
     if (!option.repeatable || !entry.list)
-        return {name + "=" + with_commas(entry.values)};
+        return {name + "=" + joined(entry.values, ",")};
     std::vector<std::string> words;
     for (const std::string& value : entry.values)
         words.push_back(name + "=" + value);

@@ -10,6 +10,7 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/memory.h"
 #include "app/settings/method_options.h"
+#include "app/settings/names.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
 #include "app/terminal/log.h"
@@ -105,15 +106,14 @@ void drop_empty(std::vector<MethodRuns>& results) {
 
 /// Where the reference is not much better than what is compared with it; else empty.
 std::string reference_warning(double own, std::span<const MethodSummary> summaries) {
-    std::string methods;
+    std::vector<std::string> methods;
     for (const MethodSummary& summary : summaries)
         if (own > reference_share * summary.error.all)
-            methods += (methods.empty() ? "" : ", ") + summary.label + " (" +
-                       percent(summary.error.all) + ")";
+            methods.push_back(summary.label + " (" + percent(summary.error.all) + ")");
     return methods.empty()
                ? ""
                : "the reference's own error, " + percent(own) + ", is much of the error of " +
-                     methods + "; --reference-error asks for a better one";
+                     joined(methods, ", ") + "; --reference-error asks for a better one";
 }
 
 /// With those of reading, which were logged before.

@@ -1,6 +1,7 @@
 #include "app/commands/compare_outputs.h"
 
 #include "app/report/comparison_page.h"
+#include "app/settings/names.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
 #include "io/drawings/false_colour.h"
@@ -100,13 +101,6 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
               false_colour(differences[i], truth.width, truth.height, scale), 1);
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words)
-        text += (text.empty() ? "" : "  ") + word;
-    return text;
-}
-
 /// What the numbers of a comparison rest on.
 std::vector<std::pair<std::string, std::string>> facts_of(const Comparison& comparison) {
     const CompareSettings& settings = comparison.settings;
@@ -117,7 +111,8 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Comparison& comp
         {"patches", std::to_string(comparison.mesh.patches().size())},
         {"the reference's own error", percent(own_error(comparison.mesh, comparison.reference))}};
     for (const GivenOption& option : settings.given)
-        facts.emplace_back(option.name, option.values.empty() ? "yes" : joined(option.values));
+        facts.emplace_back(option.name,
+                           option.values.empty() ? "yes" : joined(option.values, "  "));
     return facts;
 }
 
