@@ -127,10 +127,14 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
         begin_spilling(compare_settings.scene);
         return compare(compare_settings);
     }
-    if (density_command.parsed())
+    if (density_command.parsed()) {
+        density_settings.given = density_command.options_given();
         return density(density_settings);
-    if (formfactors_command.parsed())
+    }
+    if (formfactors_command.parsed()) {
+        formfactor_settings.given = formfactors_command.options_given();
         return formfactors(formfactor_settings);
+    }
     return info(info_settings);
 }
 

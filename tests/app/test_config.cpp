@@ -46,6 +46,18 @@ TEST_CASE("a run by a file of options is that by the command line") {
     CHECK(settings["SCENE"] == "room.obj");
 }
 
+TEST_CASE("options of a file that contradict the command line are left out") {
+    const Workplace place;
+    place.write_room();
+    place.write("run.toml", "max-edge = 0.25\ntwo-sided = true\nquiet = true\nsteps = 1\n");
+    const auto outcome = place.hemilux("solve room.obj --config run.toml --divide=none "
+                                       "--sides front -v -o a.csv --stats a.json");
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("step 1:"));
+    CHECK(test::statistic(place.read("a.json"), "patches") == 24);
+    test::check_fails(place, 1, "solve room.obj -q -v -o a.csv", "contradict each other");
+}
+
 TEST_CASE("a bad file of options ends with its line") {
     const Workplace place;
     place.write_room();

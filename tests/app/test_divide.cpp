@@ -6,6 +6,8 @@
 
 #include "support/catch.h"
 
+#include <cstdio>
+#include <sstream>
 #include <string>
 
 using Catch::Contains;
@@ -277,6 +279,33 @@ TEST_CASE("Ctrl-C while patches are divided leaves the light by which they were 
     CHECK_THAT(place.read("log.txt"), Contains("interrupted; the outputs hold"));
     CHECK_THAT(place.read("log.txt"), Contains("estimated error unknown"));
     CHECK(place.has("a.csv"));
+}
+
+TEST_CASE("the steps log of a divided run has a row for each step on its last patches") {
+    const Workplace place;
+    place.write_room();
+    for (const std::string error : {".1", ".3"}) { // some patches are divided, none
+        REQUIRE(place
+                    .hemilux("solve room.obj -q --rays 20 --divide auto --error " + error +
+                             " --steps-log steps.csv --stats s.json")
+                    .code == 0);
+        std::istringstream lines(place.read("steps.csv"));
+        std::string line;
+        std::getline(lines, line);
+        unsigned rows = 0;
+        double last = 0;
+        while (std::getline(lines, line)) {
+            unsigned step = 0;
+            double seconds = 0;
+            REQUIRE(std::sscanf(line.c_str(), "stored-transport,0,%u,%*u,%lf", &step, &seconds) ==
+                    2);
+            CHECK(step == ++rows);
+            CHECK(seconds >= last);
+            last = seconds;
+        }
+        CHECK(rows > 1);
+        CHECK(rows == statistic(place.read("s.json"), "steps"));
+    }
 }
 
 TEST_CASE("--divide takes a length as --max-edge does, and not both") {

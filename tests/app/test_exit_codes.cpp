@@ -40,7 +40,7 @@ TEST_CASE("wrong usage ends with 1 and says what was expected") {
     check_fails(place, 1, "solve room.obj -o a", "not 'a'");
     check_fails(place, 1, "solve room.obj -o a.png -o ./a.png", "named twice");
     check_fails(place, 1, "solve room.obj -o a.csv --reference a.csv", "named twice");
-    check_fails(place, 1, "solve room.obj -q -v -o a.png", "-q and -v");
+    check_fails(place, 1, "solve room.obj -q -v -o a.png", "--quiet and --verbose");
     check_fails(place, 1, "solve room.obj -o a.png --method hemisfere",
                 "did you mean 'hemisphere'?");
     check_fails(place, 1, "solve room.obj -o a.png --method zzz", "matrix");

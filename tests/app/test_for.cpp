@@ -1,8 +1,13 @@
 // `hemilux solve --for`: a part of the scene is right, and all outputs say so.
 #include "app/check_fails.h"
+#include "app/running/target_weights.h"
 #include "app/statistics_file.h"
+#include "io/scene_files/obj.h"
+#include "radiosity/rays/make_tracer.h"
 #include "support/catch.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -83,6 +88,20 @@ TEST_CASE("Groups, points and a camera are one target together") {
                                               "\"group:detail_floor\",\n    \"points:p.txt\""));
 }
 
+TEST_CASE("Points of --for are read once, however often patches are divided") {
+    const Workplace place;
+    place.write_room();
+    place.write("p.txt", ".6 .6 0 0 0 1\n");
+    hemilux::SolveSettings settings;
+    settings.target.points = {place.path("p.txt")};
+    const auto points = hemilux::points_of_target(settings.target);
+    std::filesystem::remove(place.path("p.txt"));
+    const hemilux::Mesh mesh(hemilux::read_obj(place.path("room.obj")).scene);
+    const hemilux::MadeTracer made = hemilux::make_tracer(mesh, false, 1);
+    const auto weights = hemilux::target_weights(settings, points, mesh, *made.tracer);
+    CHECK(std::ranges::count(weights, 1) == 1);
+}
+
 TEST_CASE("A run with --for goes on from its checkpoint, and from no other") {
     const Workplace place;
     place.write_room();
@@ -145,14 +164,14 @@ TEST_CASE("A target that cannot be is refused") {
     refused(1, camera + "--for camera --for camera", "'camera' is named twice");
     refused(1, "--for group:lamp --for group:lamp", "'group:lamp' is named twice");
     refused(1, "--for camera", "--for camera needs the view of --camera");
-    refused(2, "--for group:wall", "unknown group 'wall'; did you mean 'walls'?");
+    refused(1, "--for group:wall", "unknown group 'wall'; did you mean 'walls'?");
     refused(2, "--for points:none.txt", "none.txt");
     refused(2, "--for points:air.txt", "air.txt:2: --for: expected a point on a face");
     refused(2, "--for points:words.txt", "words.txt:2: expected six numbers");
     refused(2, "--for group:lamp", "nothing that --for names reflects light");
-    refused(2, "--for group:walls --method matrix", "these take a target: hemisphere, ");
-    refused(2, "--for group:walls --method hemisphere --literal", "with --literal each patch");
-    refused(2, "--for group:walls --plain", "--plain solves for all patches alike");
+    refused(1, "--for group:walls --method matrix", "these take a target: hemisphere, ");
+    refused(1, "--for group:walls --method hemisphere --literal", "with --literal each patch");
+    refused(1, "--for group:walls --plain", "--plain solves for all patches alike");
     place.write("p.txt", ".6 .6 0 0 0 1\n");
     test::check_fails(place, 1, "solve room.obj -o x.csv --stats p.txt --for points:p.txt",
                       "file of --for");

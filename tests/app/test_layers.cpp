@@ -7,6 +7,26 @@
 using Catch::Contains;
 using test::Workplace;
 
+TEST_CASE("Ctrl-C ends the count of densities for pictures and pages") {
+    const Workplace place;
+    place.write_room();
+    test::Running run(place,
+                      "solve room.obj --method hemisphere --steps 4000000000 -v -o a.exr --report "
+                      "a.html --size 16x12 " +
+                          test::camera_in_room,
+                      place.path("stderr.txt").c_str());
+    REQUIRE(test::wait_for(place, "stderr.txt", "step 2:"));
+    run.interrupt();
+    CHECK(run.wait() == 130);
+    CHECK_THAT(place.read("a.html"), !Contains("\"threshold\""));
+    // A slow machine may take longer for the picture than it is given.
+    CHECK(place.has("a.exr") !=
+          Contains("interrupted; left out a.exr").match(place.read("stderr.txt")));
+    if (place.has("a.exr"))
+        CHECK_THAT(place.read("a.exr").substr(0, 600),
+                   Contains("patch") && !Contains(std::string("\0density", 8)));
+}
+
 TEST_CASE("a picture with layers has the light of the .hdr picture and its provenance") {
     const Workplace place;
     place.write_room();

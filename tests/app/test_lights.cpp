@@ -77,6 +77,19 @@ TEST_CASE("The camera of a glTF file says which axis is upwards where it is leve
     CHECK_THAT(camera_chosen(blender), Contains("40,0,0,1"));
     CHECK_THAT(camera_chosen("[0,0,0,1]"), !Contains("40,0,0,1") && Contains(",40"));
     CHECK_THAT(camera_chosen("[-0.7071068,0,0,0.7071068]"), !Contains("40,0,0,1"));
+
+    // That holds for a mesh without a picture, too, and for the other pictures of the scene.
+    place.write("s.gltf", scene(blender));
+    const std::string solve = "solve s.gltf --divide none --seed 2 --size 8x6 -o a.glb ";
+    REQUIRE(place.hemilux(solve).code == 0);
+    const std::string alone = place.read("a.glb");
+    CHECK_THAT(place.hemilux(solve + "-o a.png").err, Contains("camera 'camera 0' of the scene"));
+    CHECK(alone.substr(alone.find("BIN")) ==
+          place.read("a.glb").substr(place.read("a.glb").find("BIN")));
+    for (const std::string command : {"solve s.gltf --error-map e.png", "density s.gltf -o e.png"})
+        CHECK_THAT(place.hemilux(command + " --size 200x150").err,
+                   Contains("camera 'camera 0' of the scene"));
+    CHECK_THAT(place.hemilux("density s.gltf -o e.svg").err, !Contains("camera"));
 }
 
 TEST_CASE("A sun brings its irradiance times the cosine") {
@@ -84,6 +97,10 @@ TEST_CASE("A sun brings its irradiance times the cosine") {
     write_ground(place);
     CHECK(ground_light(place, "--sun 0,-1,0,800") == Approx(400).epsilon(.01));
     CHECK(ground_light(place, "--sun 3,-4,0,800") == Approx(320).epsilon(.01));
+    for (const std::string length : {"1e-320", "1e-170", "1e200", "1e308"})
+        CHECK(ground_light(place, "--sun 0,-" + length + ",0,800") == Approx(400).epsilon(.01));
+    CHECK(ground_light(place, "--light 'disc at 0,2,0 towards 0,-1e-170,0 radius .2 watts 6'") ==
+          Approx(ground_light(place, "--light 'disc at 0,2,0 towards 0,-1,0 radius .2 watts 6'")));
     CHECK(ground_light(place, "--sun 3,-4,0,800 --sky 100") == Approx(370).epsilon(.01));
     CHECK(ground_light(place, "--sun 0,-2,0,800,1,2 --sun 1,-1,0,100") ==
           Approx(400 + 50 / std::sqrt(2)).epsilon(.01));

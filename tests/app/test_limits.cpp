@@ -101,6 +101,19 @@ TEST_CASE("--memory counts pictures") {
     CHECK(place.hemilux("compare room.obj --memory 100M --size 4096x4096 -o b").code == 3);
 }
 
+TEST_CASE("--memory counts all methods of a comparison, which are kept at once") {
+    const Workplace place;
+    place.write_room();
+    const std::string run = "compare room.obj --max-edge .005 --memory 60M --reference room.mtl "
+                            "-o c --methods stratified";
+    for (const auto& [others, need] :
+         {std::pair("", "method 86.0 MB"), {",monte-carlo", "method 140 MB"}}) {
+        const auto outcome = place.hemilux(run + others);
+        CHECK(outcome.code == 3);
+        CHECK_THAT(outcome.err, Contains(need));
+    }
+}
+
 TEST_CASE("--memory counts what reading takes, libraries included") {
     const Workplace place;
     place.write_room();

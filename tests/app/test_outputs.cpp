@@ -126,6 +126,8 @@ TEST_CASE("--lightmap writes a picture beside the .glb file, the same for any nu
     check_fails(place, 1, run + "--lightmap 64 -o -.glb", "has none");
     check_fails(place, 1, run + "--lightmap 64 -o a.glb -o a.lightmap.exr", "are one file");
     check_fails(place, 1, run + "--lightmap 15 -o a.glb", "--lightmap: expected");
+    std::filesystem::create_symlink("/dev/full", place.path("full.lightmap.exr"));
+    check_fails(place, 3, run + "--lightmap 64 -o full.glb", "wrote full.glb");
     check_fails(place, 3, run + "--lightmap 16 -q -o d.glb",
                 "do not fit into a lightmap of 16 x 16");
     CHECK_FALSE(place.has("d.glb"));

@@ -82,6 +82,8 @@ TEST_CASE("what --points cannot be is said at once") {
     const auto bad = place.hemilux(solve);
     CHECK(bad.code == 2);
     CHECK_THAT(bad.err, Contains("p.txt:2: expected a normal"));
+    place.write("p.txt", "\x1f\x8b\x08");
+    CHECK_THAT(place.hemilux(solve).err, Contains("p.txt: expected text, the file is compressed"));
     place.write("p.txt", "1e9 0 0 0 1 0\n");
     CHECK_THAT(place.hemilux(solve).err, Contains("p.txt:1: expected a point near the scene"));
     CHECK_FALSE(place.has("light.csv"));

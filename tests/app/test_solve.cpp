@@ -253,13 +253,52 @@ TEST_CASE("with hemicubes the summary says that their error is not estimated") {
     CHECK_FALSE(place.has("b.json"));
 }
 
+TEST_CASE("an option that changes nothing in a run gets a warning") {
+    const Workplace place;
+    place.write_room();
+    const auto warned = [&](const std::string& command, const std::string& option) {
+        const auto outcome = place.hemilux(command + " " + option);
+        CAPTURE(command, option);
+        CHECK(outcome.code == 0);
+        return outcome.err.find("warning: " + option.substr(0, option.find(' ')) +
+                                " changes nothing in this run; it is for ") != std::string::npos;
+    };
+    const std::string solve = "solve room.obj --steps 1 --method monte-carlo -o a.csv";
+    for (const std::string option :
+         {"--literal", "--depth 1", "--threshold 1", "--detail walls", "--bake irradiance",
+          "--ply-colours shown", "--camera auto", "--size 8x6", "--exposure 2", "--tone srgb",
+          "--gather 4", "--no-gather"}) {
+        CHECK(warned(solve, option));
+        CHECK(place.hemilux(solve + " -q " + option).err.empty());
+    }
+    const std::string all = "solve room.obj --steps 1 --method hemisphere -o a.ply -o a.png " +
+                            test::camera_in_room + "--reference a.csv";
+    for (const std::string option : {"--literal", "--depth 1", "--threshold 1", "--detail walls",
+                                     "--bake irradiance", "--ply-colours shown", "--size 8x6",
+                                     "--exposure 2", "--tone srgb", "--gather 4", "--no-gather"})
+        CHECK_FALSE(warned(all + (option == "--size 8x6" ? "" : " --size 9x6"), option));
+    CHECK(warned(all + " --size 9x6 --no-gather", "--gather 4"));
+    CHECK_FALSE(warned("solve room.obj --steps 1 --method stratified -o a.csv", "--depth 1"));
+    CHECK(warned("compare room.obj --methods stratified --runs 1 --budget-rays 1e3 --size 8x6 "
+                 "--reference a.csv -o c",
+                 "--literal"));
+    CHECK(warned("formfactors room.obj -o a.npy --factors hemicube", "--rays 64"));
+    CHECK_FALSE(warned("formfactors room.obj -o a.npy", "--rays 64"));
+    CHECK(warned("density room.obj -o a.svg", "--size 200x150"));
+    CHECK_FALSE(warned("density room.obj -o a.png", "--size 200x150"));
+}
+
 TEST_CASE("stored transport solves, or hemisphere where one of its own options is given") {
     const Workplace place;
     place.write_room();
     const auto method_of = [&](const std::string& arguments) {
         const auto outcome = place.hemilux("solve room.obj --steps 1 -o a.csv " + arguments);
         REQUIRE(outcome.code == 0);
-        return outcome.err.substr(0, outcome.err.find(':'));
+        std::istringstream lines(outcome.err);
+        std::string line;
+        while (std::getline(lines, line) && line.starts_with("warning:")) // of unused options
+            continue;
+        return line.substr(0, line.find(':'));
     };
     CHECK(method_of("") == "stored-transport");
     CHECK(method_of("--method gathering") == "stored-transport"); // its former name

@@ -150,6 +150,22 @@ TEST_CASE("few bytes that ask for very many triangles are refused at once", "[gl
           std::string::npos);
 }
 
+TEST_CASE("few bytes that ask for very many primitives of points are refused at once", "[gltf]") {
+    const auto many = [](const std::string& item, int count) {
+        std::string items = item;
+        for (int k = 1; k < count; ++k)
+            items += "," + item;
+        return items;
+    };
+    const std::string text =
+        R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"count":3,)"
+        R"("type":"VEC3"}],"meshes":[{"primitives":[)" +
+        many(R"({"attributes":{"POSITION":0},"mode":0})", 7100) + R"(]}],"nodes":[)" +
+        many(R"({"mesh":0})", 7100) + "]}";
+    CHECK(error_of(text).find("expected a scene of at most 50000000 triangles and primitives") !=
+          std::string::npos);
+}
+
 TEST_CASE("indices and places that are wrong are refused with their element", "[gltf]") {
     std::vector<float> square{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     const auto file = [&](const std::vector<std::uint16_t>& indices) {

@@ -56,6 +56,20 @@ TEST_CASE("a text of solids is read", "[stl]") {
     CHECK(result.face_lines == std::vector<std::uint32_t>{8, 17});
 }
 
+TEST_CASE("a text may begin with a mark or empty lines, and have capitals", "[stl]") {
+    const TemporaryFolder folder;
+    std::string capitals = "SOLID\n" + facet + "ENDSOLID\n";
+    for (const char* const keyword : {"facet", "outer", "vertex", "endloop", "endfacet"})
+        for (std::size_t at = 0; (at = capitals.find(keyword, at)) != std::string::npos; ++at)
+            capitals[at] = static_cast<char>(capitals[at] - 'a' + 'A');
+    for (const std::string& content : {"\xef\xbb\xbfsolid a\n" + facet + "endsolid a\n",
+                                       "\r\n  \nsolid a\n" + facet + "endsolid a\n", capitals}) {
+        const ReadResult result = read_stl(folder.write("s.stl", content));
+        CHECK(result.scene.faces == 1);
+        CHECK(result.scene.groups.size() == 1);
+    }
+}
+
 TEST_CASE("a binary file is read, also one that begins like a text", "[stl]") {
     const TemporaryFolder folder;
     const ReadResult result = read_stl(folder.write("s.stl", binary(two, 2)));

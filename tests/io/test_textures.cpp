@@ -114,6 +114,19 @@ TEST_CASE("broken pictures are refused, other kinds are reported", "[textures]")
     CHECK(Mesh(result.scene).material(0u).reflectance == Vec3(.5));
 }
 
+TEST_CASE("a picture of very many scans is refused before they are decoded", "[textures]") {
+    const auto with_scans = [](unsigned count) {
+        const std::string scan("\xff\xda\0\x08\x01\x01\0\0\0\x10", 10); // one more bit of each mean
+        std::string bytes("\xff\xd8\xff\xc2\0\x0b\x08\0\x08\0\x08\x01\x01\x11\0", 15);
+        for (unsigned k = 0; k < count; ++k)
+            bytes += scan;
+        return bytes + "\xff\xd9";
+    };
+    CHECK(decode_texture(with_scans(100), "t.jpg").width() == 8);
+    CHECK_THROWS_WITH(decode_texture(with_scans(101), "t.jpg"),
+                      Catch::Contains("more than 100 scans"));
+}
+
 TEST_CASE("texture coordinates that are no numbers are reported", "[textures]") {
     const TemporaryFolder folder;
     (void)folder.write("m.mtl", "newmtl m\n");

@@ -105,6 +105,22 @@ TEST_CASE("filled rows show what rays see") {
             }
 }
 
+TEST_CASE("which side of a facet faces the eye does not depend on the sample") {
+    const Mesh mesh(crowd(1));
+    const CameraRays rays({.eye = {3, 2, 1}, .target = {0, 0, 0}}, mesh, double(width) / height);
+    const VisibleFacets visible(mesh, rays, {width, height, 1.0 / width, 1.0 / height}, offsets, 1);
+    VisibleFacets::Band band;
+    visible.fill(visible.bands() / 2, band);
+    unsigned count = 0;
+    for (const std::uint32_t half : band.half)
+        if (half != nothing_visible) {
+            ++count;
+            // The other direction is where rounding could take one along the facet.
+            CHECK(visible.hit_at(half, -visible.direction({width / 2, height / 2})).front);
+        }
+    CHECK(count > 0);
+}
+
 TEST_CASE("nothing shows between neighbours") {
     // Through a closed sphere one would see the black outside.
     const Mesh mesh(sphere(4, 1, .5, 1));

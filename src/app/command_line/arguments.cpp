@@ -84,19 +84,30 @@ std::string refused(const CLI::App& program, const CLI::ParseError& error) {
     return message;
 }
 
+std::vector<std::string> dashed_names_of(const CLI::Option& option) {
+    std::vector<std::string> names;
+    for (const std::string& name : option.get_snames())
+        names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames())
+        names.push_back("--" + name);
+    return names;
+}
+
 CommandText described(const CLI::App& command) {
     CommandText text{command.get_name(), command.get_description(), {}, command.get_footer()};
     for (const CLI::Option* const option : command.get_options()) {
-        OptionText of_option{
-            {}, {}, option->get_description(), option->get_group(), option->get_expected_max() > 1};
+        OptionText of_option{dashed_names_of(*option),
+                             {},
+                             option->get_description(),
+                             option->get_group(),
+                             option->get_expected_max() > 1};
         if (option->get_items_expected_max() > 0)
             of_option.type = option->get_type_name();
-        for (const std::string& name : option->get_snames())
-            of_option.names.push_back("-" + name);
-        for (const std::string& name : option->get_lnames())
-            of_option.names.push_back("--" + name);
         if (option->get_positional())
             of_option.names.push_back(option->get_name(true));
+        for (const CLI::Option* const other : option->get_excludes())
+            for (const std::string& name : dashed_names_of(*other))
+                of_option.excludes.push_back(name);
         text.options.push_back(std::move(of_option));
     }
     return text;

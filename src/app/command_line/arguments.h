@@ -40,6 +40,7 @@ struct OptionText {
     std::vector<std::string> names; ///< with their dashes; one without dashes: a positional
     std::string type, help, group;  ///< type: empty where it takes no value
     bool repeatable = false;
+    std::vector<std::string> excludes = {}; ///< names of options that it contradicts
 };
 
 /// What was declared of a subcommand, or of the program itself.

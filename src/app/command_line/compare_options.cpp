@@ -60,14 +60,14 @@ std::vector<MethodVariant> variants_from(std::string_view text) {
 }
 
 void add_methods_option(Command command, std::vector<MethodVariant>& list) {
-    std::string with_values;
+    std::vector<std::string> with_values;
     for (const MethodVariant& variant : possible_variants())
         if (!variant.value.empty())
-            with_values += (with_values.empty() ? "" : ", ") + variant.name;
+            with_values.push_back(variant.name);
         else if (variant.method->unbiased || variant.method->role == Role::standard)
             list.push_back(variant);
     command.add_value("--methods", "METHOD,METHOD,...",
-                      "what to compare, see below; also " + with_values + " [" +
+                      "what to compare, see below; also " + joined(with_values, ", ") + " [" +
                           std::string(method_of(Role::standard).name) +
                           " and all that are unbiased]",
                       [&list](const std::string& text) { list = variants_from(text); });

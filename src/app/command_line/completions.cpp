@@ -1,5 +1,7 @@
 #include "app/command_line/generated_texts.h"
 
+#include "app/settings/names.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -30,13 +32,6 @@ bool is_file(const std::string& type) {
 }
 
 bool is_positional(const OptionText& option) { return !option.names.front().starts_with("-"); }
-
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-    std::string text;
-    for (const std::string& word : words)
-        text += (text.empty() ? "" : between) + word;
-    return text;
-}
 
 /// The first thought of a help text, without what a shell would take for more than a letter.
 std::string summary(const std::string& help) {

@@ -20,19 +20,12 @@ std::string config_path(const std::vector<std::string>& words) {
     return {};
 }
 
-/// Whether the word is this option, with its value or without.
-bool names_option(const std::string& word, const OptionText& option) {
-    return std::ranges::any_of(option.names, [&word](const std::string& name) {
+/// Whether the word is an option of one of these names, with its value or without.
+bool is_option(const std::string& word, const std::vector<std::string>& names) {
+    return std::ranges::any_of(names, [&word](const std::string& name) {
         const bool is_long = name.starts_with("--");
         return word == name || word.starts_with(is_long ? name + "=" : name);
     });
-}
-
-std::string with_commas(const std::vector<std::string>& values) {
-    std::string text;
-    for (const std::string& value : values)
-        text += (text.empty() ? "" : ",") + value;
-    return text;
 }
 
 /// The words that an entry stands for.
@@ -46,7 +39,7 @@ std::vector<std::string> words_of(const std::string& path, const ConfigEntry& en
     if (entry.truth)
         return entry.values.front() == "true" ? std::vector{name} : std::vector<std::string>();
     if (!option.repeatable || !entry.list)
-        return {name + "=" + with_commas(entry.values)};
+        return {name + "=" + joined(entry.values, ",")};
     std::vector<std::string> words;
     for (const std::string& value : entry.values)
         words.push_back(name + "=" + value);
@@ -83,8 +76,9 @@ ConfigWords::ConfigWords(std::vector<std::string> words, const std::vector<Comma
         const auto option = std::ranges::find_if(command->options, [&entry](const OptionText& one) {
             return one.names.back() == "--" + entry.key;
         });
-        if (std::ranges::any_of(
-                given, [&option](const std::string& word) { return names_option(word, *option); }))
+        if (std::ranges::any_of(given, [&option](const std::string& word) {
+                return is_option(word, option->names) || is_option(word, option->excludes);
+            }))
             continue;
         const std::vector<std::string> more = words_of(path_, entry, *option);
         words_.insert(words_.end(), more.begin(), more.end());

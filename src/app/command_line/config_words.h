@@ -9,8 +9,8 @@
 
 namespace hemilux {
 
-/// The words of a command line with the options of its --config file added where they are not given
-/// by the words themselves.
+/// The words of a command line with the options of its --config file added, but for those that the
+/// words give or contradict.
 class ConfigWords {
   public:
     /// `program` is Arguments::described(). Throws InputError for a file that cannot be read, with

@@ -123,34 +123,19 @@ void add_division_options(Command command, SolveOptions& options) {
 
 namespace {
 
-/// "a, b or c".
-std::string either(std::span<const std::string> values) {
-    std::string text;
-    for (std::size_t k = 0; k < values.size(); ++k)
-        text += (k == 0 ? "" : k + 1 < values.size() ? ", " : " or ") + values[k];
-    return text;
-}
-
-std::string with_bars(std::span<const std::string> values) {
-    std::string text;
-    for (const std::string& value : values)
-        text += (text.empty() ? "" : "|") + value;
-    return text;
-}
-
 Option add_own_option(Command command, const MethodOption& own, const std::string& help,
                       SolveOptions& options) {
     if (own.values.empty())
         return command.add_action(
             own.name, [own, &options] { own.set(options, "yes"); }, help);
     return command.add_value(
-        own.name, with_bars(own.values), help, [own, &options](const std::string& text) {
+        own.name, joined(own.values, "|"), help, [own, &options](const std::string& text) {
             const auto refuse = [&](const std::string& expected) {
                 throw UsageError(own.name + ": expected " + expected + ", not '" + text + "'");
             };
             try {
                 if (!own.set(options, text))
-                    refuse(either(own.values));
+                    refuse(joined(own.values, ", ", " or "));
             } catch (const std::invalid_argument& error) {
                 refuse(error.what());
             }
@@ -167,11 +152,12 @@ void add_own_options(Command command, std::span<const Method* const> methods,
         for (const MethodOption& own : method->own_options()) {
             if (added.contains(own.name)) // several methods have it
                 continue;
-            std::string names;
+            std::vector<std::string_view> names;
             for (const Method* const other : methods)
                 if (std::ranges::count(other->own_options(), own.name, &MethodOption::name) > 0)
-                    names.append(names.empty() ? "" : ", ").append(other->name);
-            const std::string help = methods.size() > 1 ? names + ": " + own.help : own.help;
+                    names.push_back(other->name);
+            const std::string help =
+                methods.size() > 1 ? joined(names, ", ") + ": " + own.help : own.help;
             added.emplace(own.name, add_own_option(command, own, help, options));
             if (!own.excludes.empty())
                 excluding.emplace_back(own.name, own.excludes);
@@ -239,15 +225,13 @@ void add_report_option(Command command, std::string& report, const char* content
 
 void add_verbosity_options(Command command, Verbosity& verbosity) {
     command = command.under("Verbosity");
-    const auto set = [&verbosity](Verbosity value) {
-        return [&verbosity, value] {
-            if (verbosity != Verbosity::normal)
-                throw UsageError("-q and -v contradict each other");
-            verbosity = value;
-        };
-    };
-    command.add_action("-q,--quiet", set(Verbosity::quiet), "say nothing but errors");
-    command.add_action("-v,--verbose", set(Verbosity::verbose), "a line per step, and details");
+    const Option quiet = command.add_action(
+        "-q,--quiet", [&verbosity] { verbosity = Verbosity::quiet; }, "say nothing but errors");
+    command
+        .add_action(
+            "-v,--verbose", [&verbosity] { verbosity = Verbosity::verbose; },
+            "a line per step, and details")
+        .excludes(quiet);
     command.add_version("--version", "hemilux " HEMILUX_VERSION, "print the version");
     command.add_help("-h,--help", "print this");
 }

@@ -77,10 +77,7 @@ requires std::invocable<Store, Choice>
     Option add_choice(Command command, const std::string& name,
                       const std::array<const char*, count>& names, const std::string& help,
                       Store store) {
-    std::string type;
-    for (const char* const choice : names)
-        type += (type.empty() ? "" : "|") + std::string(choice);
-    return command.add_value(name, type, help, [=, &names](const std::string& text) {
+    return command.add_value(name, joined(names, "|"), help, [=, &names](const std::string& text) {
         const auto found = std::ranges::find(names, text);
         if (found == names.end())
             throw UsageError(

@@ -36,21 +36,13 @@ const Method* method_by_name(std::string_view name) {
     throw UsageError("--method: " + unknown_name("method", name, names));
 }
 
-/// "a, b or c".
-std::string either(std::span<const std::string_view> names) {
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + std::string(names[i]);
-    return text;
-}
-
 void add_method_option(Command command, const Method*& method) {
     method = &method_of(Role::standard);
     std::string taken(method->name);
     for (const Method* const other : methods())
         if (!other->implied_by.empty())
-            taken += "; " + std::string(other->name) + " where " + either(other->implied_by) +
-                     " are given";
+            taken += "; " + std::string(other->name) + " where " +
+                     joined(other->implied_by, ", ", " or ") + " are given";
     command.add_value("--method", "METHOD", "how to solve, see below [" + taken + "]",
                       [&method](const std::string& name) { method = method_by_name(name); });
     command.after_parsing([command, &method] {
@@ -155,8 +147,10 @@ void add_error_map_option(Command command, SolveSettings& settings) {
 }
 
 void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
-    command.add_text("--checkpoint", "FILE", checkpoint.path,
-                     "keep what was computed in a file, after steps and at the end");
+    command.add_text(
+        "--checkpoint", "FILE", checkpoint.path,
+        "keep what was computed in a file, after steps and at the end; not with --divide "
+        "auto");
     add_seconds(command, "--every", checkpoint.every, non_negative,
                 "of the time between two checkpoints; 0: after each step [60]");
     command.add_text(

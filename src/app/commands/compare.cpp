@@ -10,17 +10,20 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/memory.h"
 #include "app/settings/method_options.h"
+#include "app/settings/names.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
 #include "app/terminal/log.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/summary.h"
+#include "app/terminal/unused_options.h"
 #include "app/terminal/wrap.h"
 #include "io/files/error.h"
 #include "radiosity/sampling/rng.h"
 
 #include <atomic>
 #include <iostream>
+#include <span>
 #include <unistd.h>
 
 namespace hemilux {
@@ -103,15 +106,14 @@ void drop_empty(std::vector<MethodRuns>& results) {
 
 /// Where the reference is not much better than what is compared with it; else empty.
 std::string reference_warning(double own, std::span<const MethodSummary> summaries) {
-    std::string methods;
+    std::vector<std::string> methods;
     for (const MethodSummary& summary : summaries)
         if (own > reference_share * summary.error.all)
-            methods += (methods.empty() ? "" : ", ") + summary.label + " (" +
-                       percent(summary.error.all) + ")";
+            methods.push_back(summary.label + " (" + percent(summary.error.all) + ")");
     return methods.empty()
                ? ""
                : "the reference's own error, " + percent(own) + ", is much of the error of " +
-                     methods + "; --reference-error asks for a better one";
+                     joined(methods, ", ") + "; --reference-error asks for a better one";
 }
 
 /// With those of reading, which were logged before.
@@ -162,22 +164,25 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     std::vector<const Method*> methods;
     for (const MethodVariant& variant : settings.variants)
         methods.push_back(variant.method);
+    const std::size_t variants = methods.size();
     const Method& of_reference = method_of(Role::reference);
     if (!of_reference.work_with(settings.options).estimates_error) // the reference is without it
         check_own_options(settings.options, methods);
     if (settings.reference.empty())
         methods.push_back(&of_reference);
     check_own_options(settings.options, methods);
+    warn_of_unused(settings);
     make_folder(settings.folder);
     const RunFiles files = check_files(settings);
     Monitor monitor;
     InterruptGuard guard;
     LoadedMesh loaded =
-        load_mesh(settings.scene, files, settings.options, methods, settings.verbosity,
-                  bytes_of_compared_pictures(settings.view.size));
+        load_mesh(settings.scene, files, settings.options, std::span(methods).first(variants),
+                  settings.verbosity, bytes_of_compared_pictures(settings.view.size),
+                  settings.reference.empty() ? &of_reference : nullptr);
     face_lines = std::move(loaded.face_lines);
     const Mesh& mesh = loaded.mesh;
-    settings.view = view_of(settings.view, loaded, settings.verbosity);
+    settings.view = view_of(settings.view, loaded.view, settings.verbosity);
     check_camera(settings.view, mesh);
     check_own_options(settings.options, methods, mesh.patches().size());
     std::vector<bool> detail = detail_mask(mesh, settings.detail);

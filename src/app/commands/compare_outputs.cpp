@@ -1,6 +1,7 @@
 #include "app/commands/compare_outputs.h"
 
 #include "app/report/comparison_page.h"
+#include "app/settings/names.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
 #include "io/drawings/false_colour.h"
@@ -66,7 +67,7 @@ void write_chart(const Comparison& comparison, std::span<const MethodSummary> su
 
 Camera camera_of(const Comparison& comparison) {
     return camera_of(comparison.settings.view, comparison.mesh, comparison.tracer,
-                     comparison.reference.radiosity);
+                     comparison.reference.radiosity, comparison.settings.options.threads);
 }
 
 void write_pictures(const Comparison& comparison, std::span<const MethodRuns> results,
@@ -90,7 +91,7 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
     write("reference.png", truth, display);
     std::vector<std::vector<float>> differences;
     for (const MethodRuns& result : results) {
-        const Image image = picture(result.runs.front().radiosity);
+        const Image image = picture(result.radiosity);
         write(result.variant.name + ".png", image, display);
         differences.push_back(luminance_difference(image, truth, display.exposure));
     }
@@ -98,13 +99,6 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
     for (std::size_t i = 0; i < results.size(); ++i)
         write(results[i].variant.name + "_difference.png",
               false_colour(differences[i], truth.width, truth.height, scale), 1);
-}
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words)
-        text += (text.empty() ? "" : "  ") + word;
-    return text;
 }
 
 /// What the numbers of a comparison rest on.
@@ -117,7 +111,8 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Comparison& comp
         {"patches", std::to_string(comparison.mesh.patches().size())},
         {"the reference's own error", percent(own_error(comparison.mesh, comparison.reference))}};
     for (const GivenOption& option : settings.given)
-        facts.emplace_back(option.name, option.values.empty() ? "yes" : joined(option.values));
+        facts.emplace_back(option.name,
+                           option.values.empty() ? "yes" : joined(option.values, "  "));
     return facts;
 }
 

@@ -28,8 +28,9 @@ class Runner {
     Runner(const Comparison& comparison, const MethodVariant& variant, std::uint32_t run,
            const Budget& budget)
         : comparison_(comparison), variant_(variant), run_(run), budget_(budget),
-          options_(variant.applied_to(
-              with_memory(comparison.settings.options, comparison.settings.scene))) {
+          options_(
+              variant.applied_to(with_memory(comparison.settings.options, comparison.settings.scene,
+                                             comparison.settings.variants.size()))) {
         options_.rays = rays_of_step(options_.rays, budget.seconds, *variant.method,
                                      comparison.mesh.patches().size());
         options_.seed += run;
@@ -73,14 +74,15 @@ class Runner {
         return solver_->finished() || used() + growth * last_step_ / 2 > limit();
     }
     [[nodiscard]] double share() const { return done() ? 1 : std::min(1.0, used() / limit()); }
+    [[nodiscard]] const std::vector<Vec3>& radiosity() const {
+        return solver_->solution().radiosity;
+    }
     [[nodiscard]] const StepRow& last_row() const { return result_.rows.back(); }
 
     [[nodiscard]] MethodRun result() {
-        const Solution& solution = solver_->solution();
         if (!result_.rows.empty() && !std::has_single_bit(result_.rows.size()))
             keep_light();
-        result_.radiosity = solution.radiosity;
-        result_.bytes_density = solution.bytes_density;
+        result_.bytes_density = solver_->solution().bytes_density;
         result_.complete = done();
         return std::move(result_);
     }
@@ -167,7 +169,7 @@ run_methods(const Comparison& comparison, std::optional<SolveError>& fault,
             const std::function<void(const StepRow&, double share)>& after_step) {
     std::vector<MethodRuns> results;
     for (const MethodVariant& variant : comparison.settings.variants)
-        results.push_back({variant, {}});
+        results.push_back({variant, {}, {}});
     const std::uint32_t runs = comparison.settings.runs;
     for (std::uint32_t run = 0; run < runs && !comparison.monitor.interrupted && !fault; ++run) {
         Runners runners;
@@ -178,8 +180,11 @@ run_methods(const Comparison& comparison, std::optional<SolveError>& fault,
         } catch (const SolveError& error) {
             fault = error;
         }
-        for (std::size_t m = 0; m < runners.size(); ++m)
+        for (std::size_t m = 0; m < runners.size(); ++m) {
             results[m].runs.push_back(runners[m]->result());
+            if (results[m].radiosity.empty() && !results[m].runs.back().rows.empty())
+                results[m].radiosity = runners[m]->radiosity();
+        }
     }
     return results;
 }

@@ -17,7 +17,6 @@ namespace hemilux {
 /// One run of one variant.
 struct MethodRun {
     std::vector<StepRow> rows;
-    std::vector<Vec3> radiosity; ///< at the end of the budget
     /// Of the first run after steps 1, 2, 4 and so on and the last one, for a page; else none.
     std::vector<LightOfStep> lights;
     std::uint64_t bytes_density = 0;
@@ -28,6 +27,7 @@ struct MethodRun {
 struct MethodRuns {
     MethodVariant variant;
     std::vector<MethodRun> runs;
+    std::vector<Vec3> radiosity; ///< at the end of the first that has a step
 };
 
 /// What the runs have in common; all of it outlives them.

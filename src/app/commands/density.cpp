@@ -11,6 +11,7 @@
 #include "app/settings/text.h"
 #include "app/settings/view.h"
 #include "app/terminal/log.h"
+#include "app/terminal/unused_options.h"
 #include "bvh/wide/wide_bvh.h"
 #include "io/drawings/density_picture.h"
 #include "io/drawings/plane_svg.h"
@@ -19,6 +20,7 @@
 #include "radiosity/hemisphere/subdivision_1997.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -125,13 +127,12 @@ void write_hemisphere(const Preprocessed& made, const PatchDensities& densities,
 
 void write_picture(const Preprocessed& made, const PatchDensities& densities,
                    const std::string& path) {
-    ViewSettings view = made.settings.view;
-    if (!view.up)
-        view.up = up_of(made.settings.scene.path);
+    const ViewSettings& view = made.settings.view;
     std::vector<Vec3> light; // for the choice of a camera: everything is lit
     for (const double mean : densities.mean)
         light.emplace_back(1 + mean);
-    const Camera camera = camera_of(view, made.mesh, made.tracer, light);
+    const Camera camera =
+        camera_of(view, made.mesh, made.tracer, light, made.settings.options.threads);
     const PictureTime time(made.monitor.interrupted);
     const RenderOptions options{.width = view.size.width,
                                 .height = view.size.height,
@@ -180,12 +181,19 @@ void log_summary(const Preprocessed& made, const PatchDensities& densities) {
 
 } // namespace
 
-int density(const DensitySettings& settings) {
+int density(DensitySettings settings) {
     const RunFiles files = check_files(settings.outputs, settings.scene.path);
     check(settings);
+    const bool draws_pictures = !std::ranges::all_of(settings.outputs, is_svg);
+    const std::array<OptionUse, 2> uses{
+        {{"--camera", draws_pictures, ".png outputs"}, {"--size", draws_pictures, ".png outputs"}}};
+    warn_of_unused(settings.given, uses, settings.verbosity);
     Monitor monitor;
     InterruptGuard guard;
-    const Mesh mesh = load_geometry(settings.scene, files, settings.verbosity);
+    const auto [mesh, view] =
+        load_geometry(settings.scene, files, settings.options, settings.verbosity);
+    if (draws_pictures)
+        settings.view = view_of(settings.view, view, settings.verbosity);
     check_camera(settings.view, mesh);
     check_patch(settings, mesh);
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});

@@ -15,10 +15,11 @@ struct DensitySettings {
     bool plane = false;                             ///< a cross-section instead (figure 1)
     ViewSettings view;
     std::vector<std::string> outputs; ///< .svg: a hemisphere; .png: mean densities
+    std::vector<GivenOption> given;   ///< options and their values
     Verbosity verbosity = Verbosity::normal;
 };
 
 /// Returns the exit code or throws UsageError, InputError or OutputError.
-int density(const DensitySettings& settings);
+int density(DensitySettings settings);
 
 } // namespace hemilux

@@ -9,6 +9,7 @@
 #include "app/settings/method_options.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
+#include "app/terminal/unused_options.h"
 #include "bvh/wide/wide_bvh.h"
 #include "io/results/factor_table.h"
 #include "io/results/npy.h"
@@ -98,16 +99,19 @@ std::optional<Factors> by_rays(const FormFactorSettings& settings, const Mesh& m
 
 int formfactors(const FormFactorSettings& settings) {
     const RunFiles files = check_files(settings.outputs, settings.scene.path);
+    const bool by_cubes = settings.options.own.of<FactorOptions>().kind == FactorKind::hemicube;
+    const OptionUse rays{"--rays", !by_cubes, "factors by rays"};
+    warn_of_unused(settings.given, {&rays, 1}, settings.verbosity);
     Monitor monitor;
     InterruptGuard guard;
-    const Mesh mesh = load_geometry(settings.scene, files, settings.verbosity);
+    const Mesh mesh =
+        load_geometry(settings.scene, files, settings.options, settings.verbosity).mesh;
     check_size(settings, mesh.patches().size());
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
     guard.watch(monitor.interrupted);
     const Workers workers(settings.options.threads);
-    const auto factors = settings.options.own.of<FactorOptions>().kind == FactorKind::hemicube
-                             ? by_hemicubes(settings, mesh, bvh, workers, monitor)
-                             : by_rays(settings, mesh, bvh, workers, monitor);
+    const auto factors = by_cubes ? by_hemicubes(settings, mesh, bvh, workers, monitor)
+                                  : by_rays(settings, mesh, bvh, workers, monitor);
     if (!factors) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
         return exit_code_of_signal();

@@ -10,6 +10,7 @@ struct FormFactorSettings {
     SolveOptions options;      ///< seed, threads, factors
     std::uint32_t rays = 4096; ///< per patch; a power of two
     std::vector<std::string> outputs;
+    std::vector<GivenOption> given; ///< options and their values
     Verbosity verbosity = Verbosity::normal;
 
     static constexpr std::size_t most_dense = 20'000; ///< patches

@@ -25,6 +25,7 @@
 #include "app/terminal/progress.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
+#include "app/terminal/unused_options.h"
 #include "parallel/workers.h"
 #include "radiosity/scene/needs.h"
 #include "radiosity/solving/left_out.h"
@@ -85,6 +86,10 @@ class SolveRun {
     [[nodiscard]] InputError as_input_error(const SolveError& error) const {
         return hemilux::as_input_error(error, settings_.scene.path, loaded_->face_lines);
     }
+    [[nodiscard]] bool has_pictures() const {
+        return std::ranges::any_of(settings_.outputs, is_picture, &Output::kind) ||
+               !settings_.error_map.empty();
+    }
     [[nodiscard]] double bytes_of_outputs() const;
     [[nodiscard]] std::unique_ptr<Solver> begin();
     void mesh_changed();
@@ -97,6 +102,7 @@ class SolveRun {
     SolveOptions options_;
     std::optional<Checkpoint> resumed_;
     std::vector<NamedPoint> points_;
+    std::vector<TargetPoints> target_points_;
     std::vector<double> target_; ///< SolverInput::target
     std::optional<LoadedMesh> loaded_;
     std::optional<Prepared> prepared_;
@@ -122,16 +128,18 @@ void SolveRun::read_scene() {
     check_plain(settings_);
     check_target(settings_);
     check_checkpoint_options(settings_);
+    warn_of_unused(settings_);
     Workers(settings_.options.threads).start();
     resumed_ = read_resumed(settings_);
     points_ = points_of(settings_);
+    target_points_ = points_of_target(settings_.target);
     loaded_ = load_mesh(settings_.scene, files, settings_.options, methods, settings_.verbosity,
                         bytes_of_outputs());
     settings_.divide_auto |= divides_by_default(settings_, mesh().patches().size());
     check_distances(settings_, points_, mesh());
-    if (!settings_.report.empty() ||
-        std::ranges::any_of(settings_.outputs, is_picture, &Output::kind))
-        settings_.view = view_of(settings_.view, *loaded_, settings_.verbosity);
+    settings_.view = view_of(settings_.view, loaded_->view,
+                             has_pictures() || !settings_.report.empty() ? settings_.verbosity
+                                                                         : Verbosity::quiet);
     check_camera(settings_.view, mesh());
     check_own_options(settings_.options, methods, mesh().patches().size());
     check_plain(settings_, mesh().patches().size());
@@ -139,9 +147,7 @@ void SolveRun::read_scene() {
 }
 
 double SolveRun::bytes_of_outputs() const {
-    const bool pictures = std::ranges::any_of(settings_.outputs, is_picture, &Output::kind) ||
-                          !settings_.error_map.empty();
-    return (pictures ? bytes_of_picture(settings_.view.size, settings_.gather_pictures) : 0) +
+    return (has_pictures() ? bytes_of_picture(settings_.view.size, settings_.gather_pictures) : 0) +
            bytes_of_points(points_.size(), settings_.gather) +
            bytes_of_lightmap(settings_.lightmap.value_or(0));
 }
@@ -151,7 +157,7 @@ void SolveRun::build_tree() {
     statistics_.seconds_bvh = prepared_->seconds;
     log_line(settings_.verbosity, Verbosity::verbose,
              tracer_text(prepared_->made.tree, statistics_.seconds_bvh));
-    target_ = target_weights(settings_, mesh(), tracer());
+    target_ = target_weights(settings_, target_points_, mesh(), tracer());
     input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs, target_,
                                *settings_.ranks});
     monitor_.interrupted.share(*settings_.ranks);
@@ -171,7 +177,7 @@ std::unique_ptr<Solver> SolveRun::begin() {
 void SolveRun::mesh_changed() {
     if (!settings_.options.keep_all)
         prepared_->needs = find_needs(mesh());
-    target_ = target_weights(settings_, mesh(), tracer());
+    target_ = target_weights(settings_, target_points_, mesh(), tracer());
     input_->target = target_;
 }
 
@@ -201,10 +207,9 @@ void SolveRun::take_steps() {
     Progress progress(monitor_, share_of(stop, *settings_.method),
                       settings_.verbosity != Verbosity::quiet && stderr_is_terminal());
     const Stopwatch solving;
-    const bool is_begun = divided_.begun && !resumed_;
-    solver_ = is_begun ? std::move(divided_.begun) : begin();
+    solver_ = divided_.begun ? std::move(divided_.begun) : begin();
     log_rays_of_step(settings_.verbosity, settings_.options.rays, options_.rays);
-    Before before = divided_.before;
+    Before before = divided_.before();
     before.seconds += statistics_.seconds_divide; // a time limit is of both
     if (resumed_) {
         before = resume(*resumed_, settings_, mesh(), *solver_);
@@ -213,22 +218,30 @@ void SolveRun::take_steps() {
     Checkpointer checkpointer(settings_, mesh(), *solver_);
     StepPictures step_pictures(settings_, mesh(), tracer(), monitor_.interrupted);
     notes_.emplace(stop, settings_.work().estimates_error);
-    const auto after_step = [&](const StepRecord& record, const Solution& solution) {
+    const auto add_row = [&](const StepRecord& record) {
         notes_->step_done(record);
         rows_.push_back({std::string(settings_.method->name), 0, record, std::nullopt});
+        progress.step_done(record);
+    };
+    const auto show_last_row = [&](const Solution& solution) {
         if (reference_)
             rows_.back().error = reference_->error(mesh(), solution.radiosity);
-        progress.step_done(record);
         if (settings_.every_step)
-            step_pictures.write(solution.radiosity, record.step);
+            step_pictures.write(solution.radiosity, solution.steps);
         if (settings_.verbosity == Verbosity::verbose)
             progress.log(step_text(rows_.back()));
+    };
+    const auto after_step = [&](const StepRecord& record, const Solution& solution) {
+        add_row(record);
+        show_last_row(solution);
         checkpointer.step_done(rows_, record.seconds);
     };
-    if (is_begun && before.steps > 0) {
-        divided_.last.seconds = before.seconds;
-        after_step(divided_.last, solver_->solution());
+    for (StepRecord record : divided_.steps) {
+        record.seconds += statistics_.seconds_divide;
+        add_row(record);
     }
+    if (!divided_.steps.empty())
+        show_last_row(solver_->solution());
     try {
         completed_ = run(*solver_, *input_, stop, after_step, before);
     } catch (const SolveError& error) {
@@ -236,7 +249,8 @@ void SolveRun::take_steps() {
         if (solver_->solution().steps == 0)
             throw *fault_;
     }
-    seconds_solver_ = solving.seconds() + (resumed_ ? resumed_->seconds : divided_.before.seconds);
+    seconds_solver_ =
+        solving.seconds() + (resumed_ ? resumed_->seconds : divided_.before().seconds);
     progress.close();
     checkpointer.finish(rows_, seconds_solver_);
     of_steps_ = step_pictures.report();
@@ -272,11 +286,10 @@ int SolveRun::write() {
     const bool interrupted = !completed_ && !fault_;
     SolveSettings shown = settings_;
     shown.view.camera = camera_;
-    const int code = finish(shown,
-                            {mesh(), tracer(), *solution_, statistics_, rows_, points_,
-                             loaded_->warnings, monitor_.interrupted},
-                            of_steps_, reference_, *notes_, interrupted, started_,
-                            resumed_ ? resumed_->seconds : 0);
+    const int code = finish(
+        shown,
+        {mesh(), tracer(), *solution_, statistics_, rows_, points_, loaded_->warnings, monitor_},
+        of_steps_, reference_, *notes_, interrupted, started_, resumed_ ? resumed_->seconds : 0);
     if (interrupted && !settings_.ranks->are_several())
         end_at_once(code);
     if (!fault_ || code != exit_done)

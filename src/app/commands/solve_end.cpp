@@ -139,7 +139,7 @@ int finish(const SolveSettings& settings, Results results, const WriteReport& of
     if (interrupted)
         log_line(settings.verbosity, Verbosity::quiet,
                  interruption_text(results.solution.steps, !report.written.empty()));
-    return report.exit_code(results.interrupted);
+    return report.exit_code(results.monitor.interrupted);
 }
 
 } // namespace hemilux

@@ -105,7 +105,7 @@ class AutoDivision {
 void AutoDivision::run_to(double error, const StopRule& most) {
     if (!divided_.begun) {
         divided_.begun = is_own_ ? begin_() : method_of(Role::standard).make(input_);
-        divided_.before = {};
+        divided_.steps.clear();
     }
     StopRule stop = most;
     stop.error = error;
@@ -113,11 +113,8 @@ void AutoDivision::run_to(double error, const StopRule& most) {
         stop.steps = settings_.stop.steps;
     run(
         *divided_.begun, input_, stop,
-        [&](const StepRecord& record, const Solution&) {
-            divided_.before = {record.step, record.seconds};
-            divided_.last = record;
-        },
-        Before(divided_.before));
+        [&](const StepRecord& record, const Solution&) { divided_.steps.push_back(record); },
+        divided_.before());
     divided_.rough = divided_.begun->solution();
 }
 
@@ -125,7 +122,7 @@ void AutoDivision::forget_run() {
     if (divided_.begun)
         statistics_.rays_divide += divided_.begun->solution().rays_energy;
     divided_.begun.reset();
-    divided_.before = {};
+    divided_.steps.clear();
 }
 
 DivisionErrorOptions AutoDivision::error_options(std::uint64_t most_rays, double negligible) const {
@@ -289,7 +286,7 @@ Divided AutoDivision::divide() {
     if (divided_.begun)
         divided_.rough = {}; // which has it
     statistics_.seconds_division_error = seconds_of_errors_;
-    statistics_.seconds_divide = watch.seconds() - divided_.before.seconds - seconds_of_errors_;
+    statistics_.seconds_divide = watch.seconds() - divided_.before().seconds - seconds_of_errors_;
     return std::move(divided_);
 }
 

@@ -26,11 +26,13 @@ struct Divided {
     /// found.
     Solution rough = {};
     std::vector<Slope> slope = {}; ///< by patch, of the light; empty where it is not linear
-    /// A run of `stored-transport` on the patches as they are now, which can go on after the steps
-    /// of `before`. Empty for other methods, and if it was not begun.
+    /// A run of `stored-transport` on the patches as they are now, which can go on after `steps`.
+    /// Empty for other methods, and if it was not begun.
     std::unique_ptr<Solver> begun = nullptr;
-    Before before = {};
-    StepRecord last = {}; ///< of these steps
+    std::vector<StepRecord> steps = {};
+    [[nodiscard]] Before before() const {
+        return steps.empty() ? Before{} : Before{steps.back().step, steps.back().seconds};
+    }
     /// The error of sampling that is left for the run, where it is known.
     std::optional<double> sampling = {};
     /// The error of the division, if that run does not go on.

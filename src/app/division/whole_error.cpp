@@ -77,7 +77,7 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
         return;
     const bool is_gathered = settings.divide_auto && gives_gathered_light(settings);
     std::optional<DivisionError> of_patches, spread = divided.spread;
-    if (solution.steps == divided.before.steps)
+    if (solution.steps == divided.steps.size())
         of_patches = divided.error;
     if (settings.divide_auto && solution.weight.empty())
         statistics.estimated_error_of = is_gathered ? ErrorOf::gathered : ErrorOf::surfaces;

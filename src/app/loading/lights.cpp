@@ -1,5 +1,6 @@
 #include "app/loading/lights.h"
 
+#include "geometry/direction.h"
 #include "io/scene_files/emitter_shapes.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ std::string numbered(const std::string& name, std::size_t number) {
 }
 
 void add_lamp(Scene& scene, const LightSettings& light, const std::string& name) {
-    const Vec3 normal = glm::normalize(light.towards);
+    const Vec3 normal = direction_of(light.towards);
     const EmitterShape shape = light.is_disc
                                    ? disc(light.at, normal, light.width / 2)
                                    : rectangle(light.at, normal, light.width, light.height);

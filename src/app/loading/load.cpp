@@ -100,9 +100,11 @@ InputError as_input_error(const SolveError& error, const std::string& path,
                                           : InputError(path, error.what());
 }
 
-Mesh divide_scene(Scene scene, const SceneSettings& settings) {
+Mesh divide_scene(Scene scene, const SceneSettings& settings, unsigned threads) {
+    MeshOptions options = settings.mesh;
+    options.threads = threads;
     try {
-        return Mesh(std::move(scene), settings.mesh);
+        return Mesh(std::move(scene), options);
     } catch (const std::invalid_argument& error) {
         if (settings.mesh.max_edge > 0)
             throw UsageError(std::string("--max-edge: ") + error.what());
@@ -118,23 +120,24 @@ bool is_level_by_z(const Camera& camera) {
     return std::abs(right.z) < level && std::abs(right.y) > tilted;
 }
 
-std::optional<int> up_of(const std::string& path, const std::optional<Camera>& camera) {
+FileView view_of_file(const std::string& path, const ReadResult& read) {
+    FileView view{read.camera, read.camera_name, {}};
     const std::string extension = extension_of(path);
-    return extension == ".gltf" || extension == ".glb"
-               ? std::optional(camera && is_level_by_z(*camera) ? 2 : 1)
-               : std::nullopt;
+    if (extension == ".gltf" || extension == ".glb")
+        view.up = read.camera && is_level_by_z(*read.camera) ? 2 : 1;
+    return view;
 }
 
-ViewSettings view_of(const ViewSettings& asked, const LoadedMesh& loaded, Verbosity verbosity) {
+ViewSettings view_of(const ViewSettings& asked, const FileView& file, Verbosity verbosity) {
     ViewSettings view = asked;
     if (!view.up)
-        view.up = loaded.up;
-    if (view.camera || !view.uses_camera_of_scene || !loaded.camera)
+        view.up = file.up;
+    if (view.camera || !view.uses_camera_of_scene || !file.camera)
         return view;
-    view.camera = loaded.camera;
+    view.camera = file.camera;
     log_line(verbosity, Verbosity::normal,
-             "pictures are seen by camera '" + loaded.camera_name + "' of the scene: " +
-                 camera_text(*loaded.camera) + "; --camera auto chooses another");
+             "pictures are seen by camera '" + file.camera_name + "' of the scene: " +
+                 camera_text(*file.camera) + "; --camera auto chooses another");
     return view;
 }
 
@@ -178,22 +181,22 @@ std::string crowd_text(const Crowd& crowd, const Mesh& mesh) {
 
 LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                      const SolveOptions& options, std::span<const Method* const> methods,
-                     Verbosity verbosity, double bytes_of_pictures) {
+                     Verbosity verbosity, double bytes_of_pictures, const Method* before) {
     const Stopwatch reading;
     check_memory_to_read(settings.path, settings.memory);
     ReadResult read = load_scene(settings, files);
     log_warnings(verbosity, read.warnings);
     check_solvable(read, settings.path);
     const double seconds = reading.seconds();
-    MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods);
+    MemoryNeed need = memory_need(read.scene, settings.mesh, options, methods, before);
     need.pictures = bytes_of_pictures;
     check_memory(need, settings.memory, settings.path);
     const Stopwatch dividing;
     SidedMesh sided = divide_with_sides(std::move(read.scene), settings, options, verbosity);
-    LoadedMesh loaded{std::move(sided.mesh),       std::move(sided.made),      seconds,
-                      dividing.seconds(),          std::move(read.face_lines), read.camera,
-                      std::move(read.camera_name), std::move(read.warnings)};
-    loaded.up = up_of(settings.path, loaded.camera);
+    LoadedMesh loaded{
+        std::move(sided.mesh),   std::move(sided.made),      seconds,
+        dividing.seconds(),      std::move(read.face_lines), view_of_file(settings.path, read),
+        std::move(read.warnings)};
     if (!loaded.mesh.all_layers_are_offset())
         warn(loaded,
              settings.path +

@@ -27,30 +27,34 @@ void check_solvable(const ReadResult& read, const std::string& path);
 [[nodiscard]] InputError as_input_error(const SolveError& error, const std::string& path,
                                         std::span<const std::uint32_t> face_lines);
 
+/// What a file says of how to look at it.
+struct FileView {
+    std::optional<Camera> camera; ///< ReadResult
+    std::string camera_name;
+    /// The axis that is upwards: of glTF 1, or 2 where only so its camera is held level; empty for
+    /// other formats.
+    std::optional<int> up;
+};
+[[nodiscard]] FileView view_of_file(const std::string& path, const ReadResult& read);
+/// The view asked for; with the camera of the file, which is reported, where none was asked for.
+[[nodiscard]] ViewSettings view_of(const ViewSettings& asked, const FileView& file,
+                                   Verbosity verbosity);
+
 struct LoadedMesh {
     Mesh mesh;
     MadeTracer made; ///< where the sides of the faces needed one
     double seconds_read, seconds_sides;
     std::vector<std::uint32_t> face_lines; ///< ReadResult
-    std::optional<Camera> camera;          ///< the same
-    std::string camera_name;
+    FileView view;
     std::vector<std::string> warnings; ///< that were logged
-    std::optional<int> up = {};        ///< axis, where the file says it
 };
-/// The axis that is upwards, as the format of a scene says it: 1 for glTF, 2 where only so the
-/// file's camera is held level; empty for other formats.
-[[nodiscard]] std::optional<int> up_of(const std::string& path,
-                                       const std::optional<Camera>& camera = {});
-/// The view asked for; with the camera of the file, which is reported, where none was asked for.
-[[nodiscard]] ViewSettings view_of(const ViewSettings& asked, const LoadedMesh& loaded,
-                                   Verbosity verbosity);
 
-/// Does all of this, with what there is to report. Throws MemoryError if the methods would need
-/// more memory than they may.
+/// Does all of this, with what there is to report. Throws MemoryError if the methods side by side,
+/// or `before` alone, would need more memory than they may.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                                    const SolveOptions& options,
                                    std::span<const Method* const> methods, Verbosity verbosity,
-                                   double bytes_of_pictures);
+                                   double bytes_of_pictures, const Method* before = nullptr);
 
 struct Prepared {
     Needs needs; ///< everything with --keep-all
@@ -65,6 +69,6 @@ struct Prepared {
 [[nodiscard]] std::string crowd_text(const Crowd& crowd, const Mesh& mesh);
 
 /// Divides the faces; throws UsageError where --max-edge would give too many patches.
-[[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings);
+[[nodiscard]] Mesh divide_scene(Scene scene, const SceneSettings& settings, unsigned threads = 0);
 
 } // namespace hemilux

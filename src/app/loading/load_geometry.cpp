@@ -1,6 +1,5 @@
 #include "app/loading/load_geometry.h"
 
-#include "app/loading/load.h"
 #include "app/loading/sides.h"
 #include "app/terminal/log.h"
 #include "app/terminal/summary.h"
@@ -8,14 +7,16 @@
 
 namespace hemilux {
 
-Mesh load_geometry(const SceneSettings& settings, const RunFiles& files, Verbosity verbosity) {
+LoadedGeometry load_geometry(const SceneSettings& settings, const RunFiles& files,
+                             const SolveOptions& options, Verbosity verbosity) {
     ReadResult read = load_scene(settings, files);
     log_warnings(verbosity, read.warnings);
     if (read.scene.facets.empty())
         throw InputError(settings.path, "there is no face with an area");
-    Mesh mesh = divide_with_sides(std::move(read.scene), settings, {}, verbosity).mesh;
+    FileView view = view_of_file(settings.path, read);
+    Mesh mesh = divide_with_sides(std::move(read.scene), settings, options, verbosity).mesh;
     log_line(verbosity, Verbosity::verbose, mesh_text(mesh));
-    return mesh;
+    return {std::move(mesh), std::move(view)};
 }
 
 } // namespace hemilux

@@ -1,13 +1,17 @@
 #pragma once
 // A scene for subcommands that need no light: nothing has to emit.
 
-#include "app/settings/settings.h"
+#include "app/loading/load.h"
 
 namespace hemilux {
 
+struct LoadedGeometry {
+    Mesh mesh;
+    FileView view;
+};
 /// Reads and divides a scene, with warnings and figures as the user wants them. Throws InputError
 /// and UsageError.
-[[nodiscard]] Mesh load_geometry(const SceneSettings& settings, const RunFiles& files,
-                                 Verbosity verbosity);
+[[nodiscard]] LoadedGeometry load_geometry(const SceneSettings& settings, const RunFiles& files,
+                                           const SolveOptions& options, Verbosity verbosity);
 
 } // namespace hemilux

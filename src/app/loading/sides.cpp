@@ -112,10 +112,10 @@ SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings, const So
     if (settings.sides == Sides::both) {
         if (emitted_power(scene) > 0)
             log_line(verbosity, Verbosity::normal, both_sides_text(scene));
-        return {divide_scene(std::move(scene), settings), {}};
+        return {divide_scene(std::move(scene), settings, options.threads), {}};
     }
     const auto divide = [&](Scene sided) {
-        Mesh mesh = divide_scene(std::move(sided), settings);
+        Mesh mesh = divide_scene(std::move(sided), settings, options.threads);
         MadeTracer made = make_tracer(mesh, options.keep_all || needs_tree(mesh), options.threads);
         return SidedMesh{std::move(mesh), std::move(made)};
     };

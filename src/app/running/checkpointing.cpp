@@ -1,6 +1,7 @@
 #include "app/running/checkpointing.h"
 
 #include "app/settings/exit_code.h"
+#include "app/settings/method_options.h"
 #include "app/terminal/log.h"
 #include "io/files/error.h"
 #include "io/results/csv.h"
@@ -65,14 +66,6 @@ void check_options(const Options& found, const Options& wanted, const std::strin
             throw InputError(file, "is a checkpoint of another run, with options unknown here");
 }
 
-std::string resumable_methods() {
-    std::string names;
-    for (const Method* const method : methods())
-        if (method->can_resume())
-            names += (names.empty() ? "" : ", ") + std::string(method->name);
-    return names;
-}
-
 } // namespace
 
 void check_checkpoint_options(const SolveSettings& settings) {
@@ -81,10 +74,14 @@ void check_checkpoint_options(const SolveSettings& settings) {
         throw UsageError("--every says how often the file of --checkpoint is written; add it");
     if (asked.path.empty() && asked.resumed.empty())
         return;
+    if (settings.divide == Divide::automatic)
+        throw UsageError("--checkpoint and --resume keep the light, not the patches that --divide "
+                         "auto makes; --divide LENGTH makes the same again");
     if (!settings.method->can_resume())
-        throw UsageError("--checkpoint and --resume: --method " +
-                         std::string(settings.method->name) +
-                         " does not keep its state; these do: " + resumable_methods());
+        throw UsageError(
+            "--checkpoint and --resume: --method " + std::string(settings.method->name) +
+            " does not keep its state; these do: " +
+            names_of_methods([](const Method& method) { return method.can_resume(); }));
     for (const MethodOption& option : settings.method->own_options())
         if (!option.resumable && option.is_set(settings.options))
             throw UsageError("--checkpoint and --resume: a run with " +

@@ -28,13 +28,13 @@ void limit_to_most(std::vector<double>& errors) {
 } // namespace
 
 void write_error_map(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
-        results;
-    const PictureTime time(interrupted);
-    const Camera camera = camera_of(settings.view, mesh, tracer, solution.radiosity);
+    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] = results;
+    const PictureTime time(monitor.interrupted);
+    const Camera camera =
+        camera_of(settings.view, mesh, tracer, solution.radiosity, settings.options.threads);
     std::vector<double> errors =
         patch_error_levels(mesh, tracer, solution, hash_words({settings.options.seed, 3}),
-                           Workers(settings.options.threads), interrupted);
+                           Workers(settings.options.threads), monitor.interrupted);
     if (errors.empty())
         throw Interrupted();
     limit_to_most(errors);

@@ -35,11 +35,13 @@ std::vector<std::uint32_t> patches_in(const Results& results, const Camera& came
 }
 
 /// By patch: the mean density of its hemisphere, weighted by Lambert's law [surfaces per ray].
+/// Empty when interrupted.
 std::vector<double> mean_densities(const SolveSettings& settings, const Results& results) {
-    Monitor monitor;
     const Hemisphere hemisphere(settings.options.depth);
     const DensityMap map(results.mesh, results.tracer, hemisphere, settings.options.threshold,
-                         Workers(settings.options.threads), monitor);
+                         Workers(settings.options.threads), results.monitor);
+    if (results.monitor.interrupted)
+        return {};
     std::vector<double> means;
     std::vector<DensityLeaf> leaves;
     for (std::uint32_t i = 0; i < results.mesh.patches().size(); ++i) {
@@ -67,7 +69,7 @@ Image picture_of(const Image& light, const std::vector<std::uint32_t>& patches, 
 std::vector<ExrChannel> picture_layers(const SolveSettings& settings, const Results& results,
                                        const Image& light, const Camera& camera) {
     const Solution& solution = results.solution;
-    const PictureTime time(results.interrupted);
+    const PictureTime time(results.monitor.interrupted);
     const std::vector<std::uint32_t> patches =
         patches_in(results, camera,
                    {.width = light.width,
@@ -87,12 +89,14 @@ std::vector<ExrChannel> picture_layers(const SolveSettings& settings, const Resu
                          return solution.standard_error.empty() ? Vec3(0.0)
                                                                 : solution.standard_error[i];
                      }));
-    ExrChannel density{"density", ExrChannel::Kind::number, {}};
     const std::vector<double> means = mean_densities(settings, results);
-    for (const std::uint32_t i : patches)
-        density.bits.push_back(
-            std::bit_cast<std::uint32_t>(i == no_patch ? 0.0f : static_cast<float>(means[i])));
-    channels.push_back(std::move(density));
+    if (!means.empty()) {
+        ExrChannel density{"density", ExrChannel::Kind::number, {}};
+        for (const std::uint32_t i : patches)
+            density.bits.push_back(
+                std::bit_cast<std::uint32_t>(i == no_patch ? 0.0f : static_cast<float>(means[i])));
+        channels.push_back(std::move(density));
+    }
     channels.push_back({"patch", ExrChannel::Kind::whole, patches});
     return channels;
 }

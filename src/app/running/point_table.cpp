@@ -28,13 +28,12 @@ void check_distances(const SolveSettings& settings, std::span<const NamedPoint> 
 }
 
 void write_points(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
-        results;
+    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] = results;
     std::vector<Sensor> sensors;
     for (const NamedPoint& point : points)
         sensors.push_back(
             sensor_at(mesh, tracer, mesh.frame().to_local(point.position), point.normal));
-    const PictureTime time(interrupted);
+    const PictureTime time(monitor.interrupted);
     const std::vector<PointLight> lights =
         light_at(sensors, mesh, tracer, solution,
                  {.rays = PointSettings::rays_per_gather_ray * settings.gather,

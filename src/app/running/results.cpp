@@ -52,7 +52,7 @@ class Picture {
     Picture(const SolveSettings& settings, const Results& results, SharedClasses& classes)
         : settings_(settings), view_(settings.view), from_(settings.from),
           gather_(settings.gather_pictures ? settings.gather : 0), results_(results),
-          classes_(classes), time_(results.interrupted) {}
+          classes_(classes), time_(results.monitor.interrupted) {}
 
     /// Of rendering, where the light is gathered.
     [[nodiscard]] double seconds_gather() const { return seconds_gather_; }
@@ -71,9 +71,9 @@ class Picture {
 
   private:
     [[nodiscard]] Image render() {
-        const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
+        const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] =
             results_;
-        camera_ = camera_of(view_, mesh, tracer, solution.radiosity);
+        camera_ = camera_of(view_, mesh, tracer, solution.radiosity, statistics.threads);
         if (!view_.camera)
             log_line(settings_.verbosity, Verbosity::normal,
                      "pictures are seen by " + camera_text(camera_) +
@@ -115,9 +115,10 @@ int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
     return up;
 }
 
-/// A .glb file and its lightmap.
+/// A .glb file, and its lightmap as an attempt of its own.
 void write_lightmapped(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
-                       const CornerClasses& classes, VertexLight light, int up) {
+                       const CornerClasses& classes, VertexLight light, int up,
+                       WriteReport& report) {
     const int size = *settings.lightmap;
     try {
         const std::vector<Chart> charts = find_charts(mesh, size);
@@ -132,7 +133,9 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
         write_glb(path, mesh, corners.classes, light, settings.from, up, texcoords);
         std::vector<ExrChannel> channels;
         add_exr_channels(channels, "", lightmap(charts, corners, light.of_class, size));
-        write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
+        report.attempt(lightmap_path(path), [&] {
+            write_exr(lightmap_path(path), size, size, std::move(channels), settings.from);
+        });
     } catch (const LightmapTooSmall& error) {
         throw OutputError(lightmap_path(path),
                           std::string(error.what()) + "; --lightmap asks for more");
@@ -140,7 +143,7 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
 }
 
 void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,
-                const CornerClasses& classes) {
+                const CornerClasses& classes, WriteReport& report) {
     VertexLight light{settings.bake == Bake::indirect
                           ? smooth(results.mesh, classes, indirect_light(settings, results))
                           : baked_light(results.mesh, classes, results.solution, settings.bake),
@@ -148,16 +151,15 @@ void write_mesh(const SolveSettings& settings, const Output& output, const Resul
     light.display = display_of(settings.view, results.mesh, classes, light.of_class);
     if (output.kind == OutputKind::ply)
         return write_ply(output.path, results.mesh, classes, light, settings.ply_colours);
-    const int up = up_axis(settings.view.up ? settings.view.up : up_of(settings.scene.path),
-                           results.mesh, settings.verbosity);
+    const int up = up_axis(settings.view.up, results.mesh, settings.verbosity);
     if (settings.lightmap)
-        write_lightmapped(settings, output.path, results.mesh, classes, light, up);
+        write_lightmapped(settings, output.path, results.mesh, classes, light, up, report);
     else
         write_glb(output.path, results.mesh, classes, light, settings.from, up);
 }
 
 void write_output(const SolveSettings& settings, const Output& output, const Results& results,
-                  SharedClasses& classes, Picture& picture) {
+                  SharedClasses& classes, Picture& picture, WriteReport& report) {
     const Solution& solution = results.solution;
     switch (output.kind) {
     case OutputKind::png:
@@ -166,7 +168,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
         return picture.write(output);
     case OutputKind::ply:
     case OutputKind::glb:
-        return write_mesh(settings, output, results, classes.get());
+        return write_mesh(settings, output, results, classes.get(), report);
     case OutputKind::vtu:
         return write_vtu(output.path, results.mesh, classes.get(), solution, settings.from);
     case OutputKind::csv:
@@ -179,27 +181,28 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
 }
 
 void write_report(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, interrupted] =
-        results;
-    ReportContent content{mesh,
-                          solution,
-                          statistics,
-                          steps,
-                          warnings,
-                          settings.scene.path,
-                          settings.from.command,
-                          camera_of(settings.view, mesh, tracer, solution.radiosity),
-                          settings.view.exposure};
+    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] = results;
+    ReportContent content{
+        mesh,
+        solution,
+        statistics,
+        steps,
+        warnings,
+        settings.scene.path,
+        settings.from.command,
+        camera_of(settings.view, mesh, tracer, solution.radiosity, statistics.threads),
+        settings.view.exposure};
     const bool by_densities = settings.method == &method_of(Role::paper) &&
                               guide_of(settings.options) == Guide::density && !settings.plain;
     if (!by_densities)
         return write_report_page(settings.report, content);
-    Monitor monitor; // counted anew, as the method does not keep all
+    // Counted anew, as the method does not keep all.
     const Hemisphere hemisphere(settings.options.depth);
     const double threshold = settings.options.threshold;
     const DensityMap map(mesh, tracer, hemisphere, threshold, Workers(statistics.threads), monitor);
     const ReportDensities densities{hemisphere, map, threshold};
-    content.densities = &densities;
+    if (!monitor.interrupted)
+        content.densities = &densities;
     write_report_page(settings.report, content);
 }
 
@@ -227,10 +230,9 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     std::vector<WriteReport> reports(settings.outputs.size());
     const auto write = [&](std::size_t k) {
         const Output& output = settings.outputs[k];
-        reports[k].attempt(output.path,
-                           [&] { write_output(settings, output, results, classes, picture); });
-        if (settings.lightmap && output.kind == OutputKind::glb && !reports[k].written.empty())
-            reports[k].written.push_back(lightmap_path(output.path));
+        reports[k].attempt(output.path, [&] {
+            write_output(settings, output, results, classes, picture, reports[k]);
+        });
     };
     // All pictures are one, made by all threads; meanwhile each of the tables has one. A single
     // thread writes the tables first, as a signal may end the pictures.

@@ -7,7 +7,7 @@
 #include "io/results/points.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
-#include "radiosity/solving/stop_flag.h"
+#include "radiosity/solving/solver.h"
 
 #include <span>
 #include <string>
@@ -24,7 +24,7 @@ struct Results {
     std::span<const StepRow> steps;
     std::span<const NamedPoint> points;
     std::span<const std::string> warnings; ///< of reading and of the run
-    const StopFlag& interrupted;           ///< pictures are then left out where they take long
+    Monitor& monitor; ///< once it is interrupted, densities and what takes long are left out
 };
 
 /// Whether anything that is written or said holds the statistics of the run.

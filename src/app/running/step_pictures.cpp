@@ -25,7 +25,8 @@ void StepPictures::write(std::span<const Vec3> radiosity, std::uint32_t step) {
         const std::string path = step_path(output.path, step);
         report_.attempt(path, [&] {
             if (!view_.camera)
-                view_.camera = camera_of(view_, mesh_, tracer_, radiosity);
+                view_.camera =
+                    camera_of(view_, mesh_, tracer_, radiosity, settings_.options.threads);
             if (!image)
                 image = render_view(view_, mesh_, tracer_, radiosity, *view_.camera,
                                     settings_.options.threads, time);

@@ -1,6 +1,5 @@
 #include "app/running/target_weights.h"
 
-#include "app/running/point_table.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
@@ -42,17 +41,18 @@ std::vector<double> weights_of_groups(const SolveSettings& settings, const Mesh&
     for (const std::string& name : settings.target.groups) {
         const auto found = std::ranges::find(known, name);
         if (found == known.end())
-            throw InputError(settings.scene.path, "--for: " + unknown_name("group", name, known));
+            throw UsageError("--for: " + unknown_name("group", name, known));
         groups.push_back(static_cast<std::uint32_t>(found - known.begin()));
     }
     return weights_of_groups(mesh, groups);
 }
 
 /// 1 where a point lies.
-std::vector<double> weights_of_file(const std::string& path, const Mesh& mesh,
-                                    const Tracer& tracer) {
+std::vector<double> weights_of_points(const TargetPoints& of_file, const Mesh& mesh,
+                                      const Tracer& tracer) {
+    const auto& [path, points] = of_file;
     std::vector<double> weights(mesh.patches().size());
-    for (const NamedPoint& point : read_points(path)) {
+    for (const NamedPoint& point : points) {
         const std::uint32_t patch =
             sensor_at(mesh, tracer, mesh.frame().to_local(point.position), point.normal).patch;
         if (patch == none)
@@ -70,21 +70,28 @@ void check_target(const SolveSettings& settings) {
     if (target.names().empty())
         return;
     if (!settings.method->aims)
-        throw InputError("--for",
-                         "--method " + std::string(settings.method->name) +
-                             " solves for all patches alike; these take a target: " +
-                             names_of_methods([](const Method& method) { return method.aims; }));
+        throw UsageError("--for: --method " + std::string(settings.method->name) +
+                         " solves for all patches alike; these take a target: " +
+                         names_of_methods([](const Method& method) { return method.aims; }));
     if (settings.plain)
-        throw InputError("--for", "--plain solves for all patches alike; leave one of them out");
+        throw UsageError("--for: --plain solves for all patches alike; leave one of them out");
     if (settings.options.literal)
-        throw InputError("--for", "with --literal each patch shoots as many rays as any other; "
-                                  "leave one of them out");
+        throw UsageError("--for: with --literal each patch shoots as many rays as any other; "
+                         "leave one of them out");
     if (target.camera && !settings.view.camera)
         throw UsageError("--for camera needs the view of --camera, as the program chooses one by "
                          "the light");
 }
 
-std::vector<double> target_weights(const SolveSettings& settings, const Mesh& mesh,
+std::vector<TargetPoints> points_of_target(const TargetSettings& target) {
+    std::vector<TargetPoints> points;
+    for (const std::string& path : target.points)
+        points.push_back({path, read_points(path)});
+    return points;
+}
+
+std::vector<double> target_weights(const SolveSettings& settings,
+                                   std::span<const TargetPoints> points, const Mesh& mesh,
                                    const Tracer& tracer) {
     const TargetSettings& target = settings.target;
     std::vector<double> weights;
@@ -92,8 +99,8 @@ std::vector<double> target_weights(const SolveSettings& settings, const Mesh& me
         add_weights(weights, weights_of_camera(settings, mesh, tracer));
     if (!target.groups.empty())
         add_weights(weights, weights_of_groups(settings, mesh));
-    for (const std::string& path : target.points)
-        add_weights(weights, weights_of_file(path, mesh, tracer));
+    for (const TargetPoints& of_file : points)
+        add_weights(weights, weights_of_points(of_file, mesh, tracer));
     const auto counts = [&](std::size_t i) {
         return weights[i] > 0 && mesh.material(std::uint32_t(i)).reflectance != Vec3(0.0);
     };

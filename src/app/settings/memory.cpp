@@ -61,8 +61,7 @@ double pieces(double length, double max_edge) {
 }
 
 double bytes_of(const Method& method, const SolveOptions& options, double patches) {
-    return bytes_per_solution * patches + (method.bytes ? method.bytes(options, patches) : 0) +
-           bytes_of_ray_batches;
+    return bytes_per_solution * patches + (method.bytes ? method.bytes(options, patches) : 0);
 }
 
 std::string rounded(double bytes) {
@@ -115,7 +114,7 @@ double patches_of(const Scene& scene, const MeshOptions& options) {
 }
 
 MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveOptions& options,
-                       std::span<const Method* const> methods) {
+                       std::span<const Method* const> methods, const Method* before) {
     const double patches = patches_of(scene, mesh);
     const auto facets = static_cast<double>(scene.facets.size());
     const auto vertices = static_cast<double>(scene.vertices.size());
@@ -133,13 +132,16 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
     for (const Facet& facet : scene.facets)
         need.tree += bytes_per_triangle * (facet.is_triangle() ? 1 : 2);
     for (const Method* const method : methods)
-        need.method = std::max(need.method, bytes_of(*method, options, patches));
+        need.method += bytes_of(*method, options, patches);
+    if (before)
+        need.method = std::max(need.method, bytes_of(*before, options, patches));
+    need.method += bytes_of_ray_batches;
     return need;
 }
 
-SolveOptions with_memory(SolveOptions options, const SceneSettings& scene) {
+SolveOptions with_memory(SolveOptions options, const SceneSettings& scene, std::size_t solvers) {
     const std::uint64_t usual = scene.spill.empty() ? default_transport : 0; // 0: no limit
-    options.memory = scene.memory ? *scene.memory / 2 : usual;
+    options.memory = scene.memory ? *scene.memory / 2 / solvers : usual;
     return options;
 }
 

@@ -25,7 +25,7 @@ struct MemoryNeed {
     double tree = 0;     ///< for the rays
     double pairs = 0;    ///< of facets in one plane, until they are offset
     double analysis = 0; ///< which sides face the light, what light may reach
-    double method = 0;   ///< of several, the greediest
+    double method = 0;   ///< of several, all
     double pictures = 0; ///< while they are written
     /// The list of patches grows by being copied, before there is anything else.
     [[nodiscard]] double all() const {
@@ -36,12 +36,15 @@ struct MemoryNeed {
 
 /// Patches that a division of the faces will make, at the most.
 [[nodiscard]] double patches_of(const Scene& scene, const MeshOptions& options);
+/// Of these methods side by side, after `before` has run alone.
 [[nodiscard]] MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh,
                                      const SolveOptions& options,
-                                     std::span<const Method* const> methods);
+                                     std::span<const Method* const> methods,
+                                     const Method* before = nullptr);
 
-/// The options with the part of --memory that a method may fill step by step.
-[[nodiscard]] SolveOptions with_memory(SolveOptions options, const SceneSettings& scene);
+/// The options with the part of --memory that each of so many solvers may fill step by step.
+[[nodiscard]] SolveOptions with_memory(SolveOptions options, const SceneSettings& scene,
+                                       std::size_t solvers = 1);
 
 /// Thrown for a scene that is too large; the program ends with exit code 3.
 struct MemoryError : std::runtime_error {

@@ -1,6 +1,7 @@
 #include "app/settings/method_options.h"
 
 #include "app/settings/exit_code.h"
+#include "app/settings/names.h"
 #include "app/settings/text.h"
 
 #include <algorithm>
@@ -11,11 +12,11 @@ namespace hemilux {
 
 std::string names_of_methods(const std::function<bool(const Method&)>& belongs,
                              std::string_view between) {
-    std::string names;
+    std::vector<std::string_view> names;
     for (const Method* const method : methods())
         if (belongs(*method))
-            names.append(names.empty() ? "" : between).append(method->name);
-    return names;
+            names.push_back(method->name);
+    return joined(names, between);
 }
 
 std::string methods_with_a_page() {

@@ -1,6 +1,8 @@
 #pragma once
 // Names that a user typed: which of the known ones was meant?
 
+#include <cstddef>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +17,24 @@ namespace hemilux {
 /// The known name that begins with the word, else the one with the smallest distance, if that is at
 /// most half of the word; else empty.
 [[nodiscard]] std::string nearest_name(std::string_view word, std::span<const std::string> known);
+
+/// The words with `between` between them, and `last` before the last one.
+template <class Words>
+[[nodiscard]] std::string joined(const Words& words, std::string_view between,
+                                 std::string_view last) {
+    std::string text;
+    std::size_t left = std::size(words);
+    for (const std::string_view word : words) {
+        text += word;
+        if (--left > 0)
+            text += left == 1 ? last : between;
+    }
+    return text;
+}
+template <class Words>
+[[nodiscard]] std::string joined(const Words& words, std::string_view between) {
+    return joined(words, between, between);
+}
 
 /// A list such as "a, b, c and 5 more".
 [[nodiscard]] std::string list_names(std::span<const std::string> names, std::size_t most = 8);

@@ -26,11 +26,11 @@ std::string camera_text(const Camera& camera) {
 }
 
 Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
-                 std::span<const Vec3> radiosity) {
+                 std::span<const Vec3> radiosity, unsigned threads) {
     const auto [width, height] = view.size;
     return view.camera ? *view.camera
                        : automatic_camera(mesh, tracer, radiosity,
-                                          static_cast<double>(width) / height, view.up);
+                                          static_cast<double>(width) / height, view.up, threads);
 }
 
 bool PictureTime::is_over() const {

@@ -20,7 +20,7 @@ void check_camera(const ViewSettings& view, const Mesh& mesh);
 
 /// The camera given, or one chosen for the scene.
 [[nodiscard]] Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
-                               std::span<const Vec3> radiosity);
+                               std::span<const Vec3> radiosity, unsigned threads);
 
 /// How long pictures may still take once the user asked the program to end: until two seconds
 /// after this was made, so that small ones are there. Refers to the argument.

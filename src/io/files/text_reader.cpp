@@ -7,17 +7,12 @@
 #include <algorithm>
 
 namespace hemilux {
-namespace {
-
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-
-} // namespace
 
 std::string read_text_file(const std::string& path, InputKind kind) {
     std::size_t checked = 0;
     const auto check = [&](std::string_view content) {
         if (const std::string_view other = other_format(content); !other.empty())
-            throw InputError(path, "expected OBJ or MTL text, the file is " + std::string(other));
+            throw InputError(path, "expected text, the file is " + std::string(other));
         const std::size_t nul = content.find('\0', checked);
         checked = content.size();
         if (nul == std::string_view::npos)

@@ -11,6 +11,8 @@
 
 namespace hemilux {
 
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; ///< of UTF-8
+
 /// The content of a text file without its byte order mark. Throws InputError for what is no such
 /// file: a directory, a device, UTF-16, anything with a NUL byte (where reading ends).
 [[nodiscard]] std::string read_text_file(const std::string& path, InputKind kind);

@@ -90,8 +90,11 @@ void Reader::count_triangles_of_scene() {
         std::size_t count = 0;
         const std::vector<Primitive>& primitives = document_.meshes[m].primitives;
         for (std::size_t p = 0; p < primitives.size(); ++p)
-            count = std::min(count + count_triangles(primitives[p], buffers_, place_of(m, p)),
-                             most_triangles + 1);
+            // One of points or lines takes time, too, for each node that shows it.
+            count =
+                std::min(count + std::max<std::size_t>(
+                                     count_triangles(primitives[p], buffers_, place_of(m, p)), 1),
+                         most_triangles + 1);
         of_mesh.push_back(count);
     }
     std::size_t count = 0;
@@ -101,7 +104,7 @@ void Reader::count_triangles_of_scene() {
             if (count > most_triangles)
                 fail("/nodes/" + std::to_string(instance.node) + "/mesh",
                      "expected a scene of at most " + std::to_string(most_triangles) +
-                         " triangles in all");
+                         " triangles and primitives in all");
         }
     if (guard_)
         guard_(bytes_per_triangle * static_cast<double>(count) +

@@ -61,6 +61,8 @@ std::shared_ptr<const Texture> TextureMaps::read_image(std::size_t image) {
     const ImageInfo& info = buffers_.document().images[image];
     const std::string place = "/images/" + std::to_string(image);
     const std::string key = buffers_.path() + ": " + place;
+    if (const auto texture = files_.known(key))
+        return *texture;
     if (info.view)
         return files_.decode(buffers_.view(*info.view), key);
     if (is_data_uri(info.uri)) {

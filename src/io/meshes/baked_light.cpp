@@ -1,5 +1,6 @@
 #include "io/meshes/baked_light.h"
 
+#include "geometry/vector_ratio.h"
 #include "io/pictures/image.h"
 #include "radiosity/scene/mesh.h"
 
@@ -22,11 +23,7 @@ Vec3 mean_of_corners(const Polygon& shape, const std::array<std::uint32_t, 4>& c
 } // namespace
 
 Vec3 irradiance_of(const Material& material, const Vec3& radiosity) {
-    Vec3 result(0.0);
-    for (int channel = 0; channel < 3; ++channel)
-        if (const double rho = material.reflectance[channel]; rho > 0)
-            result[channel] = (radiosity[channel] - material.emission[channel]) / rho;
-    return result;
+    return ratio_or_zero(radiosity - material.emission, material.reflectance);
 }
 
 std::vector<Vec3> baked_light(const Mesh& mesh, const CornerClasses& classes,

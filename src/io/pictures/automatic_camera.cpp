@@ -185,12 +185,12 @@ int guess_up(const Mesh& mesh) {
 }
 
 Camera automatic_camera(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
-                        double aspect, std::optional<int> up) {
+                        double aspect, std::optional<int> up, unsigned threads) {
     const Box box = box_of(mesh);
     std::vector<Camera> cameras = candidates(box, up ? *up : guess_up(mesh), aspect);
     std::vector<Rating> ratings(cameras.size());
     const std::vector<bool> lit = lit_patches(mesh, radiosity);
-    Workers(0).for_chunks(cameras.size(), 8, [&](std::size_t begin, std::size_t end) {
+    Workers(threads).for_chunks(cameras.size(), 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             cameras[i].eye = mesh.frame().to_world(cameras[i].eye);
             cameras[i].target = mesh.frame().to_world(cameras[i].target);

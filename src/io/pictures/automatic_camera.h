@@ -15,6 +15,6 @@ namespace hemilux {
 /// arguments give the same camera. `up`: the axis that is upwards; empty: guess_up().
 [[nodiscard]] Camera automatic_camera(const Mesh& mesh, const Tracer& tracer,
                                       std::span<const Vec3> radiosity, double aspect = 4.0 / 3.0,
-                                      std::optional<int> up = {});
+                                      std::optional<int> up = {}, unsigned threads = 0);
 
 } // namespace hemilux

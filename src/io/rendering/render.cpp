@@ -1,5 +1,6 @@
 #include "io/rendering/render.h"
 
+#include "geometry/vector_ratio.h"
 #include "io/files/error.h"
 #include "io/rendering/gathered_picture.h"
 #include "io/rendering/picture_gather.h"
@@ -29,14 +30,6 @@ std::vector<Vec2> pixel_samples(int count) {
         places.emplace_back((i + 0.5) / count, reversed);
     }
     return places;
-}
-
-/// Per channel; 0 for a divisor of 0, where nothing is reflected.
-Vec3 quotient(const Vec3& a, const Vec3& b) {
-    Vec3 q(0.0);
-    for (int c = 0; c < 3; ++c)
-        q[c] = b[c] > 0 ? a[c] / b[c] : 0;
-    return q;
 }
 
 /// Radiosity at a point of a patch. Where textures show, what is interpolated over their patches is
@@ -87,10 +80,11 @@ class Shading {
             if (!mesh_.scene().textures.on(mesh_.patches()[i].material))
                 continue;
             const Material& material = mesh_.material(i);
-            irradiance_[i] = quotient(irradiance_[i] - material.emission, material.reflectance);
+            irradiance_[i] =
+                ratio_or_zero(irradiance_[i] - material.emission, material.reflectance);
             if (!slopes.empty())
-                slopes[i] = {quotient(slopes[i].x, material.reflectance),
-                             quotient(slopes[i].y, material.reflectance)};
+                slopes[i] = {ratio_or_zero(slopes[i].x, material.reflectance),
+                             ratio_or_zero(slopes[i].y, material.reflectance)};
         }
         radiosity_ = irradiance_;
     }

@@ -185,14 +185,16 @@ Hit VisibleFacets::hit_at(std::uint32_t half, const Vec3& direction) const {
     Corners corner{};
     (void)corners_of(half, corner);
     const Vec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-    const double along = glm::dot(normal, direction);
-    const Vec3 point = glm::dot(normal, corner[0]) / along * direction;
+    // Its sign says for all samples alike which side faces the eye, as in rows_of().
+    const double volume_seen = volume(corner);
+    const double distance = volume_seen / glm::dot(normal, direction);
+    const Vec3 point = distance * direction;
     const double square = glm::dot(normal, normal);
     const double u =
         glm::dot(normal, glm::cross(point - corner[0], corner[2] - corner[0])) / square;
     const double v =
         glm::dot(normal, glm::cross(corner[1] - corner[0], point - corner[0])) / square;
-    return {half / 2, glm::dot(normal, corner[0]) / along, u, v, half % 2 == 1, along < 0};
+    return {half / 2, distance, u, v, half % 2 == 1, volume_seen < 0};
 }
 
 } // namespace hemilux

@@ -1,6 +1,7 @@
 #include "io/results/csv.h"
 
 #include "io/files/error.h"
+#include "io/files/text_reader.h"
 
 #include <algorithm>
 #include <charconv>
@@ -53,8 +54,7 @@ void append_text(std::string& line, std::string_view name) {
 }
 
 Reader::Reader(const std::string& file, std::string_view content) : file_(file), left_(content) {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (left_.substr(0, byte_order_mark.size()) == byte_order_mark)
+    if (left_.starts_with(byte_order_mark))
         left_.remove_prefix(byte_order_mark.size());
 }
 

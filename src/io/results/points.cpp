@@ -1,5 +1,6 @@
 #include "io/results/points.h"
 
+#include "geometry/direction.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/text_reader.h"
@@ -59,10 +60,9 @@ NamedPoint point_from(const std::string& path, std::size_t line, std::string_vie
         refuse("then " + found_instead(row));
     const auto& [x, y, z, nx, ny, nz] = numbers;
     const Vec3 normal(nx, ny, nz);
-    const double largest = std::max({std::abs(nx), std::abs(ny), std::abs(nz)});
-    if (!(largest > 0))
+    if (normal == Vec3(0.0))
         throw InputError(path, line, "expected a normal nx,ny,nz that is not 0,0,0");
-    return {{x, y, z}, normal, glm::normalize(normal / largest), line};
+    return {{x, y, z}, normal, direction_of(normal), line};
 }
 
 } // namespace

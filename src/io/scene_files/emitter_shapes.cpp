@@ -1,5 +1,6 @@
 #include "io/scene_files/emitter_shapes.h"
 
+#include "geometry/direction.h"
 #include "geometry/frame.h"
 
 #include <algorithm>
@@ -95,7 +96,7 @@ Box bounds_of(const Scene& scene) {
 
 void add_sun(Scene& scene, const std::string& name, const Box& within, const Vec3& direction,
              const Vec3& irradiance) {
-    const Vec3 along = glm::normalize(direction);
+    const Vec3 along = direction_of(direction);
     const double distance = to_sun * size_of(within);
     const EmitterShape shape =
         disc(within.centre() - distance * along, along, distance * sun_radius);

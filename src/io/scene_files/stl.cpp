@@ -6,6 +6,7 @@
 #include "io/files/text_words.h"
 #include "io/polygons/polygon_division.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -16,9 +17,20 @@ namespace {
 
 constexpr std::size_t header = 80, count_bytes = 4, record = 50;
 
+std::string small_letters(std::string_view word) {
+    std::string small(word);
+    for (char& c : small)
+        if (c >= 'A' && c <= 'Z')
+            c = static_cast<char>(c - 'A' + 'a');
+    return small;
+}
+
 /// Many binary files begin with "solid" too: their length decides, and a text has no zero byte.
 bool is_binary(std::string_view content) {
-    return !content.starts_with("solid") || content.find('\0') != std::string_view::npos ||
+    constexpr std::string_view first_word = "solid";
+    const std::size_t begin = std::min(content.find_first_not_of(" \t\r\n"), content.size());
+    return small_letters(content.substr(begin, first_word.size())) != first_word ||
+           content.find('\0') != std::string_view::npos ||
            (content.size() >= header + count_bytes &&
             content.size() == header + count_bytes + record * word_at(content, header));
 }
@@ -63,6 +75,8 @@ ReadResult StlReader::read() {
         if (guard_)
             guard_(bytes_per_byte * static_cast<double>(read.size()));
     });
+    if (content.starts_with(byte_order_mark))
+        content.erase(0, byte_order_mark.size());
     result_.scene.materials.emplace_back().name = "default";
     result_.material_source.emplace_back();
     if (is_binary(content))
@@ -118,16 +132,17 @@ void StlReader::read_text(std::string content) {
 }
 
 void StlReader::read_statement(const Statement& statement) {
-    if (statement.keyword == "vertex") {
+    const std::string keyword = small_letters(statement.keyword);
+    if (keyword == "vertex") {
         read_corner(statement);
-    } else if (statement.keyword == "endfacet") {
+    } else if (keyword == "endfacet") {
         end_facet(statement);
-    } else if (statement.keyword == "solid") {
+    } else if (keyword == "solid") {
         const std::string name(name_in(statement.rest));
         group_ = static_cast<std::uint32_t>(result_.scene.groups.size());
         result_.scene.groups.push_back(name.empty() ? "default" : name);
-    } else if (statement.keyword != "facet" && statement.keyword != "outer" &&
-               statement.keyword != "endloop" && statement.keyword != "endsolid") {
+    } else if (keyword != "facet" && keyword != "outer" && keyword != "endloop" &&
+               keyword != "endsolid") {
         throw InputError(path_, statement.line,
                          "expected solid, facet, outer, vertex, endloop, endfacet or endsolid, " +
                              found_instead(statement.keyword));

@@ -43,9 +43,13 @@ std::size_t check_tables(std::string_view bytes, std::size_t at, std::ptrdiff_t 
     return at;
 }
 
+/// Ten are usual. stb_image walks through all blocks of the size claimed for each.
+constexpr unsigned most_scans = 100;
+
 /// From marker to marker as stb_image goes: what stands between them is data.
-void check_huffman_tables(std::string_view bytes, const std::string& place) {
-    constexpr unsigned define_huffman_table = 0xc4, first_restart = 0xd0, start = 0xd8;
+void check_segments(std::string_view bytes, const std::string& place) {
+    constexpr unsigned define_huffman_table = 0xc4, first_restart = 0xd0, start = 0xd8, scan = 0xda;
+    unsigned scans = 0;
     for (std::size_t at = jpeg_signature.size(); at < bytes.size();) {
         at = std::min(bytes.find('\xff', at), bytes.size());
         while (byte_at(bytes, at) == 0xff)
@@ -53,6 +57,9 @@ void check_huffman_tables(std::string_view bytes, const std::string& place) {
         const unsigned marker = byte_at(bytes, at++);
         if (marker <= 1 || (marker >= first_restart && marker <= start))
             continue; // has no length
+        if (marker == scan && ++scans > most_scans)
+            throw InputError(place, "expected a whole PNG or JPEG picture: it has more than " +
+                                        std::to_string(most_scans) + " scans");
         const std::size_t length = byte_at(bytes, at) << 8 | byte_at(bytes, at + 1);
         if (marker == define_huffman_table)
             at = check_tables(bytes, at + 2, static_cast<std::ptrdiff_t>(length) - 2, place);
@@ -67,7 +74,7 @@ void check_picture(std::string_view bytes, const std::string& place) {
     if (bytes.starts_with(png_signature))
         check_chunks(bytes, place);
     else if (bytes.starts_with(jpeg_signature))
-        check_huffman_tables(bytes, place);
+        check_segments(bytes, place);
 }
 
 } // namespace hemilux

@@ -8,7 +8,8 @@ namespace hemilux {
 
 /// Throws InputError, in the name of `place`, for a PNG file with a chunk longer than the file, for
 /// which stb_image would reserve memory; and for a JPEG file with a Huffman table of more than 256
-/// codes, which it would write beyond its own table.
+/// codes, which it would write beyond its own table, or with very many scans, each of which takes
+/// as long as the claimed size.
 void check_picture(std::string_view bytes, const std::string& place);
 
 inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n", jpeg_signature = "\xff\xd8";

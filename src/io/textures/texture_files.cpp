@@ -98,8 +98,6 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
 
 std::shared_ptr<const Texture> TextureFiles::decode(std::string_view bytes,
                                                     const std::string& key) {
-    if (const auto found = known_.find(key); found != known_.end())
-        return found->second;
     if (!is_picture_file(bytes))
         return known_[key] = nullptr;
     if (guard_)
@@ -110,8 +108,8 @@ std::shared_ptr<const Texture> TextureFiles::decode(std::string_view bytes,
 }
 
 std::shared_ptr<const Texture> TextureFiles::read(const std::string& path) {
-    if (const auto found = known_.find(path); found != known_.end())
-        return found->second;
+    if (const auto texture = known(path))
+        return *texture;
     if (!is_input(path, InputKind::regular))
         return known_[path] = nullptr;
     return decode(read_input(path, InputKind::regular), path);

@@ -68,7 +68,7 @@ std::vector<Vec3> LocalFrame::to_local(std::span<const Vec3> world) const {
 }
 
 Mesh::Mesh(Scene scene, const MeshOptions& options)
-    : scene_(std::move(scene)), two_sided_(options.two_sided) {
+    : scene_(std::move(scene)), two_sided_(options.two_sided), threads_(options.threads) {
     if (scene_.facets.empty())
         throw std::invalid_argument("the scene has no face with an area");
     frame_ = LocalFrame::of(scene_);
@@ -94,7 +94,7 @@ void Mesh::find_colours() {
         }
     const std::size_t first = colours_.size();
     colours_.resize(first + textured.size());
-    Workers(0).for_chunks(textured.size(), 256, [&](std::size_t begin, std::size_t end) {
+    Workers(threads_).for_chunks(textured.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const Patch& patch = patches_[textured[k]];
             const Colours mean = mean_colours(

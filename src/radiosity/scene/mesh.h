@@ -26,6 +26,8 @@ struct MeshOptions {
     bool two_sided = false;
     /// More patches than this are refused before they are made.
     std::size_t max_patches = 50'000'000;
+    /// That find the colours of textured patches; 0: one per core.
+    unsigned threads = 0;
 };
 
 /// A piece of a facet with constant radiosity, in the local frame: lengths and areas are in local
@@ -149,6 +151,7 @@ class Mesh {
     std::vector<std::uint32_t>
         only_patch_; ///< of a facet, none if divided: all that most hits need
     bool two_sided_ = false;
+    unsigned threads_ = 0;
 };
 
 } // namespace hemilux

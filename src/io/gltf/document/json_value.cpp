@@ -62,14 +62,6 @@ std::vector<JsonValue> JsonValue::elements() const {
     return values;
 }
 
-void JsonValue::for_each(
-    const std::function<void(const std::string&, const JsonValue&)>& visit) const {
-    if (!node_->is_object())
-        fail_kind("an object");
-    for (auto member = node_->begin(); member != node_->end(); ++member)
-        visit(member.key(), child(member.value(), member.key()));
-}
-
 std::string JsonValue::text() const {
     if (!node_->is_string())
         fail_kind("a text");

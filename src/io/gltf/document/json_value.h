@@ -6,7 +6,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,7 +24,6 @@ class JsonValue {
     JsonValue(const nlohmann::json& node, const std::string& file, std::string path)
         : node_(&node), file_(&file), path_(std::move(path)) {}
 
-    [[nodiscard]] const std::string& path() const { return path_; }
     /// Throws the error of this value.
     [[noreturn]] void fail(const std::string& message) const;
 
@@ -34,8 +32,6 @@ class JsonValue {
     [[nodiscard]] JsonValue at(std::string_view key) const;
     /// The elements of an array.
     [[nodiscard]] std::vector<JsonValue> elements() const;
-    /// Calls visit(key, value) for the members of an object, in the order of their keys.
-    void for_each(const std::function<void(const std::string&, const JsonValue&)>& visit) const;
 
     [[nodiscard]] std::string text() const;
     [[nodiscard]] bool flag() const;
