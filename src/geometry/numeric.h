@@ -1,6 +1,8 @@
 #pragma once
 // Small numerical helpers with a name for each hazard they avoid.
 
+#include "geometry/vector.h"
+
 #include <cmath>
 
 namespace hemilux {
@@ -14,6 +16,12 @@ namespace hemilux {
     const double cd = c * d;
     const double error = std::fma(-c, d, cd);
     return std::fma(a, b, -cd) + error;
+}
+
+/// The unit vector along a vector of any length above 0: the squares of very long and very short
+/// ones are beyond the numbers that there are.
+[[nodiscard]] inline Vec3 direction_of(const Vec3& v) {
+    return glm::normalize(v / std::abs(v[largest_axis(v)]));
 }
 
 } // namespace hemilux

@@ -263,8 +263,6 @@ TEST_CASE("what contradicts a checkpoint is wrong usage") {
     check_usage("--method matrix --checkpoint c", "these do: hemisphere, hemisphere-1997, ");
     check_usage("--method matrix --resume c", "monte-carlo");
     check_usage("--every-step --resume c", "--camera and --exposure");
-    check_usage("--divide auto --checkpoint c", "not the patches that --divide auto makes");
-    check_usage("--divide auto --resume c", "not the patches that --divide auto makes");
     CHECK(place.hemilux("solve room.obj -o a.png --checkpoint no/where").code == 3);
 }
 

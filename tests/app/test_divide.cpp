@@ -146,6 +146,12 @@ TEST_CASE("a run that divides patches can be resumed to the same bytes", "[slow]
     REQUIRE(place.hemilux(command + "--steps 3 -q -o half.csv --checkpoint saved").code == 0);
     REQUIRE(place.hemilux(command + "--steps 6 -q -o resumed.csv --resume saved").code == 0);
     CHECK(place.read("whole.csv") == place.read("resumed.csv"));
+    // The default method divides by its own steps, so that all options must be the same.
+    const std::string same = "solve room.obj --rays 20 --divide auto --error .03 -q ";
+    REQUIRE(place.hemilux(same + "-o whole.csv --checkpoint saved --steps-log 1.csv").code == 0);
+    REQUIRE(place.hemilux(same + "-o resumed.csv --resume saved --steps-log 2.csv").code == 0);
+    CHECK(place.read("whole.csv") == place.read("resumed.csv"));
+    CHECK(place.read("1.csv") == place.read("2.csv"));
 }
 
 TEST_CASE("a plain solve divides, but for runs that are about patches or single steps", "[slow]") {

@@ -147,10 +147,8 @@ void add_error_map_option(Command command, SolveSettings& settings) {
 }
 
 void add_checkpoint_options(Command command, CheckpointSettings& checkpoint) {
-    command.add_text(
-        "--checkpoint", "FILE", checkpoint.path,
-        "keep what was computed in a file, after steps and at the end; not with --divide "
-        "auto");
+    command.add_text("--checkpoint", "FILE", checkpoint.path,
+                     "keep what was computed in a file, after steps and at the end");
     add_seconds(command, "--every", checkpoint.every, non_negative,
                 "of the time between two checkpoints; 0: after each step [60]");
     command.add_text(

@@ -207,7 +207,8 @@ void SolveRun::take_steps() {
     Progress progress(monitor_, share_of(stop, *settings_.method),
                       settings_.verbosity != Verbosity::quiet && stderr_is_terminal());
     const Stopwatch solving;
-    solver_ = divided_.begun ? std::move(divided_.begun) : begin();
+    const bool is_begun = divided_.begun && !resumed_;
+    solver_ = is_begun ? std::move(divided_.begun) : begin();
     log_rays_of_step(settings_.verbosity, settings_.options.rays, options_.rays);
     Before before = divided_.before();
     before.seconds += statistics_.seconds_divide; // a time limit is of both
@@ -236,12 +237,13 @@ void SolveRun::take_steps() {
         show_last_row(solution);
         checkpointer.step_done(rows_, record.seconds);
     };
-    for (StepRecord record : divided_.steps) {
-        record.seconds += statistics_.seconds_divide;
-        add_row(record);
-    }
-    if (!divided_.steps.empty())
+    if (is_begun && !divided_.steps.empty()) {
+        for (StepRecord record : divided_.steps) {
+            record.seconds += statistics_.seconds_divide;
+            add_row(record);
+        }
         show_last_row(solver_->solution());
+    }
     try {
         completed_ = run(*solver_, *input_, stop, after_step, before);
     } catch (const SolveError& error) {

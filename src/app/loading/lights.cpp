@@ -1,6 +1,6 @@
 #include "app/loading/lights.h"
 
-#include "geometry/direction.h"
+#include "geometry/numeric.h"
 #include "io/scene_files/emitter_shapes.h"
 
 #include <algorithm>

@@ -74,9 +74,6 @@ void check_checkpoint_options(const SolveSettings& settings) {
         throw UsageError("--every says how often the file of --checkpoint is written; add it");
     if (asked.path.empty() && asked.resumed.empty())
         return;
-    if (settings.divide == Divide::automatic)
-        throw UsageError("--checkpoint and --resume keep the light, not the patches that --divide "
-                         "auto makes; --divide LENGTH makes the same again");
     if (!settings.method->can_resume())
         throw UsageError(
             "--checkpoint and --resume: --method " + std::string(settings.method->name) +

@@ -1,6 +1,6 @@
 #include "io/results/points.h"
 
-#include "geometry/direction.h"
+#include "geometry/numeric.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/text_reader.h"

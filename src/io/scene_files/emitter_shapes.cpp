@@ -1,7 +1,7 @@
 #include "io/scene_files/emitter_shapes.h"
 
-#include "geometry/direction.h"
 #include "geometry/frame.h"
+#include "geometry/numeric.h"
 
 #include <algorithm>
 #include <cmath>
