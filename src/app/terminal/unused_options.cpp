@@ -11,10 +11,7 @@ namespace {
 
 bool keeps_hemispheres(const Method& method) { return &method == &method_of(Role::paper); }
 
-/// Their triangles alone suffice for `stratified`.
-bool divides_hemispheres(const Method& method) {
-    return keeps_hemispheres(method) || method.name == "stratified";
-}
+bool takes_depth(const Method& method) { return method.has_depth; }
 
 bool takes_literal(const Method& method) { return method.has_literal; }
 
@@ -26,7 +23,7 @@ std::vector<OptionUse> uses_of_methods(std::span<const Method* const> chosen, bo
             other || std::ranges::any_of(chosen, [&](const Method* one) { return takes(*one); }),
             "--method " + names_of_methods(takes, " or ")};
     };
-    return {use("--literal", takes_literal, false), use("--depth", divides_hemispheres, layers),
+    return {use("--literal", takes_literal, false), use("--depth", takes_depth, layers),
             use("--threshold", keeps_hemispheres, layers)};
 }
 

@@ -44,6 +44,7 @@ struct Method {
     std::string_view name;    ///< of --method
     std::string_view summary; ///< one line for --help, with the source
     bool has_literal = false; ///< --literal changes it
+    bool has_depth = false;   ///< --depth changes it
     bool unbiased;            ///< each step, in its corrected form; else consistent
     StopRule default_stop;    ///< where the user gives none
     std::unique_ptr<Solver> (*make)(const SolverInput&);

@@ -192,6 +192,7 @@ const Method hemisphere_method{
     .name = "hemisphere",
     .summary = "hemisphere subdivision guided by densities (Plemenos and Jolivet 1998; paper 5)",
     .has_literal = true,
+    .has_depth = true,
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_hemisphere, rules>,

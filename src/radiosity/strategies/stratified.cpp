@@ -36,6 +36,7 @@ extern const Method stratified_method;
 const Method stratified_method{
     .name = "stratified",
     .summary = "the same spherical triangles without densities (the control)",
+    .has_depth = true,
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = shoot_with<make_stratified>,
