@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -174,5 +176,27 @@ TEST_CASE("includes go one way, from room to room") {
     for (const auto& [folder, files] : files_in) {
         CAPTURE(folder);
         CHECK(files <= 24); // a reader can take in so many
+    }
+}
+
+TEST_CASE("no two headers define types of one name: the linker would take one for the other") {
+    const std::regex definition(
+        "(?:struct|class) (?:alignas\\(\\w+\\) )?(\\w+)(?: final)?(?: : .*)? \\{.*");
+    std::map<std::string, std::set<std::string>> headers_of;
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(fs::path(HEMILUX_SOURCE_DIR) / "src")) {
+        if (entry.path().extension() != ".h")
+            continue;
+        std::ifstream stream(entry.path());
+        std::smatch match;
+        for (std::string line; std::getline(stream, line);)
+            if (std::regex_match(line, match,
+                                 definition)) // of the namespace, as others are indented
+                headers_of[match[1]].insert(entry.path().string());
+    }
+    CHECK(headers_of.size() > 100);
+    for (const auto& [type, headers] : headers_of) {
+        CAPTURE(type, headers);
+        CHECK(headers.size() == 1);
     }
 }

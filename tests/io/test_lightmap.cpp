@@ -70,16 +70,16 @@ double relative_gap(const Vec3& a, const Vec3& b) {
 
 TEST_CASE("each wall of a room is one chart, and charts lie apart") {
     const Mesh mesh(box_room({0, 0, 0}, {3, 2, 5}, 4, {{"a", Vec3(0.5), Vec3(1)}}, {}));
-    const std::vector<Chart> charts = find_charts(mesh, 256);
+    const std::vector<LightmapChart> charts = find_charts(mesh, 256);
     CHECK(charts.size() == 6);
-    for (const Chart& a : charts) {
+    for (const LightmapChart& a : charts) {
         CHECK(a.column >= gutter);
         CHECK(a.row >= gutter);
         CHECK(a.column + a.columns + gutter <= 256);
         CHECK(a.row + a.rows + gutter <= 256);
         const Vec2 extent = a.high - a.low; // texels are squares, but for rounding
         CHECK((a.columns - 1) / extent.x == Approx((a.rows - 1) / extent.y).epsilon(0.05));
-        for (const Chart& b : charts)
+        for (const LightmapChart& b : charts)
             if (&a != &b)
                 CHECK((a.column + a.columns + 2 * gutter <= b.column ||
                        b.column + b.columns + 2 * gutter <= a.column ||
@@ -105,7 +105,7 @@ TEST_CASE(
     for (const double max_edge : {0.0, 0.06}) { // a chart has one patch, or many
         const Mesh mesh(sphere(2, 1, 0.5, 1), {.max_edge = max_edge});
         const CornerClasses classes = find_corner_classes(mesh);
-        const std::vector<Chart> charts = find_charts(mesh, 1024);
+        const std::vector<LightmapChart> charts = find_charts(mesh, 1024);
         const ChartCorners corners = divide_by_charts(mesh, classes, charts);
         const std::vector<Vec3> light = light_of(corners);
         const Image picture = lightmap(charts, corners, light, 1024);
@@ -126,7 +126,7 @@ TEST_CASE(
 
 TEST_CASE("the edges of a rectangle are exact in a lightmap") {
     const Mesh mesh(box_room({0, 0, 0}, {3, 2, 5}, 4, {{"a", Vec3(0.5), Vec3(1)}}, {}));
-    const std::vector<Chart> charts = find_charts(mesh, 128);
+    const std::vector<LightmapChart> charts = find_charts(mesh, 128);
     const ChartCorners corners = divide_by_charts(mesh, find_corner_classes(mesh), charts);
     std::vector<Vec3> light;
     for (const Vec3& p : corners.classes.position)

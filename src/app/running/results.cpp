@@ -121,7 +121,7 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
                        WriteReport& report) {
     const int size = *settings.lightmap;
     try {
-        const std::vector<Chart> charts = find_charts(mesh, size);
+        const std::vector<LightmapChart> charts = find_charts(mesh, size);
         const ChartCorners corners = divide_by_charts(mesh, classes, charts);
         std::vector<Vec3> of_class;
         std::vector<Vec2> texcoords;

@@ -71,7 +71,7 @@ Vec3 longest_edge(const Mesh& mesh, std::span<const std::uint32_t> patches) {
 }
 
 /// Chooses axes along which the chart is at least as wide as high.
-void measure(Chart& chart, const Mesh& mesh) {
+void measure(LightmapChart& chart, const Mesh& mesh) {
     const Vec3 normal = mesh.patches()[chart.patches.front()].normal;
     const Vec3 edge = longest_edge(mesh, chart.patches);
     chart.along = glm::normalize(edge - glm::dot(edge, normal) * normal);
@@ -93,13 +93,13 @@ void measure(Chart& chart, const Mesh& mesh) {
 
 /// Rows of charts, the highest first, with `density` texels per length. False where they do not fit
 /// into the square.
-bool pack(std::vector<Chart>& charts, double density, int size) {
+bool pack(std::vector<LightmapChart>& charts, double density, int size) {
     std::vector<std::size_t> order(charts.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto texels = [&](double extent) {
         return std::max(2, static_cast<int>(std::min(extent * density, 1e6)) + 1);
     };
-    for (Chart& chart : charts) {
+    for (LightmapChart& chart : charts) {
         chart.columns = texels(chart.high.x - chart.low.x);
         chart.rows = texels(chart.high.y - chart.low.y);
     }
@@ -109,7 +109,7 @@ bool pack(std::vector<Chart>& charts, double density, int size) {
     });
     int column = 0, row = 0, height = 0;
     for (const std::size_t k : order) {
-        Chart& chart = charts[k];
+        LightmapChart& chart = charts[k];
         if (column + chart.columns + 2 * gutter > size) {
             column = 0;
             row += height;
@@ -127,7 +127,7 @@ bool pack(std::vector<Chart>& charts, double density, int size) {
 
 } // namespace
 
-Vec2 Chart::place(const Vec3& point) const {
+Vec2 LightmapChart::place(const Vec3& point) const {
     const auto coordinate = [](double x, double from, double to, int texels) {
         return to > from ? (x - from) / (to - from) * (texels - 1) : 0;
     };
@@ -135,10 +135,10 @@ Vec2 Chart::place(const Vec3& point) const {
             row + 0.5 + coordinate(glm::dot(point, across), low.y, high.y, rows)};
 }
 
-std::vector<Chart> find_charts(const Mesh& mesh, int size) {
+std::vector<LightmapChart> find_charts(const Mesh& mesh, int size) {
     const std::vector<std::uint32_t> group = plane_groups(mesh);
     std::map<std::pair<std::uint32_t, bool>, std::size_t> number; // of a group's side
-    std::vector<Chart> charts;
+    std::vector<LightmapChart> charts;
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
         const Patch& patch = mesh.patches()[i];
         if (mesh.material(patch).is_far)
@@ -150,7 +150,7 @@ std::vector<Chart> find_charts(const Mesh& mesh, int size) {
         charts[at->second].patches.push_back(i);
     }
     double longest = 0;
-    for (Chart& chart : charts) {
+    for (LightmapChart& chart : charts) {
         measure(chart, mesh);
         longest = std::max(longest, chart.high.x - chart.low.x);
     }
@@ -168,7 +168,7 @@ std::vector<Chart> find_charts(const Mesh& mesh, int size) {
 }
 
 ChartCorners divide_by_charts(const Mesh& mesh, const CornerClasses& classes,
-                              const std::vector<Chart>& charts) {
+                              const std::vector<LightmapChart>& charts) {
     struct Last {
         std::uint32_t chart = none, number = 0; ///< in which a class was met last, as which
     };

@@ -16,7 +16,7 @@ class Mesh;
 inline constexpr int gutter = 2;
 
 /// One side of facets in one plane that meet at edges and have one material.
-struct Chart {
+struct LightmapChart {
     Vec3 along, across;        ///< unit, in the plane, local frame
     Vec2 low{0.0}, high{0.0};  ///< extent along both, local frame
     int column = 0, row = 0;   ///< of the texel in whose middle `low` lies
@@ -36,15 +36,15 @@ struct LightmapTooSmall : std::runtime_error {
 /// Charts of all patches but suns and skies, in a square of `size` texels: a texel is as large on
 /// every surface as that allows, but a chart has 2 x 2 at least. The edges of a rectangle lie in
 /// the middles of texels, so interpolation is exact there. Throws LightmapTooSmall.
-[[nodiscard]] std::vector<Chart> find_charts(const Mesh& mesh, int size);
+[[nodiscard]] std::vector<LightmapChart> find_charts(const Mesh& mesh, int size);
 
 /// Classes of corners, divided where charts meet.
 struct ChartCorners {
     CornerClasses classes;
     std::vector<std::uint32_t> class_of; ///< before the division
-    std::vector<Vec2> place;             ///< Chart::place()
+    std::vector<Vec2> place;             ///< LightmapChart::place()
 };
 [[nodiscard]] ChartCorners divide_by_charts(const Mesh& mesh, const CornerClasses& classes,
-                                            const std::vector<Chart>& charts);
+                                            const std::vector<LightmapChart>& charts);
 
 } // namespace hemilux

@@ -49,7 +49,7 @@ class Painter {
 
     /// Paints the texels of the chart that are at most the gutter away from the triangle, and not
     /// nearer to another one.
-    void paint(const Chart& chart, const std::array<Corner, 3>& triangle) {
+    void paint(const LightmapChart& chart, const std::array<Corner, 3>& triangle) {
         const auto& [a, b, c] = triangle;
         const Vec2 low = glm::min(a.place, glm::min(b.place, c.place)) - double(gutter);
         const Vec2 high = glm::max(a.place, glm::max(b.place, c.place)) + double(gutter);
@@ -81,10 +81,10 @@ class Painter {
 
 } // namespace
 
-Image lightmap(const std::vector<Chart>& charts, const ChartCorners& corners,
+Image lightmap(const std::vector<LightmapChart>& charts, const ChartCorners& corners,
                std::span<const Vec3> light, int size) {
     Painter painter(size);
-    for (const Chart& chart : charts)
+    for (const LightmapChart& chart : charts)
         for (const std::uint32_t i : chart.patches) {
             const auto corner = [&](std::uint32_t k) { return Corner{corners.place[k], light[k]}; };
             for_each_triangle(corners.classes, i,
