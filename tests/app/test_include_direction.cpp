@@ -189,10 +189,12 @@ TEST_CASE("no two headers define types of one name: the linker would take one fo
             continue;
         std::ifstream stream(entry.path());
         std::smatch match;
+        std::string inside;
         for (std::string line; std::getline(stream, line);)
-            if (std::regex_match(line, match,
-                                 definition)) // of the namespace, as others are indented
-                headers_of[match[1]].insert(entry.path().string());
+            if (line.starts_with("namespace "))
+                inside = line;
+            else if (std::regex_match(line, match, definition)) // others are indented
+                headers_of[inside + match[1].str()].insert(entry.path().string());
     }
     CHECK(headers_of.size() > 100);
     for (const auto& [type, headers] : headers_of) {
