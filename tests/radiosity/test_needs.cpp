@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 using namespace hemilux;
 using test::Model;
@@ -161,7 +160,6 @@ TEST_CASE("In a convex enclosure all densities are 1 and nothing hides a patch")
                 const std::array<double, 4> u{rng.uniform(), rng.uniform(), rng.uniform(),
                                               rng.uniform()};
                 std::uint64_t rays = 0, none_traced = 0;
-                constexpr double everywhere = std::numeric_limits<double>::infinity();
                 const PairLook look(model.mesh, model.bvh, i, j, everywhere);
                 const PairLook blind(model.mesh, model.bvh, i, j, everywhere, false);
                 const double seen = look.factor(u, rays);

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 namespace hemilux {
@@ -79,7 +78,6 @@ class Views {
 
     /// Mean share of the view that a side fills if nothing stands between.
     [[nodiscard]] double share_of(const Patch& side) const {
-        constexpr double everywhere = std::numeric_limits<double>::infinity();
         const PolygonSampler target(side.shape);
         double sum = 0;
         Ray ray{};

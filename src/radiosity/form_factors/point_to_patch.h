@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace hemilux {
 
@@ -30,8 +31,9 @@ struct Patch;
                                const Patch& target, const PolygonSampler& targets, Vec2 u,
                                double near, Ray& ray);
 
-/// An emitter is near to points within so many of its radii, from its centre.
+/// How near is near: within so many radii of the target, from its centre; or from anywhere.
 inline constexpr double near_radii = 4;
+inline constexpr double everywhere = std::numeric_limits<double>::infinity();
 
 /// A patch that looks to another one; each look is one ray at most.
 class PairLook {

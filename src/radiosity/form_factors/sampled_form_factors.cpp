@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace hemilux {
 namespace {
@@ -71,7 +70,6 @@ std::uint64_t SampledFormFactors::trace_emitters(std::uint32_t patch, std::uint3
     std::uint64_t rays = 0;
     for (std::size_t e = 0; e < emitters_.size(); ++e) {
         SobolBlocks<4> points(hash_words({seed_, patch, emitters_[e], 1}));
-        constexpr double everywhere = std::numeric_limits<double>::infinity();
         const PairLook look(mesh_, tracer_, patch, emitters_[e], everywhere, needs_.visibility);
         double& sum = emitter_sum_[patch * emitters_.size() + e];
         for (std::uint32_t k = begin; k < end; ++k)

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace hemilux {
@@ -139,7 +138,6 @@ class LinkLooks {
         const Node& from = tree_[link.from];
         const Patch& receiver = mesh_.patches()[tree_.sample(tree_[link.to], u[0])];
         const Patch& source = mesh_.patches()[tree_.sample(from, u[2])];
-        constexpr double everywhere = std::numeric_limits<double>::infinity();
         Ray ray{};
         const double factor = look_at(receiver, PolygonSampler(receiver.shape), source,
                                       PolygonSampler(source.shape), u, everywhere, ray);
