@@ -150,8 +150,9 @@ class Truth {
         : scene_(scene), options_(options) {
         const Mesh mesh(scene, options);
         const MadeTracer made = make_tracer(mesh, true, settings.threads);
-        points_ = draw_points(mesh, target_weights(solve_settings(settings), mesh, *made.tracer),
-                              settings.points);
+        points_ =
+            draw_points(mesh, target_weights(solve_settings(settings), {}, mesh, *made.tracer),
+                        settings.points);
         const PathReference reference(mesh, *made.tracer);
         constexpr std::size_t points_per_chunk = 16;
         Workers(settings.threads)
@@ -259,7 +260,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     SolverInput input{mesh, *made.tracer, options, monitor, needs};
     const auto mesh_changed = [&] {
         needs = find_needs(mesh);
-        input.target = target = target_weights(solve, mesh, *made.tracer);
+        input.target = target = target_weights(solve, {}, mesh, *made.tracer);
     };
     mesh_changed();
     const auto begin = [&] { return solve.method->make(input); };
@@ -270,7 +271,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
          .seconds = {},
          .error = divided.sampling.value_or(*options.stop.error),
          .rays = 2'000'000'000},
-        {}, divided.before);
+        {}, divided.before());
     Solution solution = with_slopes(solver->solution(), divided);
     statistics.estimated_error = estimated_error(mesh, solution);
     solve.divide_auto = true;
@@ -283,7 +284,7 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
     done.division = statistics.error_division;
     done.patches = mesh.patches().size();
     done.rays = solution.rays_energy + statistics.rays_divide + statistics.rays_division_error;
-    solution.weight = target_weights(solve_settings(settings), mesh, *made.tracer);
+    solution.weight = target_weights(solve_settings(settings), {}, mesh, *made.tracer);
     const TrueError off =
         settings.gathered ? truth.error_of_gathered(mesh, *made.tracer, solution, settings.threads)
                           : truth.error_of(mesh, solution);
