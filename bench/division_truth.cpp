@@ -65,7 +65,8 @@ struct Half {
     double density; ///< of points, in any unit
 };
 
-/// Of facets that count: by patch, `weight` is that in a target; empty: 1.
+/// Of facets that count: by patch, `weight` is that in a target; empty: 1. Half of the points are
+/// spread over the area and half alike over the facets, as small ones may hold much of the light.
 std::vector<Half> halves_of(const Mesh& mesh, std::span<const double> weight) {
     std::vector<Half> halves;
     std::vector<double> counts(mesh.scene().facets.size(), weight.empty() ? 1 : 0);
@@ -86,11 +87,15 @@ std::vector<Half> halves_of(const Mesh& mesh, std::span<const double> weight) {
                     halves.push_back({f, second, front, {p[0], a, b}, area, counts[f]});
             }
     }
+    double whole = 0;
+    for (const Half& half : halves)
+        whole += half.density * half.area;
+    for (Half& half : halves)
+        half.density = .5 * (half.density / whole + 1 / (double(halves.size()) * half.area));
     return halves;
 }
 
-/// By systematic sampling over the area, in proportion to the weight in a target. The mesh is not
-/// divided yet.
+/// By systematic sampling. The mesh is not divided yet.
 std::vector<TruthPoint> draw_points(const Mesh& mesh, std::span<const double> weight,
                                     std::size_t count) {
     const std::vector<Half> halves = halves_of(mesh, weight);
