@@ -197,14 +197,13 @@ bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
     return !is_over() && is_enough(sampling);
 }
 
-/// At other points. That of gathered light, which varies more, is found out better, as it is
-/// reported.
+/// At other points, and with more rays, as it is reported. That of gathered light, which varies
+/// more, is found out better.
 void AutoDivision::measure_again(DivisionErrorOptions options) {
     constexpr unsigned better = 3, rays_for_that = 2;
-    if (is_gathered_) {
+    options.most_rays *= rays_for_that;
+    if (is_gathered_)
         options.negligible /= better;
-        options.most_rays *= rays_for_that;
-    }
     measure(options);
 }
 

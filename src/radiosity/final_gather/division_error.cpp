@@ -64,8 +64,8 @@ struct Rounds {
 
 /// Integrals over the surfaces, by one set of points.
 struct Products {
-    double error = 0; ///< of (g1 - B)(g2 - B)
-    double noise = 0; ///< of (g1 - g2)^2 / 2
+    double error = 0;    ///< of (g1 - B)(g2 - B)
+    double by_noise = 0; ///< variance of `error` by the noise of gathers alone, about
 };
 
 /// By how much B is off at a point, from one gather there [W/m2].
@@ -84,35 +84,11 @@ Products products_over_surface(const Mesh& mesh, const Solution& solution, const
         const Vec3 off2 = off_at(points[k], rho * irradiance[2 * k + 1]);
         const double counts = solution.weight_of(points[k].patch) * points[k].area;
         sums.error += counts * glm::dot(off1, off2);
-        sums.noise += counts * .5 * glm::dot(off1 - off2, off1 - off2);
+        // The square of normal noise has three times the variance of a product of two.
+        const double noise = counts * .5 * glm::dot(off1 - off2, off1 - off2);
+        sums.by_noise += noise * noise / 3;
     }
     return sums;
-}
-
-/// Points lie where the light counts; half of them by the squared error there, where it is known.
-std::vector<double> density_of_points(const Mesh& mesh, const Solution& solution,
-                                      std::span<const double> square) {
-    const auto counts = [&](std::size_t i) {
-        return solution.weight_of(i) * mesh.patches()[i].area;
-    };
-    const auto error = [&](std::size_t i) {
-        return square.empty() ? 0 : solution.weight_of(i) * std::max(square[i], 0.0);
-    };
-    double area = 0, sum_of_counts = 0, sum_of_errors = 0;
-    for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
-        area += mesh.patches()[i].area;
-        sum_of_counts += counts(i);
-        sum_of_errors += error(i);
-    }
-    const double by_error = sum_of_errors > 0 ? .5 : 0;
-    std::vector<double> density;
-    for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
-        double each = (1 - by_error) * solution.weight_of(i) * (area / sum_of_counts);
-        if (by_error > 0)
-            each += by_error * error(i) / sum_of_errors * area / mesh.patches()[i].area;
-        density.push_back(each);
-    }
-    return density;
 }
 
 /// The variance of the patches' values, relative to their square, in its two parts.
@@ -141,37 +117,51 @@ struct OtherError {
     double square = 0, scatter = 0;
 };
 
-/// `rounds`: of all of the error. The square of the light itself is larger by that of the error.
-void set_error(DivisionError& result, const Rounds& rounds, const OtherError& other) {
+/// Relative to the square of what the solution has on the surfaces.
+struct SquaredError {
+    double square = 0; ///< an estimate, which may be negative
+    double sigma = 0;  ///< one, of `square`
+    std::size_t points = 0;
+    std::uint64_t rays = 0;
+
+    /// Errors that do not depend on each other.
+    void add(const SquaredError& other) {
+        square += other.square;
+        sigma = std::hypot(sigma, other.sigma);
+        rays += other.rays;
+    }
+};
+
+/// Where it is hardly known it is reported nearly as large as it may be.
+DivisionError reported(const SquaredError& found) {
+    constexpr double share = .8;
+    // The square of the light itself is larger by that of the error.
     const auto relative = [](double square) { return std::sqrt(square / (1 + square)); };
-    const double square = std::max(rounds.mean() - other.square, 0.0);
-    const double sigma = std::hypot(rounds.uncertainty(), other.scatter);
-    result.error = relative(square);
-    // The root's, where it is well known; else how large it may be.
-    result.uncertainty = relative(square + sigma) - result.error;
+    const double square = std::max(found.square, 0.0);
+    const double error = relative(square), most = relative(square + found.sigma);
+    return {.error = std::max(error, share * most),
+            .uncertainty = most - error,
+            .points = found.points,
+            .rays = found.rays};
 }
 
 /// What the gather lacks is off.
 Vec3 lacking_at(const PatchPoint&, const Vec3& lacking) { return lacking; }
 
-/// What the noise of gathers alone leaves of uncertainty, about.
-double uncertainty_by_noise(double noise_square, std::size_t points) {
-    return 2 * noise_square / std::sqrt(double(points));
-}
-
 /// Gathers are short at first. The variance of a product is about (error^2 + noise^2)^2, so where
 /// noise leaves too much uncertainty longer gathers know the error sooner than more points would.
 /// They begin anew, as a sum that ends by its own spread is biased.
-DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double size,
-                              const OffAt& off_at, FinalGather& gather, const OtherError& other,
-                              const Manner& manner, const DivisionErrorOptions& options,
-                              const Workers& workers, const StopFlag& interrupted) {
+SquaredError error_at_points(const Mesh& mesh, const Solution& solution, double size,
+                             const OffAt& off_at, FinalGather& gather, const OtherError& other,
+                             const Manner& manner, const DivisionErrorOptions& options,
+                             const Workers& workers, const StopFlag& interrupted) {
     // For f times less noise longer gathers, which begin anew, cost f times the rays so far, and
     // more points f^2 - 1 times.
     constexpr double growth_pays = 1.6, least_growth = 2, most_growth = 4;
-    DivisionError result;
     const double negligible = options.negligible * options.negligible;
-    const PointsOverSurface surface(mesh, density_of_points(mesh, solution, options.square));
+    const PointsOverSurface surface(
+        mesh, mixed_density(mesh, solution.weight,
+                            {reflected_squares(mesh, solution.radiosity), options.square}));
     const auto longest = double(longest_round / manner.least_points);
     double length = 1;
     std::size_t points = manner.points_per_round;
@@ -181,18 +171,19 @@ DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double
             products_over_surface(mesh, solution, off_at, gather, surface, points,
                                   hash_words({options.seed, number}), workers, interrupted);
         if (interrupted)
-            return result;
+            return {};
         rounds.add(sums.error / size);
-        noise.add(sums.noise / size);
+        noise.add(sums.by_noise / (size * size));
         if (rounds.count < least_rounds)
             continue;
         const double enough = std::max(manner.well_known * (rounds.mean() - other.square),
                                        gather.rays() < manner.cheap_rays ? 0 : negligible);
         if (rounds.uncertainty() <= enough)
             break;
-        const double by_noise = uncertainty_by_noise(noise.mean(), rounds.count * points);
-        const double growth = std::clamp(by_noise / enough, least_growth, most_growth);
+        const double by_noise = std::sqrt(noise.mean() / static_cast<double>(noise.count));
         const auto rays = double(gather.rays()), most_rays = double(options.most_rays);
+        const double growth =
+            std::clamp(std::min(by_noise / enough, most_rays / rays), least_growth, most_growth);
         if (growth_pays * enough < by_noise && length < longest && growth * rays <= most_rays) {
             length = std::min(std::round(growth * length), longest);
             gather.set_rounds(static_cast<unsigned>(length));
@@ -203,20 +194,8 @@ DivisionError error_at_points(const Mesh& mesh, const Solution& solution, double
             break;
         }
     }
-    set_error(result, rounds, other);
-    result.points = rounds.count * points;
-    result.rays = gather.rays();
-    return result;
-}
-
-/// Errors that do not depend on each other.
-void add(DivisionError& sum, const DivisionError& error) {
-    const double both = std::hypot(sum.error, error.error);
-    if (both > 0)
-        sum.uncertainty =
-            std::hypot(sum.error * sum.uncertainty, error.error * error.uncertainty) / both;
-    sum.error = both;
-    sum.rays += error.rays;
+    return {rounds.mean() - other.square, std::hypot(rounds.uncertainty(), other.scatter),
+            rounds.count * points, gather.rays()};
 }
 
 /// reflected_square(), and the square of what the solution has within patches: with that of the
@@ -230,12 +209,10 @@ double surface_square(const Mesh& mesh, const Solution& solution) {
     return sum;
 }
 
-DivisionError what_has_spread(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                              bool reads_near, const Manner& manner, DivisionErrorOptions options,
-                              const Workers& workers, const StopFlag& interrupted) {
-    const double size = surface_square(mesh, solution);
-    if (!(size > 0))
-        return {};
+SquaredError what_has_spread(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                             double size, bool reads_near, const Manner& manner,
+                             DivisionErrorOptions options, const Workers& workers,
+                             const StopFlag& interrupted) {
     FinalGather gather(mesh, tracer, solution);
     gather.find_spread(reads_near);
     options.square = {}; // of errors within patches
@@ -246,19 +223,22 @@ DivisionError what_has_spread(const Mesh& mesh, const Tracer& tracer, const Solu
 } // namespace
 
 double reflected_square(const Mesh& mesh, const Solution& solution) {
+    const std::vector<double> squares = reflected_squares(mesh, solution.radiosity);
     double sum = 0;
-    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
-        const Vec3 reflected = solution.radiosity[i] - mesh.material(i).emission;
-        sum += solution.weight_of(i) * mesh.patches()[i].area * glm::dot(reflected, reflected);
-    }
+    for (std::size_t i = 0; i < squares.size(); ++i)
+        sum += solution.weight_of(i) * squares[i];
     return sum;
 }
 
 DivisionError spread_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
                            bool reads_near, DivisionErrorOptions options, const Workers& workers,
                            const StopFlag& interrupted) {
-    return what_has_spread(mesh, tracer, solution, reads_near, of_gathered, options, workers,
-                           interrupted);
+    const double size = surface_square(mesh, solution);
+    if (!(size > 0))
+        return {};
+    const SquaredError found = what_has_spread(mesh, tracer, solution, size, reads_near,
+                                               of_gathered, options, workers, interrupted);
+    return interrupted ? DivisionError{} : reported(found);
 }
 
 DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
@@ -272,12 +252,12 @@ DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
         mean_reflectance(mesh) * std::sqrt(std::max(sampled * sampled - all_known, 0.0) +
                                            all_known * std::min(1.0, modes / known.freedom));
     DivisionError all = spread;
-    // Where it is hardly known it is reported nearly as large as it may be.
-    constexpr double share = .8;
-    all.error =
-        std::max({spread.error, spread.uncertainty, share * (spread.error + spread.uncertainty)});
-    add(all,
-        {.error = sampling, .uncertainty = sampling * error_spread(mesh, solution).uncertainty()});
+    all.error = std::hypot(spread.error, sampling);
+    if (all.error > 0)
+        all.uncertainty =
+            std::hypot(spread.error * spread.uncertainty,
+                       sampling * sampling * error_spread(mesh, solution).uncertainty()) /
+            all.error;
     return all;
 }
 
@@ -296,18 +276,18 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
         return light - (radiosity_at(mesh, solution, point.patch, point.at.position) -
                         mesh.material(point.patch).emission);
     };
-    DivisionError all = error_at_points(
+    SquaredError all = error_at_points(
         mesh, solution, size, off_at, gather, {seen, seen * known.scatter()},
         options.square.empty() ? of_patches : of_divided, options, workers, interrupted);
-    const double least = std::max(all.error, std::sqrt(known.own + known.common));
-    if (interrupted || !(least > 0))
-        return all;
-    DivisionErrorOptions of_others = options;
-    of_others.seed = hash_words({options.seed, 1});
-    of_others.negligible = std::max(share_of_spread * least, options.negligible);
-    add(all,
-        what_has_spread(mesh, tracer, solution, false, of_spread, of_others, workers, interrupted));
-    return all;
+    const double least = std::sqrt(std::max(all.square, known.own + known.common));
+    if (least > 0) {
+        DivisionErrorOptions of_others = options;
+        of_others.seed = hash_words({options.seed, 1});
+        of_others.negligible = std::max(share_of_spread * least, options.negligible);
+        all.add(what_has_spread(mesh, tracer, solution, size, false, of_spread, of_others, workers,
+                                interrupted));
+    }
+    return interrupted ? DivisionError{} : reported(all);
 }
 
 std::vector<double> patch_error_levels(const Mesh& mesh, const Tracer& tracer,

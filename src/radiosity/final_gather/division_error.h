@@ -1,14 +1,15 @@
 #pragma once
 // How far the light of a solution, one value on each patch, is from the light on the surfaces.
 //
-// At points x drawn uniformly over the area the light is gathered twice, independently: g1(x),
-// g2(x). Each is right on average for the light that the solution sends, so the mean of
-//     A (g1 - B)(g2 - B)
-// is the squared error of the solution there, free of the noise of either gather. It holds what the
-// patches lack in detail and the noise of each patch's own value; the latter is known and taken
-// off. It does not hold how far the light that the solution sends is off itself (Lischinski, Smits
-// and Greenberg 1994 bound that part). In most rooms it is smaller by a reflection, in bright ones
-// it is the larger part, so it is measured too.
+// At points x of the surfaces the light is gathered twice, independently: g1(x), g2(x). Each is
+// right on average for the light that the solution sends, so the mean over the area of
+//     (g1 - B)(g2 - B)
+// is the squared error of the solution, free of the noise of either gather. Points lie over the
+// area, where the light is and where patches are small, all alike: a small bright face may hold
+// most of the error. It holds what the patches lack in detail and the noise of each patch's own
+// value; the latter is known and taken off. It does not hold how far the light that the solution
+// sends is off itself (Lischinski, Smits and Greenberg 1994 bound that part). In most rooms it is
+// smaller by a reflection, in bright ones it is the larger part, so it is measured too.
 //
 // What has spread is T (b - B) with T one reflection and b the light. Patches send their means M
 // on, so b - M is r + T r + ... with the residual r(y) = g(y) - M of a gather that reads M. The
@@ -32,7 +33,8 @@ class Workers;
 struct Solution;
 
 /// Relative to the reflected light, as estimated_error(); RMS over area and channels, with the
-/// weights of the solution, if it has any. NaN where it is not known.
+/// weights of the solution, if it has any. Where it is hardly known `error` is nearly as large as
+/// it may be. NaN where it is not known at all.
 struct DivisionError {
     double error = std::numeric_limits<double>::quiet_NaN();
     double uncertainty = std::numeric_limits<double>::quiet_NaN(); ///< one sigma of `error`

@@ -15,14 +15,15 @@ KnownLight::KnownLight(const Mesh& mesh, const Tracer& tracer, std::span<const V
                        const StopFlag& interrupted)
     : mesh_(mesh) {
     FinalGather gather(mesh, tracer, accurate);
-    const GatheredTwice found =
-        gather_twice(PointsOverSurface(mesh), gather, points, seed, workers, interrupted);
+    const PointsOverSurface surface(mesh,
+                                    mixed_density(mesh, {}, {reflected_squares(mesh, accurate)}));
+    const GatheredTwice found = gather_twice(surface, gather, points, seed, workers, interrupted);
     if (interrupted)
         return;
     for (std::size_t k = 0; k < found.points.size(); ++k) {
         const std::uint32_t patch = found.points[k].patch;
         const Vec3& reflectance = mesh.material(patch).reflectance;
-        points_.push_back({patch, reflectance * found.irradiance[2 * k],
+        points_.push_back({patch, found.points[k].area, reflectance * found.irradiance[2 * k],
                            reflectance * found.irradiance[2 * k + 1]});
     }
 }
@@ -31,8 +32,8 @@ double KnownLight::error(std::span<const Vec3> radiosity) const {
     double squares = 0, size = 0;
     for (const Point& point : points_) {
         const Vec3 value = radiosity[point.patch] - mesh_.material(point.patch).emission;
-        squares += glm::dot(point.reflected1 - value, point.reflected2 - value);
-        size += glm::dot(point.reflected1, point.reflected2);
+        squares += point.area * glm::dot(point.reflected1 - value, point.reflected2 - value);
+        size += point.area * glm::dot(point.reflected1, point.reflected2);
     }
     return squares > 0 && size > 0 ? std::sqrt(squares / size)
                                    : std::numeric_limits<double>::quiet_NaN();

@@ -1,8 +1,8 @@
 #pragma once
 // The light itself at points of the surfaces, to measure solutions on patches against.
 //
-// One accurate solution is gathered twice, independently, at points drawn uniformly over the area:
-// g1(x), g2(x). Of any other solution B on the same patches, the mean of A (g1 - B)(g2 - B) is the
+// One accurate solution is gathered twice, independently, at points of the surfaces: g1(x), g2(x).
+// Of any other solution B on the same patches, the mean over the area of (g1 - B)(g2 - B) is the
 // squared error of B as a function on the surfaces: its own noise, and that patches hold one value
 // each. The gathers' noise is in neither product. What the accurate solution lacks in detail has
 // been reflected once before it is gathered, and is not seen (division_error.h).
@@ -36,10 +36,11 @@ class KnownLight {
   private:
     struct Point {
         std::uint32_t patch;
+        double area;                 ///< that it stands for
         Vec3 reflected1, reflected2; ///< by either gather [W/m2]
     };
     const Mesh& mesh_;
-    std::vector<Point> points_; ///< each stands for as much area
+    std::vector<Point> points_;
 };
 
 } // namespace hemilux

@@ -39,6 +39,39 @@ std::vector<PatchPoint> PointsOverSurface::draw(std::size_t count, std::uint64_t
     return points;
 }
 
+std::vector<double> reflected_squares(const Mesh& mesh, std::span<const Vec3> radiosity) {
+    std::vector<double> squares;
+    for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
+        const Vec3 reflected = radiosity[i] - mesh.material(i).emission;
+        squares.push_back(mesh.patches()[i].area * glm::dot(reflected, reflected));
+    }
+    return squares;
+}
+
+std::vector<double> mixed_density(const Mesh& mesh, std::span<const double> weight,
+                                  std::initializer_list<std::span<const double>> quantities) {
+    const auto patches = mesh.patches();
+    std::vector<double> density(patches.size()), areas;
+    for (const Patch& patch : patches)
+        areas.push_back(patch.area);
+    const auto add = [&](std::span<const double> quantity) {
+        const auto of_patch = [&](std::size_t i) {
+            return (weight.empty() ? 1 : weight[i]) * std::max(quantity[i], 0.0);
+        };
+        double sum = 0;
+        for (std::size_t i = 0; i < quantity.size(); ++i)
+            sum += of_patch(i);
+        for (std::size_t i = 0; i < quantity.size() && sum > 0; ++i)
+            if (areas[i] > 0)
+                density[i] += of_patch(i) / sum / areas[i];
+    };
+    add(areas);
+    add(std::vector<double>(patches.size(), 1));
+    for (const std::span<const double> quantity : quantities)
+        add(quantity);
+    return density;
+}
+
 std::vector<PatchPoint> points_on_patches(const Mesh& mesh, std::span<const std::uint32_t> some,
                                           unsigned most_rows, std::uint64_t seed) {
     constexpr double least_rows = 3;

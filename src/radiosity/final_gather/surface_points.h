@@ -4,6 +4,7 @@
 #include "radiosity/rays/surface_point.h"
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,18 @@ class PointsOverSurface {
     std::vector<double> density_;
     std::vector<double> ends_; ///< by patch, the sum up to it
 };
+
+/// By patch, its area and reflected radiosity squared: what errors are relative to, and what holds
+/// most of the noise of gathers.
+[[nodiscard]] std::vector<double> reflected_squares(const Mesh& mesh,
+                                                    std::span<const Vec3> radiosity);
+
+/// A density for these points. Alike many lie over the area, on each patch, as patches are small
+/// where light changes, and in proportion to each of some quantities, by patch, that are not empty;
+/// all of it times `weight`, by patch, or 1 where that is empty.
+[[nodiscard]] std::vector<double>
+mixed_density(const Mesh& mesh, std::span<const double> weight,
+              std::initializer_list<std::span<const double>> quantities);
 
 /// Of each of some patches, if it reflects, `rows` x `rows` points, 3 x 3 to `most_rows` squared,
 /// one after the other, each uniform over an equal piece of it: more where the patch is large
