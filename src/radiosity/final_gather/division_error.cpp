@@ -71,26 +71,6 @@ struct Products {
 /// By how much B is off at a point, from one gather there [W/m2].
 using OffAt = std::function<Vec3(const PatchPoint& point, const Vec3& gathered)>;
 
-Products products_over_surface(const Mesh& mesh, const Solution& solution, const OffAt& off_at,
-                               FinalGather& gather, const PointsOverSurface& surface,
-                               std::size_t count, std::uint64_t seed, const Workers& workers,
-                               const StopFlag& interrupted) {
-    const auto [points, irradiance] =
-        gather_twice(surface, gather, count, seed, workers, interrupted);
-    Products sums;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        const Vec3& rho = mesh.material(points[k].patch).reflectance;
-        const Vec3 off1 = off_at(points[k], rho * irradiance[2 * k]);
-        const Vec3 off2 = off_at(points[k], rho * irradiance[2 * k + 1]);
-        const double counts = solution.weight_of(points[k].patch) * points[k].area;
-        sums.error += counts * glm::dot(off1, off2);
-        // The square of normal noise has three times the variance of a product of two.
-        const double noise = counts * .5 * glm::dot(off1 - off2, off1 - off2);
-        sums.by_noise += noise * noise / 3;
-    }
-    return sums;
-}
-
 /// The variance of the patches' values, relative to their square, in its two parts.
 struct KnownVariance {
     double own = 0;     ///< of what patches err each for itself
@@ -145,35 +125,91 @@ DivisionError reported(const SquaredError& found) {
             .rays = found.rays};
 }
 
-/// What the gather lacks is off.
-Vec3 lacking_at(const PatchPoint&, const Vec3& lacking) { return lacking; }
+/// reflected_square(), and the square of what the solution has within patches: with that of the
+/// error it is the square of the light itself.
+double surface_square(const Mesh& mesh, const Solution& solution) {
+    double sum = reflected_square(mesh, solution);
+    for (std::uint32_t i = 0; i < solution.slope.size(); ++i) {
+        const Patch& patch = mesh.patches()[i];
+        sum += solution.weight_of(i) * patch.area * variance_of(patch, solution.slope[i]);
+    }
+    return sum;
+}
+
+/// Gathers from a solution at points of the surfaces.
+class ErrorAtPoints {
+  public:
+    /// All outlive it.
+    ErrorAtPoints(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
+                  const Workers& workers, const StopFlag& interrupted)
+        : mesh_(mesh), tracer_(tracer), solution_(solution), workers_(workers),
+          interrupted_(interrupted), size_(surface_square(mesh, solution)) {}
+
+    /// All errors are relative to it.
+    [[nodiscard]] double size() const { return size_; }
+    [[nodiscard]] SquaredError within_patches(const OtherError& other,
+                                              const DivisionErrorOptions& options) const;
+    [[nodiscard]] SquaredError spread(bool reads_near, const Manner& manner,
+                                      DivisionErrorOptions options) const;
+
+  private:
+    [[nodiscard]] SquaredError find(const OffAt& off_at, FinalGather& gather,
+                                    const OtherError& other, const Manner& manner,
+                                    const DivisionErrorOptions& options) const;
+    [[nodiscard]] Products products(const OffAt& off_at, FinalGather& gather,
+                                    const PointsOverSurface& surface, std::size_t count,
+                                    std::uint64_t seed) const;
+
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    const Solution& solution_;
+    const Workers& workers_;
+    const StopFlag& interrupted_;
+    double size_;
+};
+
+SquaredError ErrorAtPoints::within_patches(const OtherError& other,
+                                           const DivisionErrorOptions& options) const {
+    FinalGather gather(mesh_, tracer_, solution_);
+    const OffAt off_at = [&](const PatchPoint& point, const Vec3& light) {
+        return light - (radiosity_at(mesh_, solution_, point.patch, point.at.position) -
+                        mesh_.material(point.patch).emission);
+    };
+    return find(off_at, gather, other, options.square.empty() ? of_patches : of_divided, options);
+}
+
+SquaredError ErrorAtPoints::spread(bool reads_near, const Manner& manner,
+                                   DivisionErrorOptions options) const {
+    FinalGather gather(mesh_, tracer_, solution_);
+    gather.find_spread(reads_near);
+    const OffAt lacking = [](const PatchPoint&, const Vec3& lacks) { return lacks; };
+    options.square = {}; // of errors within patches
+    return find(lacking, gather, {}, manner, options);
+}
 
 /// Gathers are short at first. The variance of a product is about (error^2 + noise^2)^2, so where
 /// noise leaves too much uncertainty longer gathers know the error sooner than more points would.
 /// They begin anew, as a sum that ends by its own spread is biased.
-SquaredError error_at_points(const Mesh& mesh, const Solution& solution, double size,
-                             const OffAt& off_at, FinalGather& gather, const OtherError& other,
-                             const Manner& manner, const DivisionErrorOptions& options,
-                             const Workers& workers, const StopFlag& interrupted) {
+SquaredError ErrorAtPoints::find(const OffAt& off_at, FinalGather& gather, const OtherError& other,
+                                 const Manner& manner, const DivisionErrorOptions& options) const {
     // For f times less noise longer gathers, which begin anew, cost f times the rays so far, and
     // more points f^2 - 1 times.
     constexpr double growth_pays = 1.6, least_growth = 2, most_growth = 4;
     const double negligible = options.negligible * options.negligible;
     const PointsOverSurface surface(
-        mesh, mixed_density(mesh, solution.weight,
-                            {reflected_squares(mesh, solution.radiosity), options.square}));
+        mesh_, mixed_density(mesh_, solution_.weight,
+                             {reflected_squares(mesh_, solution_.radiosity), options.square}));
     const auto longest = double(longest_round / manner.least_points);
     double length = 1;
     std::size_t points = manner.points_per_round;
     Rounds rounds, noise;
     for (std::uint64_t number = 0;; ++number) {
         const Products sums =
-            products_over_surface(mesh, solution, off_at, gather, surface, points,
-                                  hash_words({options.seed, number}), workers, interrupted);
-        if (interrupted)
+            products(off_at, gather, surface, points, hash_words({options.seed, number}));
+        if (interrupted_)
             return {};
-        rounds.add(sums.error / size);
-        noise.add(sums.by_noise / (size * size));
+        rounds.add(sums.error / size_);
+        noise.add(sums.by_noise / (size_ * size_));
         if (rounds.count < least_rounds)
             continue;
         const double enough = std::max(manner.well_known * (rounds.mean() - other.square),
@@ -198,26 +234,23 @@ SquaredError error_at_points(const Mesh& mesh, const Solution& solution, double 
             rounds.count * points, gather.rays()};
 }
 
-/// reflected_square(), and the square of what the solution has within patches: with that of the
-/// error it is the square of the light itself.
-double surface_square(const Mesh& mesh, const Solution& solution) {
-    double sum = reflected_square(mesh, solution);
-    for (std::uint32_t i = 0; i < solution.slope.size(); ++i) {
-        const Patch& patch = mesh.patches()[i];
-        sum += solution.weight_of(i) * patch.area * variance_of(patch, solution.slope[i]);
+Products ErrorAtPoints::products(const OffAt& off_at, FinalGather& gather,
+                                 const PointsOverSurface& surface, std::size_t count,
+                                 std::uint64_t seed) const {
+    const auto [points, irradiance] =
+        gather_twice(surface, gather, count, seed, workers_, interrupted_);
+    Products sums;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Vec3& rho = mesh_.material(points[k].patch).reflectance;
+        const Vec3 off1 = off_at(points[k], rho * irradiance[2 * k]);
+        const Vec3 off2 = off_at(points[k], rho * irradiance[2 * k + 1]);
+        const double counts = solution_.weight_of(points[k].patch) * points[k].area;
+        sums.error += counts * glm::dot(off1, off2);
+        // The square of normal noise has three times the variance of a product of two.
+        const double noise = counts * .5 * glm::dot(off1 - off2, off1 - off2);
+        sums.by_noise += noise * noise / 3;
     }
-    return sum;
-}
-
-SquaredError what_has_spread(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                             double size, bool reads_near, const Manner& manner,
-                             DivisionErrorOptions options, const Workers& workers,
-                             const StopFlag& interrupted) {
-    FinalGather gather(mesh, tracer, solution);
-    gather.find_spread(reads_near);
-    options.square = {}; // of errors within patches
-    return error_at_points(mesh, solution, size, lacking_at, gather, {}, manner, options, workers,
-                           interrupted);
+    return sums;
 }
 
 } // namespace
@@ -231,13 +264,12 @@ double reflected_square(const Mesh& mesh, const Solution& solution) {
 }
 
 DivisionError spread_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
-                           bool reads_near, DivisionErrorOptions options, const Workers& workers,
-                           const StopFlag& interrupted) {
-    const double size = surface_square(mesh, solution);
-    if (!(size > 0))
+                           bool reads_near, const DivisionErrorOptions& options,
+                           const Workers& workers, const StopFlag& interrupted) {
+    const ErrorAtPoints at_points(mesh, tracer, solution, workers, interrupted);
+    if (!(at_points.size() > 0))
         return {};
-    const SquaredError found = what_has_spread(mesh, tracer, solution, size, reads_near,
-                                               of_gathered, options, workers, interrupted);
+    const SquaredError found = at_points.spread(reads_near, of_gathered, options);
     return interrupted ? DivisionError{} : reported(found);
 }
 
@@ -264,28 +296,20 @@ DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
 DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solution& solution,
                              const DivisionErrorOptions& options, const Workers& workers,
                              const StopFlag& interrupted) {
-    const double size = surface_square(mesh, solution);
-    if (!(size > 0))
+    const ErrorAtPoints at_points(mesh, tracer, solution, workers, interrupted);
+    if (!(at_points.size() > 0))
         return {};
-    const KnownVariance known = known_variance(mesh, solution, size);
+    const KnownVariance known = known_variance(mesh, solution, at_points.size());
     // Of what patches err together a gather errs with them, but for what a reflection takes away.
     const double rho = mean_reflectance(mesh);
     const double seen = known.own + known.common * (1 - rho) * (1 - rho);
-    FinalGather gather(mesh, tracer, solution);
-    const OffAt off_at = [&](const PatchPoint& point, const Vec3& light) {
-        return light - (radiosity_at(mesh, solution, point.patch, point.at.position) -
-                        mesh.material(point.patch).emission);
-    };
-    SquaredError all = error_at_points(
-        mesh, solution, size, off_at, gather, {seen, seen * known.scatter()},
-        options.square.empty() ? of_patches : of_divided, options, workers, interrupted);
+    SquaredError all = at_points.within_patches({seen, seen * known.scatter()}, options);
     const double least = std::sqrt(std::max(all.square, known.own + known.common));
     if (least > 0) {
         DivisionErrorOptions of_others = options;
         of_others.seed = hash_words({options.seed, 1});
         of_others.negligible = std::max(share_of_spread * least, options.negligible);
-        all.add(what_has_spread(mesh, tracer, solution, size, false, of_spread, of_others, workers,
-                                interrupted));
+        all.add(at_points.spread(false, of_spread, of_others));
     }
     return interrupted ? DivisionError{} : reported(all);
 }

@@ -58,8 +58,8 @@ struct DivisionErrorOptions {
 /// meets, as those of pictures do. Where it was interrupted the error is not known.
 [[nodiscard]] DivisionError spread_error(const Mesh& mesh, const Tracer& tracer,
                                          const Solution& solution, bool reads_near,
-                                         DivisionErrorOptions options, const Workers& workers,
-                                         const StopFlag& interrupted);
+                                         const DivisionErrorOptions& options,
+                                         const Workers& workers, const StopFlag& interrupted);
 /// The whole error of gathered light: `spread`, and what a reflection is taken to leave of the
 /// error of sampling.
 [[nodiscard]] DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
