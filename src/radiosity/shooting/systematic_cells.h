@@ -31,9 +31,11 @@ class SystematicCells {
     void for_each_cell(const Found& found) const {
         double low = whole_below(before_);
         for (std::size_t k = 0; k < allocation_.cells.size(); ++k) {
-            const double high = whole_below(end_of(k));
-            if (high > low)
-                found(allocation_.cells[k], rays_ * allocation_.rays(k), low, high);
+            const double end = end_of(k);
+            if (end < low + 1)
+                continue;
+            const double high = whole_below(end);
+            found(allocation_.cells[k], rays_ * allocation_.rays(k), low, high);
             low = high;
         }
     }
