@@ -149,12 +149,14 @@ class ErrorAtPoints {
     [[nodiscard]] double size() const { return size_; }
     [[nodiscard]] SquaredError within_patches(const OtherError& other,
                                               const DivisionErrorOptions& options) const;
+    /// It varies little over the surfaces.
     [[nodiscard]] SquaredError spread(bool reads_near, const Manner& manner,
-                                      DivisionErrorOptions options) const;
+                                      const DivisionErrorOptions& options) const;
 
   private:
     [[nodiscard]] SquaredError find(const OffAt& off_at, FinalGather& gather,
-                                    const OtherError& other, const Manner& manner,
+                                    const PointsOverSurface& surface, const OtherError& other,
+                                    const Manner& manner,
                                     const DivisionErrorOptions& options) const;
     [[nodiscard]] Products products(const OffAt& off_at, FinalGather& gather,
                                     const PointsOverSurface& surface, std::size_t count,
@@ -175,30 +177,31 @@ SquaredError ErrorAtPoints::within_patches(const OtherError& other,
         return light - (radiosity_at(mesh_, solution_, point.patch, point.at.position) -
                         mesh_.material(point.patch).emission);
     };
-    return find(off_at, gather, other, options.square.empty() ? of_patches : of_divided, options);
+    const PointsOverSurface surface(
+        mesh_, mixed_density(mesh_, solution_.weight,
+                             {reflected_squares(mesh_, solution_.radiosity), options.square}));
+    return find(off_at, gather, surface, other, options.square.empty() ? of_patches : of_divided,
+                options);
 }
 
 SquaredError ErrorAtPoints::spread(bool reads_near, const Manner& manner,
-                                   DivisionErrorOptions options) const {
+                                   const DivisionErrorOptions& options) const {
     FinalGather gather(mesh_, tracer_, solution_);
     gather.find_spread(reads_near);
     const OffAt lacking = [](const PatchPoint&, const Vec3& lacks) { return lacks; };
-    options.square = {}; // of errors within patches
-    return find(lacking, gather, {}, manner, options);
+    return find(lacking, gather, PointsOverSurface(mesh_, solution_.weight), {}, manner, options);
 }
 
 /// Gathers are short at first. The variance of a product is about (error^2 + noise^2)^2, so where
 /// noise leaves too much uncertainty longer gathers know the error sooner than more points would.
 /// They begin anew, as a sum that ends by its own spread is biased.
-SquaredError ErrorAtPoints::find(const OffAt& off_at, FinalGather& gather, const OtherError& other,
+SquaredError ErrorAtPoints::find(const OffAt& off_at, FinalGather& gather,
+                                 const PointsOverSurface& surface, const OtherError& other,
                                  const Manner& manner, const DivisionErrorOptions& options) const {
     // For f times less noise longer gathers, which begin anew, cost f times the rays so far, and
     // more points f^2 - 1 times.
     constexpr double growth_pays = 1.6, least_growth = 2, most_growth = 4;
     const double negligible = options.negligible * options.negligible;
-    const PointsOverSurface surface(
-        mesh_, mixed_density(mesh_, solution_.weight,
-                             {reflected_squares(mesh_, solution_.radiosity), options.square}));
     const auto longest = double(longest_round / manner.least_points);
     double length = 1;
     std::size_t points = manner.points_per_round;
