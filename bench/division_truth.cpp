@@ -230,8 +230,7 @@ class Truth {
         TruthPoint& point = points_[k];
         const Vec3& rho = mesh.material(mesh.patch_at(point.hit)).reflectance;
         for (Vec3* half : {&point.first, &point.second})
-            for (std::size_t path = 0; path < paths; ++path)
-                *half += rho / double(paths) * reference.irradiance(point.at, numbers);
+            *half = rho * reference.irradiance(point.at, paths, numbers);
     }
 
     Scene scene_;
