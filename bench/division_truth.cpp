@@ -1,6 +1,5 @@
 // How far the whole error that `solve --divide auto` reports can be trusted, and what it costs: the
-// light as given out against paths of rays (path_reference.h) at points drawn uniformly over the
-// area.
+// light as given out against paths of rays (path_reference.h) at points of the surfaces.
 //
 //     hemilux_division_truth --scene examples/scenes/room_1002.obj --error 0.1,0.05,0.02 --seeds 10
 //
@@ -83,7 +82,7 @@ std::vector<Half> halves_of(const Mesh& mesh, std::span<const double> weight) {
                     continue;
                 const Vec3 a = second ? p[2] : p[1], b = second ? p[3] : p[2];
                 const double area = .5 * glm::length(glm::cross(a - p[0], b - p[0]));
-                if (area > 0)
+                if (area > 0 && counts[f] > 0)
                     halves.push_back({f, second, front, {p[0], a, b}, area, counts[f]});
             }
     }
