@@ -3,6 +3,7 @@
 #include "app/check_fails.h"
 #include "app/picture_file.h"
 #include "app/program.h"
+#include "app/settings/view.h"
 #include "support/catch.h"
 
 #include <nlohmann/json.hpp>
@@ -93,6 +94,13 @@ TEST_CASE("info answers other programs in JSON") {
     CHECK(json["emitted_power"].size() == 3);
     const auto both = place.hemilux("info room.obj --json --sides both");
     CHECK(nlohmann::json::parse(both.out)["sides"].is_null());
+}
+
+TEST_CASE("a camera that is printed has no coordinates that are 0 but for rounding") {
+    hemilux::Camera camera;
+    camera.eye = {6e-16, 13, 1e-3};
+    camera.target = {0, 1, -2e-17};
+    CHECK_THAT(hemilux::camera_text(camera), Catch::StartsWith("--camera 0,13,0.001,0,1,0,"));
 }
 
 TEST_CASE("the axis that is upwards is chosen, or reported where it is guessed") {

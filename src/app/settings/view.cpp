@@ -19,7 +19,12 @@ void check_camera(const ViewSettings& view, const Mesh& mesh) {
 }
 
 std::string camera_text(const Camera& camera) {
-    const auto& [eye, target, up, fov] = camera;
+    auto [eye, target, up, fov] = camera;
+    const double far = glm::distance(eye, target);
+    for (Vec3* point : {&eye, &target})
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::abs((*point)[axis]) < 1e-9 * far) // 0, but for rounding
+                (*point)[axis] = 0;
     const std::string text = formatted("--camera %g,%g,%g,%g,%g,%g,%g", eye.x, eye.y, eye.z,
                                        target.x, target.y, target.z, fov);
     return up == Camera().up ? text : text + formatted(",%g,%g,%g", up.x, up.y, up.z);
