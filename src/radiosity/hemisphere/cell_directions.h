@@ -33,9 +33,10 @@ enum class CellArea {
                                          : its.projected_solid_angle / std::numbers::pi;
 }
 
-/// Samples that are drawn together; each has one place in every array.
+/// Samples that are drawn together, as many as the nearer caches hold; each has one place in every
+/// array.
 struct DirectionBatch {
-    static constexpr std::size_t room = 1024;
+    static constexpr std::size_t room = 512;
     std::size_t size = 0;
 
     std::array<std::uint32_t, room> key_low, key_high, number;

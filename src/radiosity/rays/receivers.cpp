@@ -9,12 +9,12 @@ namespace hemilux {
 
 void find_receivers(std::span<const Ray> rays, const Mesh& mesh, const Tracer& tracer,
                     std::vector<std::uint32_t>& receivers) {
-    std::array<FacetHit, rays_at_a_time> hits;
+    std::array<FacetHit, 256> hits; // few, as each call fills it with its defaults
     const std::size_t before = receivers.size();
     receivers.resize(before + rays.size());
     std::uint32_t* receiver = receivers.data() + before;
     while (!rays.empty()) {
-        const std::size_t n = std::min(rays.size(), rays_at_a_time);
+        const std::size_t n = std::min(rays.size(), hits.size());
         tracer.closest_stream(rays.first(n), std::span(hits).first(n));
         for (std::size_t k = 0; k < n; ++k) {
             const auto [facet, front] = hits[k];

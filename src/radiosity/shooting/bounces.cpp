@@ -119,7 +119,8 @@ void Bounces::collect(const RayBatch& batch, StepResult& result) {
         const Vec3 held = unshot_[patch];
         double sent = 0, lost_in_open = 0, lost_on_backs = 0; // shares of what the patch held
         for (; group != batch.groups.end() && group->patch == patch; ++group) {
-            const Lost lost = receive(group->ray_power * held, {receivers, group->rays});
+            Lost lost;
+            receive(group->ray_power * held, {receivers, group->rays}, lost);
             receivers += group->rays;
             sent += (group->rays - lost.shot_apart) * group->ray_power;
             lost_in_open += lost.escaped * group->ray_power;
@@ -137,8 +138,7 @@ void Bounces::collect(const RayBatch& batch, StepResult& result) {
 }
 
 /// Each brings `power`, which is Phi_ray.
-Bounces::Lost Bounces::receive(const Vec3& power, std::span<const std::uint32_t> receivers) {
-    Lost lost;
+void Bounces::receive(const Vec3& power, std::span<const std::uint32_t> receivers, Lost& lost) {
     for (const std::uint32_t receiver : receivers) {
         if (receiver >= received_.size()) {
             ++(receiver == escaped    ? lost.escaped
@@ -150,7 +150,6 @@ Bounces::Lost Bounces::receive(const Vec3& power, std::span<const std::uint32_t>
         ++received_[receiver].rays;
         received_[receiver].power += power;
     }
-    return lost;
 }
 
 void Bounces::teach(const RayBatch& batch) const {

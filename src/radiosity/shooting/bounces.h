@@ -108,7 +108,8 @@ class Bounces {
     struct Lost {
         std::uint32_t escaped = 0, absorbed = 0, shot_apart = 0;
     };
-    Lost receive(const Vec3& power, std::span<const std::uint32_t> receivers);
+    /// Adds to `lost` how many brought it to no patch.
+    void receive(const Vec3& power, std::span<const std::uint32_t> receivers, Lost& lost);
     void teach(const RayBatch& batch) const;
     void reflect(StepResult& result);
     void add_sender(std::uint32_t patch, const Vec3& power);

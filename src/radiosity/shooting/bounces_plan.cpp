@@ -22,7 +22,7 @@ constexpr std::size_t most_items = 4096;
 
 /// Of a ray among those of its patch. After 2^32 rays of one patch they begin anew.
 std::uint32_t ray_number(double rays_before) {
-    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(rays_before));
+    return static_cast<std::uint32_t>(static_cast<std::int64_t>(rays_before));
 }
 
 } // namespace

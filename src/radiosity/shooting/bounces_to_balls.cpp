@@ -82,7 +82,8 @@ void Bounces::collect(const BallShots& shots, StepResult& result) {
         return;
     for (std::size_t k = 0; k < shots.rays.size(); ++k) {
         const Vec3 power = shots.power[k] * unshot_[shots.senders[k]];
-        const Lost lost = receive(power, std::span(shots.receivers).subspan(k, 1));
+        Lost lost;
+        receive(power, std::span(shots.receivers).subspan(k, 1), lost);
         result.sent += power;
         if (lost.escaped > 0)
             result.escaped += power;

@@ -12,6 +12,7 @@ GroupedRays::GroupedRays(const RaySource& source, std::span<RayGroup> groups, st
     : source_(source), groups_(groups), stream_(stream), rays_(memory),
       has_private_cells_(source.strategy.has_private_cells()) {
     rays_.resize(DirectionBatch::room);
+    runs_.reserve(DirectionBatch::room);
 }
 
 std::span<const Ray> GroupedRays::next() {

@@ -7,8 +7,12 @@
 
 #include "radiosity/shooting/strategy.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 
 namespace hemilux {
 
@@ -29,14 +33,26 @@ class SystematicCells {
     /// which is N_tr, and those from low + 1 to high.
     template <class Found>
     void for_each_cell(const Found& found) const {
-        double low = whole_below(before_);
-        for (std::size_t k = 0; k < allocation_.cells.size(); ++k) {
-            const double end = end_of(k);
-            if (end < low + 1)
+        constexpr std::size_t block = 16;
+        std::array<std::int64_t, block> up_to; // the last ray of each cell
+        std::array<std::size_t, block> with_rays;
+        auto low = static_cast<std::int64_t>(before_);
+        for (std::size_t first = 0; first < allocation_.cells.size(); first += block) {
+            const std::size_t size = std::min(block, allocation_.cells.size() - first);
+            for (std::size_t k = 0; k < size; ++k)
+                up_to[k] = static_cast<std::int64_t>(end_of(first + k));
+            if (up_to[size - 1] == low) // as most are when the light is nearly spent
                 continue;
-            const double high = whole_below(end);
-            found(allocation_.cells[k], rays_ * allocation_.rays(k), low, high);
-            low = high;
+            std::size_t count = 0;
+            for (std::size_t k = 0; k < size; ++k) { // a branch would be guessed wrong
+                with_rays[count] = k;
+                count += up_to[k] > (k > 0 ? up_to[k - 1] : low) ? 1 : 0;
+            }
+            for (const std::size_t k : std::span(with_rays).first(count)) {
+                const auto before = static_cast<double>(std::exchange(low, up_to[k]));
+                found(allocation_.cells[first + k], rays_ * allocation_.rays(first + k), before,
+                      static_cast<double>(up_to[k]));
+            }
         }
     }
 

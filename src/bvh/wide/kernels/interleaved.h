@@ -15,6 +15,7 @@ struct alignas(64) RayState {
     std::uint32_t next;  ///< node or leaf to be visited; no_facet: the ray is done
     float t_max;         ///< shrinks
     Stack stack;
+    alignas(64) char unused; ///< a line of the cache
 
     void take(const FloatRay& of, std::uint32_t index_, float t_max_, std::uint32_t root) {
         ray = &of;
@@ -29,6 +30,8 @@ struct alignas(64) RayState {
         next = stack.pop_before<rays>(t_max * slab_slack);
     }
 };
+/// With an even number of lines the states would crowd in a few sets of the cache.
+static_assert(sizeof(RayState) / 64 % 2 == 1);
 
 /// Where a node or leaf lies, without a branch on which it is.
 inline const char* place_of(const Tree& tree, std::uint32_t child) {

@@ -95,6 +95,16 @@ struct F8 {
 };
 #endif
 
+/// Which of sixteen floats are at most `limit`.
+inline Bits at_most(const float* sixteen, float limit) {
+#if defined(__AVX512F__)
+    return _mm512_cmp_ps_mask(_mm512_load_ps(sixteen), _mm512_set1_ps(limit), _CMP_LE_OQ);
+#else
+    const F8 end = F8::splat(limit);
+    return less_equal(F8::load(sixteen), end) | less_equal(F8::load(sixteen + 8), end) << 8;
+#endif
+}
+
 /// Which of eight words, but for the bits of `ignored`, are `word`.
 inline Bits equal(const std::uint32_t* words, std::uint32_t ignored, std::uint32_t word) {
 #if defined(__AVX2__)

@@ -98,7 +98,7 @@ enum class Rays { stop, pierce };
 
 /// What remains to be visited, the nearest on top. At the bottom lies an entry that says so.
 struct Stack {
-    static constexpr unsigned at_once = 2 * width; ///< entries that are compared together
+    static constexpr unsigned at_once = 16; ///< entries that are compared together
     static constexpr unsigned room = (stack_size + width) / at_once + 1;
 
     unsigned top;
@@ -129,19 +129,11 @@ struct Stack {
         if constexpr (rays == Rays::pierce)
             return pop();
         unsigned first = (top - 1) / at_once * at_once;
-        Bits before = entered(first, limit) & ((Bits{1} << (top - first)) - 1);
-        for (; before == 0; before = entered(first, limit))
+        Bits before = at_most(enter + first, limit) & ((Bits{1} << (top - first)) - 1);
+        for (; before == 0; before = at_most(enter + first, limit))
             first -= at_once;
         top = first + last_of(before);
         return child[top];
-    }
-
-  private:
-    /// Which of `at_once` entries lie before the limit.
-    [[nodiscard]] Bits entered(unsigned first, float limit) const {
-        const F8 end = F8::splat(limit);
-        return less_equal(F8::load(enter + first), end) |
-               less_equal(F8::load(enter + first + width), end) << width;
     }
 };
 
