@@ -25,8 +25,10 @@ constexpr double share_of_time = .5;
 /// them; and of the whole error.
 constexpr double first_sampling_of_gathered = .05, sampling_of_gathered = .4;
 
-/// A goal is set lower by a factor in this range, with some room.
-constexpr double safe = .9, least_step = .5, most_step = .9, least_step_of_gathered = .3;
+/// A goal is set lower by a factor in this range, with some room. Where light is gathered finding
+/// the error costs more than patches do, so steps are few and large.
+constexpr double safe = .9, least_step = .5, most_step = .9, least_step_of_gathered = .3,
+                 most_step_of_gathered = .6;
 
 /// So often the division goes on where the whole error is too large still.
 constexpr unsigned most_attempts = 8;
@@ -157,8 +159,8 @@ void AutoDivision::begin_gathered() {
 /// Of patches, by less than gathered light is to gain: its error falls faster than theirs.
 void AutoDivision::lower_goals() {
     const double step = std::sqrt(safe * whole_ / measured()); // not a number where it is unknown
-    options_.error *=
-        step > least_step_of_gathered ? std::min(step, most_step) : least_step_of_gathered;
+    options_.error *= step > least_step_of_gathered ? std::min(step, most_step_of_gathered)
+                                                    : least_step_of_gathered;
     divided_.sampling = sampling_of_gathered * whole_;
 }
 
