@@ -202,8 +202,8 @@ bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
 /// At other points, and with more rays, as it is reported. That of gathered light is found out
 /// better even where it is negligible.
 void AutoDivision::measure_again(DivisionErrorOptions options) {
-    constexpr unsigned better = 3, rays_of_gathered = 2, rays_of_patches = 4;
-    options.most_rays *= is_gathered_ ? rays_of_gathered : rays_of_patches;
+    constexpr unsigned better = 3, more_rays = 4;
+    options.most_rays *= more_rays;
     if (is_gathered_)
         options.negligible /= better;
     measure(options);
