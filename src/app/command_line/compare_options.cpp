@@ -6,6 +6,7 @@
 #include "app/command_line/solving_options.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
+#include "io/files/text_words.h"
 
 #include <algorithm>
 #include <string>
@@ -44,17 +45,13 @@ MethodVariant variant_by_name(std::string_view name) {
 /// Names with commas between them.
 std::vector<MethodVariant> variants_from(std::string_view text) {
     std::vector<MethodVariant> list;
-    for (bool more = true; more;) {
-        const std::size_t comma = text.find(',');
-        MethodVariant variant = variant_by_name(text.substr(0, comma));
+    for (const std::string_view name : parts_of(text, ',')) {
+        MethodVariant variant = variant_by_name(name);
         if (std::ranges::any_of(list, [&variant](const MethodVariant& other) {
                 return other.method == variant.method && other.value == variant.value;
             }))
             throw UsageError("--methods: '" + variant.name + "' is named twice");
         list.push_back(std::move(variant));
-        more = comma != std::string_view::npos;
-        if (more)
-            text.remove_prefix(comma + 1);
     }
     return list;
 }

@@ -10,21 +10,8 @@
 namespace hemilux {
 namespace {
 
-std::optional<std::vector<double>> numbers_of(std::string_view text, char separator) {
-    std::vector<double> numbers;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(separator, begin), text.size());
-        const std::optional<double> number = parse_number(text.substr(begin, end - begin));
-        if (!number)
-            return std::nullopt;
-        numbers.push_back(*number);
-        begin = end + 1;
-    }
-    return numbers;
-}
-
 std::optional<Vec3> vector_of(std::string_view text) {
-    const auto numbers = numbers_of(text, ',');
+    const auto numbers = parse_numbers(text, ',');
     if (!numbers || numbers->size() != 3)
         return std::nullopt;
     return Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
@@ -45,7 +32,7 @@ bool read_pair(LightSettings& light, const std::string& word, const std::string&
         light.width = light.height = 2 * parse_number(value).value_or(0);
         return true;
     }
-    const auto sides = numbers_of(value, 'x');
+    const auto sides = parse_numbers(value, 'x');
     if (word != "size" || light.is_disc || !sides || sides->size() != 2)
         return false;
     light.width = (*sides)[0];
@@ -78,7 +65,7 @@ std::optional<LightSettings> parse_light(std::string_view text) {
 }
 
 std::optional<SunSettings> parse_sun(std::string_view text) {
-    const auto n = numbers_of(text, ',');
+    const auto n = parse_numbers(text, ',');
     if (!n || (n->size() != 4 && n->size() != 6))
         return std::nullopt;
     const std::vector<double>& x = *n;

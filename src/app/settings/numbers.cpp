@@ -1,5 +1,8 @@
 #include "app/settings/numbers.h"
 
+#include "io/files/text_words.h"
+
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -47,22 +50,25 @@ std::optional<std::uint64_t> parse_whole(std::string_view text) {
     return parse<std::uint64_t>(text);
 }
 
-std::optional<Vec3> parse_colour(std::string_view text, const NumberRange& range) {
-    Vec3 colour{0.0};
-    int channels = 0;
-    for (bool more = true; more; ++channels) {
-        const std::size_t comma = text.find(',');
-        const std::optional<double> value = parse_number(text.substr(0, comma));
-        if (channels == 3 || !value || !range.contains(*value))
+std::optional<std::vector<double>> parse_numbers(std::string_view text, char separator) {
+    std::vector<double> numbers;
+    for (const std::string_view part : parts_of(text, separator)) {
+        const std::optional<double> number = parse_number(part);
+        if (!number)
             return std::nullopt;
-        colour[channels] = *value;
-        more = comma != std::string_view::npos;
-        if (more)
-            text.remove_prefix(comma + 1);
+        numbers.push_back(*number);
     }
-    if (channels == 1)
-        return Vec3(colour[0]);
-    return channels == 3 ? std::optional(colour) : std::nullopt;
+    return numbers;
+}
+
+std::optional<Vec3> parse_colour(std::string_view text, const NumberRange& range) {
+    const auto numbers = parse_numbers(text, ',');
+    if (!numbers || !std::ranges::all_of(*numbers, [&](double x) { return range.contains(x); }))
+        return std::nullopt;
+    const std::vector<double>& x = *numbers;
+    if (x.size() == 1)
+        return Vec3(x[0]);
+    return x.size() == 3 ? std::optional(Vec3(x[0], x[1], x[2])) : std::nullopt;
 }
 
 std::optional<double> parse_share(std::string_view text) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hemilux {
 
@@ -28,6 +29,9 @@ inline constexpr NumberRange positive{.low = 0, .high = no_limit, .low_included 
 inline constexpr NumberRange non_negative{.low = 0, .high = no_limit};
 
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
+/// Between separators; empty where one of them is no number.
+[[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text,
+                                                               char separator);
 /// Reads a whole number of decimal digits; empty for any other text.
 [[nodiscard]] std::optional<std::uint64_t> parse_whole(std::string_view text);
 /// Reads "r,g,b", or one number for all three; empty if a channel is missing or out of the range.

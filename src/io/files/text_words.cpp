@@ -51,6 +51,13 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
+std::vector<std::string_view> parts_of(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    for (std::size_t begin = 0; begin <= text.size(); begin += parts.back().size() + 1)
+        parts.push_back(text.substr(begin, text.find(separator, begin) - begin));
+    return parts;
+}
+
 std::string_view take_word(std::string_view& text) {
     std::size_t begin = 0;
     while (begin < text.size() && is_blank(text[begin]))

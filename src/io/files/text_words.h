@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hemilux {
 
@@ -12,6 +13,8 @@ inline constexpr double largest_number = 1e100;
 
 /// The text without blanks at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
+/// What stands between separators; of an empty text one empty part.
+[[nodiscard]] std::vector<std::string_view> parts_of(std::string_view text, char separator);
 /// Takes the next word from the front of the text; empty at the end of the line or at a comment.
 std::string_view take_word(std::string_view& text);
 /// Whether both are the same but for capitals, and not the same.

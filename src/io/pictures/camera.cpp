@@ -1,6 +1,7 @@
 #include "io/pictures/camera.h"
 
 #include "geometry/frame.h"
+#include "io/files/text_words.h"
 #include "radiosity/scene/mesh.h"
 
 #include <array>
@@ -23,21 +24,16 @@ namespace {
 /// Numbers between commas; blanks around them are allowed. Returns how many there are.
 std::size_t parse_numbers(std::string_view text, std::array<double, 10>& numbers) {
     std::size_t count = 0;
-    std::string_view left = text;
-    for (;;) {
-        const std::string_view part = left.substr(0, left.find(','));
-        const std::size_t first = std::min(part.find_first_not_of(" \t"), part.size());
-        const std::string_view word = part.substr(first, part.find_last_not_of(" \t") + 1 - first);
+    for (const std::string_view part : parts_of(text, ',')) {
+        const std::string_view word = trimmed(part);
         if (count == numbers.size())
             refuse(text, "there are more than 10 numbers");
         const char* end = word.data() + word.size();
         const auto [rest, error] = std::from_chars(word.data(), end, numbers[count++]);
         if (error != std::errc() || rest != end || !std::isfinite(numbers[count - 1]))
             refuse(text, "'" + std::string(word) + "' is not a finite number");
-        if (part.size() == left.size())
-            return count;
-        left.remove_prefix(part.size() + 1);
     }
+    return count;
 }
 
 } // namespace
