@@ -30,6 +30,9 @@ constexpr double first_sampling_of_gathered = .05, sampling_of_gathered = .4;
 constexpr double safe = .9, least_step = .5, most_step = .9, least_step_of_gathered = .3,
                  most_step_of_gathered = .6;
 
+/// An error of gathered light, over that asked for, that need not be known better.
+constexpr double negligible_when_reported = .05;
+
 /// So often the division goes on where the whole error is too large still.
 constexpr unsigned most_attempts = 8;
 
@@ -77,6 +80,7 @@ class AutoDivision {
     /// Whether the whole error, as far as it is known, is as asked for; else less is left to what
     /// has the larger part.
     [[nodiscard]] bool is_enough(double sampling);
+    void measure_at_first();
     void measure_again(DivisionErrorOptions options);
     [[nodiscard]] bool is_confirmed(std::uint64_t most_rays, double sampling,
                                     std::span<const double> square);
@@ -202,11 +206,26 @@ bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
 /// At other points, and with more rays, as it is reported. That of gathered light is found out
 /// better even where it is negligible.
 void AutoDivision::measure_again(DivisionErrorOptions options) {
-    constexpr unsigned better = 3, more_rays = 4;
+    constexpr unsigned more_rays = 4;
     options.most_rays *= more_rays;
     if (is_gathered_)
-        options.negligible /= better;
+        options.negligible = negligible_when_reported * whole_;
     measure(options);
+}
+
+/// That of gathered light is found out as it is reported: mostly nothing is divided.
+void AutoDivision::measure_at_first() {
+    DivisionErrorOptions options = error_options(rays_of_error(0), share_of_division * whole_);
+    if (!is_gathered_)
+        return measure(options);
+    const double negligible = options.negligible = negligible_when_reported * whole_;
+    measure(options);
+    if (is_over() || !(divided_.spread->error <= safe * whole_))
+        return;
+    const auto [error, uncertainty, points, rays] = *divided_.spread;
+    const bool is_known = uncertainty <= error / 8 || error + uncertainty <= negligible;
+    if (!is_known || error + 2 * uncertainty > safe * whole_)
+        measure_again(options);
 }
 
 void AutoDivision::divide_once(Division& division) {
@@ -255,13 +274,8 @@ Divided AutoDivision::divide() {
         divided_.sampling = rough.error =
             std::max(first_sampling_of_gathered, sampling_of_gathered * whole_);
     run_to(*rough.error, rough);
-    if (!is_over()) {
-        const DivisionErrorOptions options =
-            error_options(rays_of_error(0), share_of_division * whole_);
-        measure(options);
-        if (is_gathered_ && !is_over() && divided_.spread->error <= safe * whole_)
-            measure_again(options);
-    }
+    if (!is_over())
+        measure_at_first();
     if (!is_over() && is_gathered_) {
         const double spread = divided_.spread->error;
         divided_.linear = spread > safe * whole_;
