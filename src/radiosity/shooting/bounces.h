@@ -108,7 +108,7 @@ class Bounces {
     struct Lost {
         std::uint32_t escaped = 0, absorbed = 0, shot_apart = 0;
     };
-    /// Adds to `lost` how many brought it to no patch.
+    /// Adds to `lost` how many brought it to no patch: returned by value, it would stall each call.
     void receive(const Vec3& power, std::span<const std::uint32_t> receivers, Lost& lost);
     void teach(const RayBatch& batch) const;
     void reflect(StepResult& result);
