@@ -15,6 +15,7 @@
 #include "support/catch.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -343,26 +344,67 @@ TEST_CASE("what gathers lack is what they find besides where patches are divided
     CHECK(std::sqrt(off) < .35 * std::sqrt(square));
 }
 
-TEST_CASE(
-    "gathered light has a reflection of the error of sampling, and what the division leaves") {
+TEST_CASE("gathered light has what a reflection leaves of the error of sampling, and what the "
+          "division leaves") {
     const double rho = .5;
     const Model model(test::furnace_box(2, rho), {});
     Solution solution =
         test::solve(model, *find_method("monte-carlo"), {.rays = 32}, test::steps(8));
-    // Each wall errs with the others.
-    solution.effective_freedom = 1;
+    solution.missed = 0;
     const double sampling = estimated_error(model.mesh, solution);
     REQUIRE(sampling > .01);
-    const auto error = [&](double spread, double uncertainty) {
-        return gathered_error({.error = spread, .uncertainty = uncertainty}, model.mesh, solution)
+    const auto error = [&](double spread) {
+        return gathered_error({.error = spread, .uncertainty = .1 * spread}, model.mesh, solution)
             .error;
     };
-    CHECK(error(0, 0) == Approx(rho * sampling));
-    CHECK(error(.1, .01) == Approx(std::hypot(rho * sampling, .1)));
-    // Where each patch errs for itself gathers average over them.
-    solution.effective_freedom = 400;
-    CHECK(error(0, 0) < .2 * rho * sampling);
-    CHECK(error(0, 0) > .05 * rho * sampling);
+    // Where no more is known all patches may err alike.
+    CHECK(error(0) == Approx(rho * sampling));
+    CHECK(error(.1) == Approx(std::hypot(rho * sampling, .1)));
+    constexpr double share = .01;
+    solution.reflected_share = share;
+    CHECK(error(0) == Approx(std::sqrt(share) * sampling));
+    // They do in what they may have missed, and in the level of all light.
+    const double missed = .02;
+    solution.missed = .25 * missed * missed * reflected_square(model.mesh, solution);
+    solution.variance_of_level = 3 * solution.missed;
+    solution.level_freedom = std::numeric_limits<double>::infinity();
+    const double square = std::pow(estimated_error(model.mesh, solution), 2);
+    REQUIRE(square > missed * missed);
+    CHECK(error(0) ==
+          Approx(std::sqrt(std::pow(rho * missed, 2) + share * (square - missed * missed))));
+}
+
+TEST_CASE("what a reflection leaves of the error of sampling is what gathers are off by") {
+    const double max_edge = GENERATE(1.0, .5);
+    const Model model(bright_room_with_block(), {.max_edge = max_edge});
+    const Method& method = *find_method("stored-transport");
+    const Solution accurate =
+        test::solve(model, method, {}, {.steps = {}, .seconds = {}, .error = .001});
+    const StopFlag never;
+    const auto gathered = [&](const Solution& solution) {
+        FinalGather gather(model.mesh, model.bvh, solution);
+        gather.set_rounds(16);
+        // By the same rays for all solutions.
+        return gather_over(PointsOverSurface(model.mesh), gather, 128, 1, 1, Workers(0), never);
+    };
+    const GatheredAtPoints truth = gathered(accurate);
+    double known = 0, found = 0;
+    constexpr std::uint64_t seeds = 16;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const Solution solution =
+            test::solve(model, method, {.rays = 256, .seed = seed}, test::steps(1));
+        REQUIRE(solution.reflected_share);
+        known += *solution.reflected_share * *solution.variance;
+        const GatheredAtPoints now = gathered(solution);
+        for (std::size_t k = 0; k < now.points.size(); ++k) {
+            const Vec3 off = model.mesh.material(now.points[k].patch).reflectance *
+                             (now.irradiance[k] - truth.irradiance[k]);
+            found += now.points[k].area * glm::dot(off, off);
+        }
+    }
+    CAPTURE(max_edge, std::sqrt(known / seeds), std::sqrt(found / seeds));
+    CHECK(known < 2 * found);
+    CHECK(found < 2 * known);
 }
 
 TEST_CASE("where light does not vary within patches gathers lack nothing") {

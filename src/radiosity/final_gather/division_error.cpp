@@ -34,9 +34,12 @@ struct Manner {
     double well_known;
     /// What is negligible is found out all the same where so many rays do.
     std::uint64_t cheap_rays;
+    /// Gathers at a point, which share a round of rays for two. The mean of the products of all
+    /// pairs of n has n / (2 n - 2) times the variance by noise of one product of two.
+    unsigned gathers;
 };
-constexpr Manner of_patches{64, 64, .15, 0}, of_divided{640, 64, .15, 0}, of_spread{32, 32, .2, 0},
-    of_gathered{32, 32, .2, 600'000};
+constexpr Manner of_patches{64, 64, .15, 0, 2}, of_divided{640, 64, .15, 0, 2},
+    of_spread{32, 32, .2, 0, 2}, of_gathered{32, 32, .17, 600'000, 8};
 
 /// So many points times the length of gathers at the most, in a round.
 constexpr std::size_t longest_round = 4096;
@@ -160,7 +163,7 @@ class ErrorAtPoints {
                                     const DivisionErrorOptions& options) const;
     [[nodiscard]] Products products(const OffAt& off_at, FinalGather& gather,
                                     const PointsOverSurface& surface, std::size_t count,
-                                    std::uint64_t seed) const;
+                                    std::size_t gathers, std::uint64_t seed) const;
 
     const Mesh& mesh_;
     const Tracer& tracer_;
@@ -186,7 +189,8 @@ SquaredError ErrorAtPoints::within_patches(const OtherError& other,
 
 SquaredError ErrorAtPoints::spread(bool reads_near, const Manner& manner,
                                    const DivisionErrorOptions& options) const {
-    FinalGather gather(mesh_, tracer_, solution_);
+    FinalGather gather(mesh_, tracer_, solution_,
+                       2 * FinalGather::usual_random_rays / manner.gathers);
     gather.find_spread(reads_near);
     const OffAt lacking = [](const PatchPoint&, const Vec3& lacks) { return lacks; };
     return find(lacking, gather, PointsOverSurface(mesh_, solution_.weight), {}, manner, options);
@@ -200,26 +204,30 @@ SquaredError ErrorAtPoints::find(const OffAt& off_at, FinalGather& gather,
                                  const Manner& manner, const DivisionErrorOptions& options) const {
     // For f times less noise longer gathers, which begin anew, cost f times the rays so far, and
     // more points f^2 - 1 times.
-    constexpr double growth_pays = 1.6, least_growth = 2, most_growth = 4;
+    constexpr double barely_negligible = .01, growth_pays = 1.6, least_growth = 2, most_growth = 4;
     const double negligible = options.negligible * options.negligible;
     const auto longest = double(longest_round / manner.least_points);
     double length = 1;
     std::size_t points = manner.points_per_round;
     Rounds rounds, noise;
+    double uncertainty = 0;
     for (std::uint64_t number = 0;; ++number) {
-        const Products sums =
-            products(off_at, gather, surface, points, hash_words({options.seed, number}));
+        const Products sums = products(off_at, gather, surface, points, manner.gathers,
+                                       hash_words({options.seed, number}));
         if (interrupted_)
             return {};
         rounds.add(sums.error / size_);
         noise.add(sums.by_noise / (size_ * size_));
         if (rounds.count < least_rounds)
             continue;
-        const double enough = std::max(manner.well_known * (rounds.mean() - other.square),
-                                       gather.rays() < manner.cheap_rays ? 0 : negligible);
-        if (rounds.uncertainty() <= enough)
-            break;
+        const double enough = std::max(
+            manner.well_known * (rounds.mean() - other.square),
+            gather.rays() < manner.cheap_rays ? barely_negligible * negligible : negligible);
+        // Rounds may be alike by chance: they differ at least by the noise within them.
         const double by_noise = std::sqrt(noise.mean() / static_cast<double>(noise.count));
+        uncertainty = std::max(rounds.uncertainty(), by_noise);
+        if (uncertainty <= enough)
+            break;
         const auto rays = double(gather.rays()), most_rays = double(options.most_rays);
         const double growth =
             std::clamp(std::min(by_noise / enough, most_rays / rays), least_growth, most_growth);
@@ -233,25 +241,31 @@ SquaredError ErrorAtPoints::find(const OffAt& off_at, FinalGather& gather,
             break;
         }
     }
-    return {rounds.mean() - other.square, std::hypot(rounds.uncertainty(), other.scatter),
+    return {rounds.mean() - other.square, std::hypot(uncertainty, other.scatter),
             rounds.count * points, gather.rays()};
 }
 
 Products ErrorAtPoints::products(const OffAt& off_at, FinalGather& gather,
                                  const PointsOverSurface& surface, std::size_t count,
-                                 std::uint64_t seed) const {
+                                 std::size_t gathers, std::uint64_t seed) const {
     const auto [points, irradiance] =
-        gather_twice(surface, gather, count, seed, workers_, interrupted_);
+        gather_over(surface, gather, count, gathers, seed, workers_, interrupted_);
+    const auto n = static_cast<double>(gathers);
     Products sums;
     for (std::size_t k = 0; k < points.size(); ++k) {
         const Vec3& rho = mesh_.material(points[k].patch).reflectance;
-        const Vec3 off1 = off_at(points[k], rho * irradiance[2 * k]);
-        const Vec3 off2 = off_at(points[k], rho * irradiance[2 * k + 1]);
+        Vec3 sum(0.0);
+        double squares = 0;
+        for (std::size_t e = 0; e < gathers; ++e) {
+            const Vec3 off = off_at(points[k], rho * irradiance[k * gathers + e]);
+            sum += off;
+            squares += glm::dot(off, off);
+        }
         const double counts = solution_.weight_of(points[k].patch) * points[k].area;
-        sums.error += counts * glm::dot(off1, off2);
-        // The square of normal noise has three times the variance of a product of two.
-        const double noise = counts * .5 * glm::dot(off1 - off2, off1 - off2);
-        sums.by_noise += noise * noise / 3;
+        sums.error += counts * (glm::dot(sum, sum) - squares) / (n * (n - 1));
+        // Of normal noise the squared sample variance is (n + 1) / (n - 1) times what it should be.
+        const double noise = counts * (squares - glm::dot(sum, sum) / n) / (n - 1);
+        sums.by_noise += noise * noise * 2 / (n * (n + 1));
     }
     return sums;
 }
@@ -278,14 +292,12 @@ DivisionError spread_error(const Mesh& mesh, const Tracer& tracer, const Solutio
 
 DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
                              const Solution& solution) {
-    // Gathers read many patches, and what each errs for itself averages out: a few modes are left
-    // of as many as there are degrees of freedom. What rays may have missed is common to all.
-    constexpr double modes = 4;
-    const KnownVariance known = known_variance(mesh, solution, reflected_square(mesh, solution));
-    const double all_known = known.own + known.common, sampled = estimated_error(mesh, solution);
-    const double sampling =
-        mean_reflectance(mesh) * std::sqrt(std::max(sampled * sampled - all_known, 0.0) +
-                                           all_known * std::min(1.0, modes / known.freedom));
+    // What rays may have missed, and the level of all light, is common to all that a gather reads.
+    const double size = reflected_square(mesh, solution), rho = mean_reflectance(mesh);
+    const double sampled = estimated_error(mesh, solution), square = sampled * sampled;
+    const double common = std::min((solution.missed + solution.variance_of_level) / size, square);
+    const double sampling = std::sqrt(
+        rho * rho * common + solution.reflected_share.value_or(rho * rho) * (square - common));
     DivisionError all = spread;
     all.error = std::hypot(spread.error, sampling);
     if (all.error > 0)

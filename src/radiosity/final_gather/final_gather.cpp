@@ -69,17 +69,17 @@ void FinalGather::add_rays(const SurfacePoint& point, std::uint64_t seed, std::s
     }
 }
 
-GatheredTwice gather_twice(const PointsOverSurface& surface, FinalGather& gather,
-                           std::size_t points, std::uint64_t seed, const Workers& workers,
-                           const StopFlag& interrupted) {
-    GatheredTwice found{surface.draw(points, hash_words({seed, 0})), {}};
+GatheredAtPoints gather_over(const PointsOverSurface& surface, FinalGather& gather,
+                             std::size_t points, std::size_t estimates, std::uint64_t seed,
+                             const Workers& workers, const StopFlag& interrupted) {
+    GatheredAtPoints found{surface.draw(points, hash_words({seed, 0})), {}};
     std::vector<SurfacePoint> at;
     std::vector<std::uint64_t> streams;
     for (const PatchPoint& point : found.points) {
         at.push_back(point.at);
         streams.push_back(hash_words({seed, at.size()}));
     }
-    found.irradiance = gather.irradiance(at, streams, 2, workers, interrupted);
+    found.irradiance = gather.irradiance(at, streams, estimates, workers, interrupted);
     return found;
 }
 

@@ -65,14 +65,14 @@ class FinalGather {
     std::atomic<std::uint64_t> rays_{0};
 };
 
-/// Points over the surfaces, and two independent estimates of the irradiance at each: those of
-/// point k are 2 k and 2 k + 1.
-struct GatheredTwice {
+/// Points over the surfaces, and independent estimates of the irradiance at each, in order.
+struct GatheredAtPoints {
     std::vector<PatchPoint> points;
     std::vector<Vec3> irradiance; ///< [W/m2]
 };
-[[nodiscard]] GatheredTwice gather_twice(const PointsOverSurface& surface, FinalGather& gather,
-                                         std::size_t points, std::uint64_t seed,
-                                         const Workers& workers, const StopFlag& interrupted);
+[[nodiscard]] GatheredAtPoints gather_over(const PointsOverSurface& surface, FinalGather& gather,
+                                           std::size_t points, std::size_t estimates,
+                                           std::uint64_t seed, const Workers& workers,
+                                           const StopFlag& interrupted);
 
 } // namespace hemilux

@@ -17,7 +17,8 @@ KnownLight::KnownLight(const Mesh& mesh, const Tracer& tracer, std::span<const V
     FinalGather gather(mesh, tracer, accurate);
     const PointsOverSurface surface(mesh,
                                     mixed_density(mesh, {}, {reflected_squares(mesh, accurate)}));
-    const GatheredTwice found = gather_twice(surface, gather, points, seed, workers, interrupted);
+    const GatheredAtPoints found =
+        gather_over(surface, gather, points, 2, seed, workers, interrupted);
     if (interrupted)
         return;
     for (std::size_t k = 0; k < found.points.size(); ++k) {

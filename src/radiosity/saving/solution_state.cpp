@@ -13,8 +13,13 @@ namespace {
 /// Of the largest of all patches: the light that an iteration may leave below 0.
 constexpr double most_below = .1;
 
-/// -1 stands for a variance that is not known.
+/// -1 stands for what is not known.
 constexpr Bounds known_or_not{-1, bounds::largest};
+
+std::optional<double> number_or_nothing(StateReader& state) {
+    const double number = state.number(known_or_not);
+    return number >= 0 ? std::optional(number) : std::nullopt;
+}
 
 } // namespace
 
@@ -46,6 +51,7 @@ void save_solution(const Solution& solution, StateWriter& state) {
     state.add(solution.effective_freedom.value_or(0));
     state.add(solution.variance.value_or(-1));
     state.add(solution.variance_of_level);
+    state.add(solution.reflected_share.value_or(-1));
     state.add(solution.missed);
     state.add(std::uint64_t{solution.unlit});
     save_energy(solution.energy, state);
@@ -61,9 +67,9 @@ void load_solution(Solution& solution, StateReader& state) {
     state.get(solution.error_batches, bounds::non_negative);
     const double parts = state.number({0, std::numeric_limits<double>::infinity()});
     solution.effective_freedom = parts > 0 ? std::optional(parts) : std::nullopt;
-    const double variance = state.number(known_or_not);
-    solution.variance = variance >= 0 ? std::optional(variance) : std::nullopt;
+    solution.variance = number_or_nothing(state);
     state.get(solution.variance_of_level, bounds::non_negative);
+    solution.reflected_share = number_or_nothing(state);
     state.get(solution.missed, bounds::non_negative);
     solution.unlit = state.whole_up_to(solution.radiosity.size());
     load_energy(solution.energy, state);

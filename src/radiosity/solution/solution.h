@@ -66,6 +66,9 @@ struct Solution {
     /// from standard_error, which does not say what patches err together; where level_freedom is
     /// finite, of the error besides that of the level.
     std::optional<double> effective_freedom;
+    /// Of the variance besides that of the level, what is left after one more reflection [-], as
+    /// far as known: little where patches err each for itself, since a reflection averages.
+    std::optional<double> reflected_share;
     EnergyBalance energy;
     /// Patches from which `stored-transport` traces no more rays at random, as none of those that
     /// were traced has found a path to them from an emitter.

@@ -29,8 +29,7 @@ struct Sums {
 void add_products(const TransportResult& result, std::uint32_t i, Sums& sums) {
     const Vec3 rho = result.system.reflectance()[i];
     const auto off = result.light.deviations(i);
-    const double counts = result.weight.empty() ? 1 : result.weight[i];
-    const Vec3 weight = counts * result.system.area()[i] * rho * rho;
+    const Vec3 weight = weighted_area(result, i) * rho * rho;
     for (std::size_t s = 0; s < batches; ++s)
         for (std::size_t t = 0; t < batches; ++t)
             sums.products[s * batches + t] += glm::dot(weight * off[s], off[t]);
@@ -45,6 +44,25 @@ double direct_variance(const TransportResult& result, std::uint32_t i) {
         squares += off * off;
     }
     return result.system.area()[i] * glm::dot(rho * rho, squares) / double(batches * (batches - 1));
+}
+
+/// One reflection of what half of the batches differ by from the others, which errs as their mean.
+std::optional<double> reflected_share(const TransportResult& result, const Workers& workers) {
+    static_assert(batches == 4);
+    const std::span<const Vec3> rho = result.system.reflectance();
+    std::vector<Vec3> off(rho.size()), arriving(rho.size());
+    for (std::uint32_t i = 0; i < off.size(); ++i) {
+        const auto of_batch = result.light.deviations(i);
+        off[i] = rho[i] * (of_batch[0] + of_batch[1] - of_batch[2] - of_batch[3]);
+    }
+    result.factors.multiply(off, arriving, workers);
+    double before = 0, after = 0;
+    for (std::uint32_t i = 0; i < off.size(); ++i) {
+        const double counts = weighted_area(result, i);
+        before += counts * glm::dot(off[i], off[i]);
+        after += counts * glm::dot(rho[i] * arriving[i], rho[i] * arriving[i]);
+    }
+    return before > 0 ? std::optional(after / before) : std::nullopt;
 }
 
 } // namespace
@@ -73,6 +91,7 @@ BatchSpread spread_of_batches(const TransportResult& result, const TargetAim& ai
     }
     spread.freedom = effective_freedom(all.products, batches);
     spread.direct_variance = all.direct_variance;
+    spread.reflected_share = reflected_share(result, workers);
     return spread;
 }
 
@@ -109,6 +128,7 @@ void report(const TransportErrors& errors, const BatchSpread& spread, const Need
     solution.missed = errors.missed + errors.missed_by_shadow_rays;
     solution.error_batches = batches;
     solution.effective_freedom = believed_freedom(solution.effective_freedom, spread.freedom);
+    solution.reflected_share = spread.reflected_share;
     solution.unlit = 0;
     for (std::uint32_t i = 0; i < errors.needs_rays.size(); ++i)
         solution.unlit += !errors.needs_rays[i] && needs.power(i);

@@ -24,11 +24,6 @@ constexpr double share_of_dark = .01;
 
 bool any(const Vec3& v) { return v != Vec3(0.0); }
 
-/// The weight of the squared error of a patch.
-double weighted_area(const TransportResult& result, std::size_t patch) {
-    return (result.weight.empty() ? 1 : result.weight[patch]) * result.system.area()[patch];
-}
-
 /// Sums over the patches of a linked part, by channel.
 struct PartLedger {
     Vec3 used{0.0};          ///< power that ends there: absorbed, or lost
@@ -228,6 +223,10 @@ class Window {
 };
 
 } // namespace
+
+double weighted_area(const TransportResult& result, std::size_t patch) {
+    return (result.weight.empty() ? 1 : result.weight[patch]) * result.system.area()[patch];
+}
 
 TransportErrors errors_of(const TransportResult& result, const Workers& workers) {
     constexpr double batches = BatchLight::batches;

@@ -50,6 +50,9 @@ struct TransportResult {
     std::span<const double> weight = {}; ///< by patch, in the sums of errors; empty: 1
 };
 
+/// The weight of the squared error of a patch [local area].
+[[nodiscard]] double weighted_area(const TransportResult& result, std::size_t patch);
+
 [[nodiscard]] TransportErrors errors_of(const TransportResult& result, const Workers& workers);
 
 } // namespace hemilux
