@@ -370,8 +370,10 @@ TEST_CASE("gathered light has what a reflection leaves of the error of sampling,
     solution.level_freedom = std::numeric_limits<double>::infinity();
     const double square = std::pow(estimated_error(model.mesh, solution), 2);
     REQUIRE(square > missed * missed);
-    CHECK(error(0) ==
-          Approx(std::sqrt(std::pow(rho * missed, 2) + share * (square - missed * missed))));
+    // On average they have missed two ninths of the square that the rule of three allows for.
+    constexpr double common = .75 + .25 * 2 / 9;
+    CHECK(error(0) == Approx(std::sqrt(common * std::pow(rho * missed, 2) +
+                                       share * (square - missed * missed))));
 }
 
 TEST_CASE("what a reflection leaves of the error of sampling is what gathers are off by") {

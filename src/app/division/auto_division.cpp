@@ -64,9 +64,6 @@ class AutoDivision {
   private:
     /// The light of the mesh as it is: by the run to come, where that is of the standard method.
     void run_to(double error, const StopRule& most);
-    /// How well the error is to be known. `negligible`: that of patches.
-    [[nodiscard]] DivisionErrorOptions error_options(std::uint64_t most_rays,
-                                                     double negligible) const;
     /// How far the light that is given out is off by the division, at points of its own.
     void measure(DivisionErrorOptions options);
     [[nodiscard]] double measured() const {
@@ -131,11 +128,6 @@ void AutoDivision::forget_run() {
     divided_.steps.clear();
 }
 
-DivisionErrorOptions AutoDivision::error_options(std::uint64_t most_rays, double negligible) const {
-    return {.most_rays = most_rays,
-            .negligible = is_gathered_ ? resolved_gathered_error(settings_) : negligible};
-}
-
 void AutoDivision::measure(DivisionErrorOptions options) {
     options.seed = hash_words({settings_.options.seed, 4, gathers_++});
     const Stopwatch watch;
@@ -194,8 +186,10 @@ bool AutoDivision::is_enough(double sampling) {
 /// The first of several errors to be small enough errs low, so another one confirms it.
 bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
                                 std::span<const double> square) {
-    DivisionErrorOptions options = error_options(most_rays, sampling / 2);
-    options.square = square;
+    const DivisionErrorOptions options{
+        .most_rays = most_rays,
+        .negligible = is_gathered_ ? resolved_gathered_error(settings_) : sampling / 2,
+        .square = square};
     measure(options);
     if (is_over() || !is_enough(sampling))
         return false;
@@ -215,16 +209,14 @@ void AutoDivision::measure_again(DivisionErrorOptions options) {
 
 /// That of gathered light is found out as it is reported: mostly nothing is divided.
 void AutoDivision::measure_at_first() {
-    DivisionErrorOptions options = error_options(rays_of_error(0), share_of_division * whole_);
-    if (!is_gathered_)
-        return measure(options);
-    const double negligible = options.negligible = negligible_when_reported * whole_;
+    const DivisionErrorOptions options{
+        .most_rays = rays_of_error(0),
+        .negligible = (is_gathered_ ? negligible_when_reported : share_of_division) * whole_};
     measure(options);
-    if (is_over() || !(divided_.spread->error <= safe * whole_))
+    if (!is_gathered_ || is_over() || !(divided_.spread->error <= safe * whole_))
         return;
-    const auto [error, uncertainty, points, rays] = *divided_.spread;
-    const bool is_known = uncertainty <= error / 8 || error + uncertainty <= negligible;
-    if (!is_known || error + 2 * uncertainty > safe * whole_)
+    const DivisionError& found = *divided_.spread;
+    if (!found.is_known(options.negligible) || found.error + 2 * found.uncertainty > safe * whole_)
         measure_again(options);
 }
 

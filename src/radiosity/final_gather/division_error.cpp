@@ -8,6 +8,7 @@
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solution/error_spread.h"
+#include "radiosity/solution/missed_light.h"
 #include "radiosity/solution/solution.h"
 #include "radiosity/solving/stop_flag.h"
 
@@ -292,12 +293,17 @@ DivisionError spread_error(const Mesh& mesh, const Tracer& tracer, const Solutio
 
 DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
                              const Solution& solution) {
-    // What rays may have missed, and the level of all light, is common to all that a gather reads.
+    // Of N rays that met nothing a share of 3 / N may have been missed, the rule of three; the mean
+    // square of what is, if all shares are as likely before, is 2 / N^2.
+    constexpr double mean_of_missed = 2 / (rule_of_three * rule_of_three);
     const double size = reflected_square(mesh, solution), rho = mean_reflectance(mesh);
     const double sampled = estimated_error(mesh, solution), square = sampled * sampled;
-    const double common = std::min((solution.missed + solution.variance_of_level) / size, square);
-    const double sampling = std::sqrt(
-        rho * rho * common + solution.reflected_share.value_or(rho * rho) * (square - common));
+    const double missed = solution.missed / size, level = solution.variance_of_level / size;
+    // What is missed, and the level of all light, is common to all that a gather reads.
+    double sampling = rho * sampled;
+    if (solution.reflected_share)
+        sampling = std::sqrt(rho * rho * (mean_of_missed * missed + level) +
+                             *solution.reflected_share * std::max(square - missed - level, 0.0));
     DivisionError all = spread;
     all.error = std::hypot(spread.error, sampling);
     if (all.error > 0)

@@ -40,12 +40,17 @@ struct DivisionError {
     double uncertainty = std::numeric_limits<double>::quiet_NaN(); ///< one sigma of `error`
     std::size_t points = 0;
     std::uint64_t rays = 0;
+
+    /// To an eighth of itself, or surely below `negligible`.
+    [[nodiscard]] bool is_known(double negligible) const {
+        return uncertainty <= error / 8 || error + uncertainty <= negligible;
+    }
 };
 
 struct DivisionErrorOptions {
     std::uint64_t seed = 1;
-    /// Points are added until the error is known to an eighth of itself, or surely below
-    /// `negligible`, or so many rays were traced; but a thousand points there are always.
+    /// Points are added until the error is known (DivisionError::is_known), or so many rays were
+    /// traced; but five hundred points there are always.
     std::uint64_t most_rays = 1'000'000;
     double negligible = 0;
     /// Squared errors by patch [local area x (W/m2)^2], as far as they are known: where they are
