@@ -8,6 +8,7 @@
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/method.h"
+#include "saved_runs.h"
 #include "sealed.h"
 
 #include <algorithm>
@@ -17,18 +18,8 @@
 namespace {
 
 using namespace hemilux;
+using fuzz::facing_triangles;
 using fuzz::sealed;
-
-/// That of corpus/obj/facing.obj, with everything emitting.
-Scene facing_triangles() {
-    Scene scene;
-    scene.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 1}};
-    scene.materials = {{"lamp", Vec3(.5), Vec3(1)}};
-    scene.groups = {"default"};
-    scene.facets = {{{0, 1, 2, 2}, 0, 0, 0}, {{3, 4, 5, 5}, 1, 0, 0}};
-    scene.faces = 2;
-    return scene;
-}
 
 /// The content of a whole file, however wrong its length and checksum are.
 std::string_view content_of(std::string_view file) {
@@ -76,10 +67,8 @@ class PatientTracer final : public Tracer {
 
 void go_on(const std::string& state) {
     static const Mesh mesh(facing_triangles());
-    static const SolveOptions options{.rays = 4, .threads = 1};
-    for (const Method* const method : methods()) {
-        if (!method->can_resume())
-            continue;
+    static const auto runs = fuzz::saved_runs();
+    for (const auto& [method, options] : runs) {
         Monitor monitor;
         const PatientTracer tracer(mesh.soup(), monitor);
         const auto solver = method->make({mesh, tracer, options, monitor, everything_needed});

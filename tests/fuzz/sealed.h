@@ -1,6 +1,7 @@
 #pragma once
 // Any bytes with what makes them a whole checkpoint file.
 
+#include "io/results/checkpoint.h"
 #include "io/results/checksum.h"
 #include "radiosity/saving/state.h"
 
@@ -13,7 +14,7 @@ namespace hemilux::fuzz {
 inline std::string sealed(std::string_view content) {
     StateWriter length, sum;
     length.add(std::uint64_t{content.size()});
-    std::string bytes = "hemilux checkpoint, format 5\n" + length.bytes() + std::string(content);
+    std::string bytes = checkpoint_first_line() + length.bytes() + std::string(content);
     Checksum checksum;
     checksum.add(bytes);
     sum.add(checksum.value());

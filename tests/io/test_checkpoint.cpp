@@ -1,13 +1,19 @@
 #include "io/results/checkpoint.h"
 
+#include "bvh/brute_force.h"
+#include "fuzz/saved_runs.h"
+#include "fuzz/sealed.h"
 #include "io/files/error.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/solving/method.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 using namespace hemilux;
@@ -105,4 +111,36 @@ TEST_CASE("scenes that differ in anything have different hashes", "[checkpoint]"
     other = room;
     other.facets[1].material = (other.facets[1].material + 1) % 2;
     CHECK(hash(room) != hash(other));
+}
+
+TEST_CASE("fuzzing of checkpoints begins with some that a method goes on from", "[checkpoint]") {
+    const Mesh mesh(fuzz::facing_triangles());
+    const BruteForce tracer(mesh.soup());
+    Monitor monitor;
+    const auto loads = [&](const auto& run, const std::string& state) {
+        const auto& [method, options] = run;
+        try {
+            StateReader reader(state);
+            method->make({mesh, tracer, options, monitor, everything_needed})->load(reader);
+            reader.expect_end();
+            return true;
+        } catch (const StateError&) {
+            return false;
+        }
+    };
+    const std::string corpus = std::string(HEMILUX_SOURCE_DIR) + "/tests/fuzz/corpus/";
+    std::size_t files = 0;
+    for (const auto& file : std::filesystem::directory_iterator(corpus + "checkpoint_sealed")) {
+        CAPTURE(file.path(), "tests/fuzz/make_checkpoints.sh makes it anew");
+        const Checkpoint saved = read_checkpoint(file.path().string());
+        CHECK(std::ranges::any_of(fuzz::saved_runs(),
+                                  [&](const auto& run) { return loads(run, saved.state); }));
+        ++files;
+    }
+    CHECK(files >= 6);
+    const Checkpoint whole = read_checkpoint(corpus + "checkpoint/whole");
+    const std::string bytes = to_bytes(whole);
+    const std::size_t begin = checkpoint_first_line().size() + sizeof(std::uint64_t);
+    const std::string content = bytes.substr(begin, bytes.size() - begin - sizeof(std::uint64_t));
+    CHECK(fuzz::sealed(content) == bytes);
 }

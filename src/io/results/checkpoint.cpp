@@ -148,11 +148,13 @@ std::uint64_t scene_hash(const Mesh& mesh) {
     return sum.value();
 }
 
+std::string checkpoint_first_line() { return std::string(magic) + std::string(format) + "\n"; }
+
 std::string to_bytes(const Checkpoint& checkpoint) {
     const std::string content = content_of(checkpoint);
     StateWriter length, sum;
     length.add(std::uint64_t{content.size()});
-    std::string bytes = std::string(magic) + std::string(format) + "\n" + length.bytes() + content;
+    std::string bytes = checkpoint_first_line() + length.bytes() + content;
     sum.add(checksum_of(bytes));
     return bytes + sum.bytes();
 }

@@ -1,0 +1,37 @@
+#pragma once
+// The runs whose checkpoints are in corpus/checkpoint_sealed (make_checkpoints.sh).
+
+#include "radiosity/guiding/guide.h"
+#include "radiosity/scene/scene.h"
+#include "radiosity/solving/method.h"
+
+#include <utility>
+#include <vector>
+
+namespace hemilux::fuzz {
+
+/// That of corpus/obj/facing.obj, with everything emitting.
+inline Scene facing_triangles() {
+    Scene scene;
+    scene.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 1}};
+    scene.materials = {{"lamp", Vec3(.5), Vec3(1)}};
+    scene.groups = {"default"};
+    scene.facets = {{{0, 1, 2, 2}, 0, 0, 0}, {{3, 4, 5, 5}, 1, 0, 0}};
+    scene.faces = 2;
+    return scene;
+}
+
+/// All methods that can resume, and one with a guide that learns, which saves more.
+inline std::vector<std::pair<const Method*, SolveOptions>> saved_runs() {
+    const SolveOptions usual{.rays = 4, .threads = 1};
+    SolveOptions learned = usual;
+    learned.own.of<Guide>() = Guide::learned;
+    std::vector<std::pair<const Method*, SolveOptions>> runs;
+    for (const Method* const method : methods())
+        if (method->can_resume())
+            runs.emplace_back(method, usual);
+    runs.emplace_back(find_method("hemisphere"), learned);
+    return runs;
+}
+
+} // namespace hemilux::fuzz
