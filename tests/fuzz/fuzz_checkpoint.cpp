@@ -8,7 +8,6 @@
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solving/method.h"
-#include "sealed.h"
 
 #include <cstdlib>
 #include <memory>
@@ -17,7 +16,6 @@
 namespace {
 
 using namespace hemilux;
-using fuzz::sealed;
 
 Scene one_triangle() {
     Scene scene;
@@ -66,7 +64,7 @@ void read(const std::string& bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string bytes(reinterpret_cast<const char*>(data), size);
     read(bytes);
-    read(sealed(bytes));
+    read(sealed_checkpoint(bytes));
     load(bytes);
     return 0;
 }

@@ -9,7 +9,6 @@
 #include "radiosity/solution/solve_error.h"
 #include "radiosity/solving/method.h"
 #include "saved_runs.h"
-#include "sealed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +18,6 @@ namespace {
 
 using namespace hemilux;
 using fuzz::facing_triangles;
-using fuzz::sealed;
 
 /// The content of a whole file, however wrong its length and checksum are.
 std::string_view content_of(std::string_view file) {
@@ -91,7 +89,7 @@ void go_on(const std::string& state) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view file(reinterpret_cast<const char*>(data), size);
     try {
-        go_on(checkpoint_from(sealed(content_of(file)), "saved").state);
+        go_on(checkpoint_from(sealed_checkpoint(content_of(file)), "saved").state);
     } catch (const InputError&) {
     }
     return 0;

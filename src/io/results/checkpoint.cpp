@@ -148,15 +148,17 @@ std::uint64_t scene_hash(const Mesh& mesh) {
     return sum.value();
 }
 
-std::string checkpoint_first_line() { return std::string(magic) + std::string(format) + "\n"; }
-
-std::string to_bytes(const Checkpoint& checkpoint) {
-    const std::string content = content_of(checkpoint);
+std::string sealed_checkpoint(std::string_view content) {
     StateWriter length, sum;
     length.add(std::uint64_t{content.size()});
-    std::string bytes = checkpoint_first_line() + length.bytes() + content;
+    const std::string first_line = std::string(magic) + std::string(format) + "\n";
+    std::string bytes = first_line + length.bytes() + std::string(content);
     sum.add(checksum_of(bytes));
     return bytes + sum.bytes();
+}
+
+std::string to_bytes(const Checkpoint& checkpoint) {
+    return sealed_checkpoint(content_of(checkpoint));
 }
 
 Checkpoint checkpoint_from(std::string_view bytes, const std::string& file) {

@@ -29,8 +29,8 @@ struct Checkpoint {
 /// A hash of all that the solvers see of a scene: positions, patches, materials.
 [[nodiscard]] std::uint64_t scene_hash(const Mesh& mesh);
 
-/// Names the format, and ends with a line break.
-[[nodiscard]] std::string checkpoint_first_line();
+/// Any content as a whole file: with the first line, its length and the checksum.
+[[nodiscard]] std::string sealed_checkpoint(std::string_view content);
 [[nodiscard]] std::string to_bytes(const Checkpoint& checkpoint);
 /// Reads what to_bytes() made; throws InputError for anything else. `file` is for messages.
 [[nodiscard]] Checkpoint checkpoint_from(std::string_view bytes, const std::string& file);
