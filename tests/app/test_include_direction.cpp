@@ -41,6 +41,7 @@ const std::vector<std::string> rooms{
     "radiosity/emitters",
     "radiosity/stored_transport",
     "radiosity/final_gather",
+    "radiosity/light_error",
     "radiosity/strategies",
     "radiosity/solvers",
     "radiosity/division",

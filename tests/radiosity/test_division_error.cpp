@@ -1,7 +1,7 @@
 // The error of the light on the surfaces, against light in closed form and against finer divisions.
 #include "geometry/frame.h"
 #include "parallel/workers.h"
-#include "radiosity/final_gather/division_error.h"
+#include "radiosity/light_error/division_error.h"
 #include "radiosity/final_gather/final_gather.h"
 #include "radiosity/final_gather/gather_in_parts.h"
 #include "radiosity/final_gather/light_within_patches.h"

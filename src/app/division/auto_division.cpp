@@ -7,7 +7,7 @@
 #include "app/terminal/stopwatch.h"
 #include "parallel/workers.h"
 #include "radiosity/division/adaptive_division.h"
-#include "radiosity/final_gather/division_error.h"
+#include "radiosity/light_error/division_error.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/solving/time_limit.h"
 

@@ -3,7 +3,7 @@
 
 #include "app/settings/settings.h"
 #include "io/results/statistics.h"
-#include "radiosity/final_gather/division_error.h"
+#include "radiosity/light_error/division_error.h"
 #include "radiosity/solving/run.h"
 
 #include <functional>

@@ -3,7 +3,7 @@
 #include "app/division/default_division.h"
 #include "parallel/workers.h"
 #include "radiosity/division/adaptive_division.h"
-#include "radiosity/final_gather/division_error.h"
+#include "radiosity/light_error/division_error.h"
 #include "radiosity/solution/solve_error.h"
 
 #include <cmath>

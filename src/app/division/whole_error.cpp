@@ -3,7 +3,7 @@
 #include "app/settings/text.h"
 #include "app/terminal/stopwatch.h"
 #include "parallel/workers.h"
-#include "radiosity/final_gather/division_error.h"
+#include "radiosity/light_error/division_error.h"
 #include "radiosity/sampling/rng.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "io/drawings/density_picture.h"
 #include "io/files/error.h"
 #include "parallel/workers.h"
-#include "radiosity/final_gather/division_error.h"
+#include "radiosity/light_error/division_error.h"
 #include "radiosity/sampling/rng.h"
 
 #include <algorithm>

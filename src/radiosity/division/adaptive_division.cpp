@@ -3,7 +3,7 @@
 #include "radiosity/division/division_weights.h"
 #include "radiosity/division/inherited.h"
 #include "radiosity/division/patch_levels.h"
-#include "radiosity/final_gather/division_error.h"
+#include "radiosity/light_error/division_error.h"
 #include "radiosity/final_gather/light_within_patches.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/sampling/rng.h"
