@@ -41,7 +41,7 @@ constexpr double times_in_first = 4;
 /// And so large a part of the rays of a first step without a target, at the most: the others wait
 /// until it is known where they count. Where the target is nearly all of the scene, there is less
 /// to wait for.
-constexpr double most_of_first = 3.0 / 4;
+constexpr double most_of_first = 1.0 / 3;
 
 /// With a target, what each of the two kinds gets of the rays that are added, at least: how much
 /// of the error comes from which kind is known of the target's own rays, and less of others'.
