@@ -3,6 +3,7 @@
 #include "geometry/vector.h"
 
 #include <array>
+#include <tuple>
 
 namespace hemilux::bench {
 namespace {
@@ -126,6 +127,70 @@ Scene screens() {
     return room.scene;
 }
 
+/// Around a corner, lit at one end.
+Scene corridor() {
+    Room room(.7, 20, 1);
+    struct At {
+        double x, z;
+    };
+    const std::array<At, 6> corners{{{0, 0}, {8, 0}, {8, 8}, {6, 8}, {6, 2}, {0, 2}}};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const At from = corners[k], to = corners[(k + 1) % corners.size()];
+        room.quad({from.x, 0, from.z}, {to.x - from.x, 0, to.z - from.z}, {0, 2.5, 0},
+                  k % 2 ? wall : red);
+    }
+    for (const auto& [at, width, depth] :
+         {std::tuple{At{0, 0}, 6., 2.}, {At{6, 0}, 2., 2.}, {At{6, 2}, 2., 6.}}) {
+        room.quad({at.x, 0, at.z}, {0, 0, depth}, {width, 0, 0}, block);
+        room.quad({at.x, 2.5, at.z}, {width, 0, 0}, {0, 0, depth}, wall);
+    }
+    room.lamp_at({.8, 2.4, .8}, .4, .4);
+    return room.scene;
+}
+
+Scene columns() {
+    Room room(.6, 20, 1);
+    room.box(low, {9, 3, 6}, wall, true);
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 corner(1.35 + 2 * i, 0, .85 + 2 * k);
+            room.box(corner, corner + Vec3(.3, 3, .3), block, false, 63 - 3);
+        }
+    room.lamp_at({.5, 2.95, 2.7}, .6, .6);
+    room.lamp_at({7.85, 2.5, .45}, .3, .3);
+    return room.scene;
+}
+
+Scene stairs() {
+    Room room(.7, 20, 1);
+    room.box(low, {5, 4, 2}, wall, true);
+    for (int i = 0; i < 10; ++i)
+        room.box({.8 + .35 * i, 0, .2}, {1.15 + .35 * i, .18 * (i + 1), 1.8}, i % 2 ? block : red,
+                 false, 63 - 1);
+    room.lamp_at({.8, 3.9, .8}, .4, .4);
+    return room.scene;
+}
+
+/// A lamp that is seen from the ceiling alone.
+Scene cove() {
+    Room room(.7, 20, 1);
+    room.box(low, {5, 2.8, 4}, wall, true);
+    room.box({.02, 2.3, .02}, {.4, 2.34, 3.98}, block, false);
+    room.box({.36, 2.35, .02}, {.4, 2.5, 3.98}, block, false);
+    room.quad({.1, 2.36, .2}, {0, 0, 3.6}, {.2, 0, 0}, lamp);
+    room.box({2, 0, 1.5}, {3.2, .75, 2.5}, red, false, 63 - 1);
+    return room.scene;
+}
+
+/// Small and bright, a hand from a wall.
+Scene spot() {
+    Room room(.7, 400, 1);
+    room.box(low, high, wall, true);
+    room.furnish();
+    room.box({.1, 1.55, 2.2}, {.2, 1.65, 2.3}, lamp, false);
+    return room.scene;
+}
+
 } // namespace
 
 const std::vector<DivisionFamily>& division_families() {
@@ -140,7 +205,12 @@ const std::vector<DivisionFamily>& division_families() {
         {"sunlit", false, sunlit},
         {"many-lamps", false, many_lamps},
         {"t-junctions", false, t_junctions},
-        {"screens", true, screens}};
+        {"screens", true, screens},
+        {"corridor", false, corridor},
+        {"columns", false, columns},
+        {"stairs", false, stairs},
+        {"cove", false, cove},
+        {"spot", false, spot}};
     return all;
 }
 
