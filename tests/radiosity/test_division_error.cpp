@@ -1,12 +1,12 @@
 // The error of the light on the surfaces, against light in closed form and against finer divisions.
 #include "geometry/frame.h"
 #include "parallel/workers.h"
-#include "radiosity/light_error/division_error.h"
 #include "radiosity/final_gather/final_gather.h"
 #include "radiosity/final_gather/gather_in_parts.h"
 #include "radiosity/final_gather/light_within_patches.h"
 #include "radiosity/final_gather/linear_light.h"
 #include "radiosity/final_gather/surface_points.h"
+#include "radiosity/light_error/division_error.h"
 #include "support/closed_forms.h"
 #include "support/scenes.h"
 #include "support/solve.h"
