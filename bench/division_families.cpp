@@ -3,7 +3,6 @@
 #include "geometry/vector.h"
 
 #include <array>
-#include <tuple>
 
 namespace hemilux::bench {
 namespace {
@@ -59,7 +58,7 @@ struct Room {
     }
 };
 
-constexpr unsigned no_ceiling = 63 - 2, no_left = 63 - 4;
+constexpr unsigned no_floor = 63 - 1, no_ceiling = 63 - 2, no_left = 63 - 4, no_ends = 63 - 3;
 const Vec3 low(0), high(4, 2.5, 3);
 
 Scene furnished(double reflectance, double emission, double size) {
@@ -130,20 +129,20 @@ Scene screens() {
 /// Around a corner, lit at one end.
 Scene corridor() {
     Room room(.7, 20, 1);
-    struct At {
-        double x, z;
-    };
-    const std::array<At, 6> corners{{{0, 0}, {8, 0}, {8, 8}, {6, 8}, {6, 2}, {0, 2}}};
+    const Vec3 up(0, 2.5, 0);
+    const std::array<Vec3, 6> corners{
+        {{0, 0, 0}, {8, 0, 0}, {8, 0, 8}, {6, 0, 8}, {6, 0, 2}, {0, 0, 2}}};
     for (std::size_t k = 0; k < corners.size(); ++k) {
-        const At from = corners[k], to = corners[(k + 1) % corners.size()];
-        room.quad({from.x, 0, from.z}, {to.x - from.x, 0, to.z - from.z}, {0, 2.5, 0},
-                  k % 2 ? wall : red);
+        const Vec3 &from = corners[k], &to = corners[(k + 1) % corners.size()];
+        room.quad(from, to - from, up, k % 2 ? wall : red);
     }
-    for (const auto& [at, width, depth] :
-         {std::tuple{At{0, 0}, 6., 2.}, {At{6, 0}, 2., 2.}, {At{6, 2}, 2., 6.}}) {
-        room.quad({at.x, 0, at.z}, {0, 0, depth}, {width, 0, 0}, block);
-        room.quad({at.x, 2.5, at.z}, {width, 0, 0}, {0, 0, depth}, wall);
-    }
+    const auto floor_and_ceiling = [&](const Vec3& corner, double width, double depth) {
+        room.quad(corner, {0, 0, depth}, {width, 0, 0}, block);
+        room.quad(corner + up, {width, 0, 0}, {0, 0, depth}, wall);
+    };
+    floor_and_ceiling({0, 0, 0}, 6, 2);
+    floor_and_ceiling({6, 0, 0}, 2, 2);
+    floor_and_ceiling({6, 0, 2}, 2, 6);
     room.lamp_at({.8, 2.4, .8}, .4, .4);
     return room.scene;
 }
@@ -154,7 +153,7 @@ Scene columns() {
     for (int i = 0; i < 4; ++i)
         for (int k = 0; k < 3; ++k) {
             const Vec3 corner(1.35 + 2 * i, 0, .85 + 2 * k);
-            room.box(corner, corner + Vec3(.3, 3, .3), block, false, 63 - 3);
+            room.box(corner, corner + Vec3(.3, 3, .3), block, false, no_ends);
         }
     room.lamp_at({.5, 2.95, 2.7}, .6, .6);
     room.lamp_at({7.85, 2.5, .45}, .3, .3);
@@ -166,7 +165,7 @@ Scene stairs() {
     room.box(low, {5, 4, 2}, wall, true);
     for (int i = 0; i < 10; ++i)
         room.box({.8 + .35 * i, 0, .2}, {1.15 + .35 * i, .18 * (i + 1), 1.8}, i % 2 ? block : red,
-                 false, 63 - 1);
+                 false, no_floor);
     room.lamp_at({.8, 3.9, .8}, .4, .4);
     return room.scene;
 }
@@ -178,7 +177,7 @@ Scene cove() {
     room.box({.02, 2.3, .02}, {.4, 2.34, 3.98}, block, false);
     room.box({.36, 2.35, .02}, {.4, 2.5, 3.98}, block, false);
     room.quad({.1, 2.36, .2}, {0, 0, 3.6}, {.2, 0, 0}, lamp);
-    room.box({2, 0, 1.5}, {3.2, .75, 2.5}, red, false, 63 - 1);
+    room.box({2, 0, 1.5}, {3.2, .75, 2.5}, red, false, no_floor);
     return room.scene;
 }
 
