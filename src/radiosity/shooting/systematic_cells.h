@@ -33,16 +33,16 @@ class SystematicCells {
     /// which is N_tr, and those from low + 1 to high.
     template <class Found>
     void for_each_cell(const Found& found) const {
-        constexpr std::size_t block = 16;
+        constexpr std::size_t block = 8;
         std::array<std::int64_t, block> up_to; // the last ray of each cell
         std::array<std::size_t, block> with_rays;
         auto low = static_cast<std::int64_t>(before_);
         for (std::size_t first = 0; first < allocation_.cells.size(); first += block) {
             const std::size_t size = std::min(block, allocation_.cells.size() - first);
-            for (std::size_t k = 0; k < size; ++k)
-                up_to[k] = static_cast<std::int64_t>(end_of(first + k));
-            if (up_to[size - 1] == low) // as most are when the light is nearly spent
+            if (last_ray(first + size - 1) == low) // as most are when the light is nearly spent
                 continue;
+            for (std::size_t k = 0; k < size; ++k)
+                up_to[k] = last_ray(first + k);
             std::size_t count = 0;
             for (std::size_t k = 0; k < size; ++k) { // a branch would be guessed wrong
                 with_rays[count] = k;
@@ -58,10 +58,11 @@ class SystematicCells {
 
   private:
     /// The last cell with any share ends where the patch does; those after it own nothing.
-    [[nodiscard]] double end_of(std::size_t cell) const {
-        return allocation_.rays_up_to[cell] < allocation_.rays_up_to.back()
-                   ? before_ + rays_ * allocation_.rays_up_to[cell]
-                   : after_;
+    [[nodiscard]] std::int64_t last_ray(std::size_t cell) const {
+        return static_cast<std::int64_t>(allocation_.rays_up_to[cell] <
+                                                 allocation_.rays_up_to.back()
+                                             ? before_ + rays_ * allocation_.rays_up_to[cell]
+                                             : after_);
     }
 
     Allocation allocation_;
