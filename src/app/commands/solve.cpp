@@ -171,7 +171,9 @@ std::unique_ptr<Solver> SolveRun::begin() {
     options_.rays =
         rays_of_step(settings_.options.rays, settings_.stop.seconds, *settings_.method, patches);
     options_.stop = stop;
-    return make_solver(settings_, *input_, loaded_->face_lines);
+    std::unique_ptr<Solver> solver = make_solver(settings_, *input_, loaded_->face_lines);
+    leave_memory_to_steps();
+    return solver;
 }
 
 void SolveRun::mesh_changed() {

@@ -16,20 +16,33 @@ namespace {
 /// Smaller ones stay in memory: together they are small.
 constexpr std::size_t least_bytes = 1024;
 
+/// Rows of matrices, and what rays have hit, come in pieces smaller than that; a vector of all
+/// patches is larger.
+constexpr std::size_t least_vector = std::size_t{1} << 20;
+
 /// It lives until the process ends, as may what lies in it.
 constinit std::atomic<SpillFile*> file{nullptr};
 constinit std::atomic<std::int64_t> in_memory{0}; ///< bytes of large arrays
 constinit std::int64_t most_in_memory = 0;
+/// What is made before the steps is little used in them; their vectors are written all the time,
+/// and the system would write them to the disk as often.
+constinit std::atomic<bool> steps_began{false};
+constexpr std::int64_t part_of_others = 8;
 
 std::int64_t large_size(void* block) {
     const std::size_t size = malloc_usable_size(block);
     return size < least_bytes ? 0 : static_cast<std::int64_t>(size);
 }
 
+bool fits_in_memory(std::size_t bytes) {
+    const bool of_steps = steps_began && bytes >= least_vector;
+    const std::int64_t most = of_steps ? most_in_memory : most_in_memory / part_of_others;
+    return bytes < least_bytes || in_memory + static_cast<std::int64_t>(bytes) <= most;
+}
+
 void* allocate(std::size_t bytes) {
     SpillFile* const spill = file;
-    if (spill && bytes >= least_bytes &&
-        in_memory + static_cast<std::int64_t>(bytes) > most_in_memory)
+    if (spill && !fits_in_memory(bytes))
         return spill->allocate(bytes);
     void* const block = std::malloc(std::max<std::size_t>(bytes, 1));
     if (!block)
@@ -67,6 +80,8 @@ void begin_spilling(SceneSettings& scene) {
     file = new SpillFile(scene.spill);
 }
 
+void leave_memory_to_steps() { steps_began = true; }
+
 std::uint64_t bytes_spilled() {
     const SpillFile* const spill = file;
     return spill ? spill->bytes() : 0;
@@ -74,8 +89,9 @@ std::uint64_t bytes_spilled() {
 
 } // namespace hemilux
 
-// All but those of aligned types, of which there are no large arrays. Sanitizers have their own of
-// each, so none may be left out.
+// All but those of aligned types, which stay in memory: the vectors that each row of a matrix is
+// multiplied with (Lanes), read all over. Sanitizers have their own of each, so none may be left
+// out.
 void* operator new(std::size_t bytes) { return hemilux::allocate(bytes); }
 void* operator new[](std::size_t bytes) { return hemilux::allocate(bytes); }
 void* operator new(std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept {

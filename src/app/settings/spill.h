@@ -15,6 +15,9 @@ namespace hemilux {
 /// Called once. Throws OutputError where no file can be made there, UsageError without --memory.
 void begin_spilling(SceneSettings& scene);
 
+/// The solver is made: only from now on vectors of all patches may take all of the memory.
+void leave_memory_to_steps();
+
 /// The size of that file; 0 without one.
 [[nodiscard]] std::uint64_t bytes_spilled();
 
