@@ -11,6 +11,7 @@
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
+#include "support/surfaces.h"
 #include "support/targets.h"
 
 #include <algorithm>
@@ -22,6 +23,7 @@ using namespace hemilux;
 using test::first_room;
 using test::Model;
 using test::solve_for;
+using test::Surfaces;
 using test::two_rooms;
 
 namespace {
@@ -82,15 +84,12 @@ std::vector<double> root_of_importance(const Model& model, std::span<const doubl
     const std::vector<std::uint32_t> each(target.size(), 4096);
     RayCounts rays(model.mesh, model.bvh, 5);
     rays.trace_up_to(each, Workers(2), monitor);
-    std::vector<double> area, source;
-    std::vector<Vec3> reflectance;
-    for (std::uint32_t i = 0; i < target.size(); ++i) {
-        area.push_back(model.mesh.patches()[i].area);
-        reflectance.push_back(model.mesh.material(i).reflectance);
-        source.push_back(target[i] * mean_of_channels(reflectance[i]) / area[i]);
-    }
-    const std::vector<Vec3> importance = importance_of(ExchangeMatrix(model.mesh, rays), area,
-                                                       reflectance, source, Workers(2), 1e-9);
+    const Surfaces at(model.mesh);
+    std::vector<double> source;
+    for (std::uint32_t i = 0; i < target.size(); ++i)
+        source.push_back(target[i] * mean_of_channels(at.reflectance[i]) / at.area[i]);
+    const std::vector<Vec3> importance = importance_of(ExchangeMatrix(at.area, rays), at.area,
+                                                       at.reflectance, source, Workers(2), 1e-9);
     std::vector<double> roots;
     for (std::uint32_t i = 0; i < target.size(); ++i) {
         double sum = 0, count = 0;

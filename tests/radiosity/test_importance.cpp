@@ -10,6 +10,7 @@
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
+#include "support/surfaces.h"
 #include "support/targets.h"
 
 #include <algorithm>
@@ -23,6 +24,7 @@ using test::example;
 using test::first_room;
 using test::Model;
 using test::solve_for;
+using test::Surfaces;
 using test::true_error_of;
 using test::two_rooms;
 using test::weights_of;
@@ -42,20 +44,6 @@ RayCounts traced(const Model& model, std::uint32_t rays) {
     return result;
 }
 
-/// What the solver of a system takes, by patch.
-struct Surfaces {
-    std::vector<double> area;
-    std::vector<Vec3> reflectance, emission;
-
-    explicit Surfaces(const Mesh& mesh) {
-        for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
-            area.push_back(mesh.patches()[i].area);
-            reflectance.push_back(mesh.material(i).reflectance);
-            emission.push_back(mesh.material(i).emission);
-        }
-    }
-};
-
 /// To an estimated error, which the steps are planned by.
 Solution solve_to(const Model& model, std::span<const double> target, double error,
                   std::uint64_t seed) {
@@ -73,8 +61,8 @@ TEST_CASE("Importance says what light at any patch does for the target") {
         const Model model(scene);
         const Workers workers(2);
         const RayCounts rays = traced(model, 16);
-        const ExchangeMatrix f(model.mesh, rays);
         const Surfaces at(model.mesh);
+        const ExchangeMatrix f(at.area, rays);
         const std::size_t n = at.area.size();
         std::vector<double> weight(n);
         for (std::size_t i = 0; i < n; i += 5)
@@ -100,8 +88,8 @@ TEST_CASE("Importance says what light at any patch does for the target") {
 TEST_CASE("Rays are important on the target, less so elsewhere, whatever the unit of the weights") {
     const Model model(two_rooms());
     const RayCounts rays = traced(model, 16);
-    const ExchangeMatrix f(model.mesh, rays);
     const Surfaces at(model.mesh);
+    const ExchangeMatrix f(at.area, rays);
     std::vector<double> weight(at.area.size());
     std::fill_n(weight.begin(), 16, 1.0); // the floor of the first room
     std::vector<std::vector<double>> found;

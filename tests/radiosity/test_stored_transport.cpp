@@ -10,6 +10,7 @@
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
+#include "support/surfaces.h"
 #include "support/watched_tracer.h"
 
 #include <algorithm>
@@ -21,6 +22,7 @@
 
 using namespace hemilux;
 using test::Model;
+using test::Surfaces;
 
 namespace {
 
@@ -65,9 +67,10 @@ TEST_CASE("Exchange between patches is symmetric, and each row closed") {
         const std::size_t n = model.mesh.patches().size();
         const std::vector<RayCounts> sets = traced(model, 2, 32);
         const Workers workers(2);
+        const Surfaces at(model.mesh);
         std::vector<ExchangeMatrix> parts;
         for (const RayCounts& set : sets)
-            parts.emplace_back(model.mesh, set);
+            parts.emplace_back(at.area, set);
         const ExchangeMatrix f(std::move(parts), workers);
         std::vector<Vec3> x(n, Vec3(1.0)), y(n);
         f.multiply(x, y, workers);
@@ -146,8 +149,8 @@ TEST_CASE("Conjugate gradients end where they are interrupted") {
     const std::size_t n = model.mesh.patches().size();
     const Workers workers(1);
     const std::vector<RayCounts> sets = traced(model, 1, 64);
-    const ExchangeMatrix f(model.mesh, sets[0]);
     const std::vector<double> area(n, 1.0);
+    const ExchangeMatrix f(area, sets[0]);
     const std::vector<Vec3> half(n, Vec3(.5)), d(n, Vec3(1));
     for (const bool stopped : {false, true}) {
         StopFlag flag;
@@ -164,13 +167,10 @@ TEST_CASE("Conjugate gradients solve what was stored, however reflective") {
     const std::size_t n = model.mesh.patches().size();
     const Workers workers(1);
     const std::vector<RayCounts> sets = traced(model, 1, 64);
-    const ExchangeMatrix f(model.mesh, sets[0]);
-    std::vector<double> area;
+    const std::vector<double> area = Surfaces(model.mesh).area;
+    const ExchangeMatrix f(area, sets[0]);
     std::vector<Vec3> d(n);
-    for (std::uint32_t i = 0; i < n; ++i) {
-        area.push_back(model.mesh.patches()[i].area);
-        d[i] = i < 16 ? Vec3(1, 0, 1e-20) : Vec3(0.0);
-    }
+    std::fill_n(d.begin(), 16, Vec3(1, 0, 1e-20));
     for (const double rho : {0.0, .5, .99, .9999}) {
         const std::vector<Vec3> reflectance(n, Vec3(rho, .3, rho));
         std::vector<Vec3> h(n), reflected(n), fh(n);
@@ -203,13 +203,12 @@ TEST_CASE("Direct light is unbiased: many emitters, some hidden") {
     const Workers workers(2);
     Monitor monitor;
     // Against rays at random, which know nothing of emitters.
-    std::vector<Vec3> emission(n), seen(n);
-    for (std::uint32_t i = 0; i < n; ++i)
-        emission[i] = model.mesh.material(i).emission;
+    const Surfaces at(model.mesh);
+    std::vector<Vec3> seen(n);
     std::vector<RayCounts> rays;
     rays.emplace_back(model.mesh, model.bvh, 99);
     rays.back().trace_up_to(std::vector<std::uint32_t>(n, 1u << 14), workers, monitor);
-    ExchangeMatrix(model.mesh, rays[0]).multiply(emission, seen, workers);
+    ExchangeMatrix(at.area, rays[0]).multiply(at.emission, seen, workers);
     DirectLight light(model.mesh, model.bvh, everything_needed, emitters, {5});
     light.sample_up_to(std::vector<std::uint32_t>(n, 1024), workers, monitor);
     double error = 0, value = 0;

@@ -1,7 +1,5 @@
 #include "radiosity/form_factors/exchange_matrix.h"
 
-#include "radiosity/scene/mesh.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,18 +35,18 @@ double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
 
 } // namespace
 
-ExchangeMatrix::ExchangeMatrix(const Mesh& mesh, const RayCounts& batch, const Workers& workers)
-    : own_(batch.own_rows()), scale_(mesh.patches().size(), 1.0), lost_(mesh.patches().size()) {
-    for (const Patch& patch : mesh.patches())
-        area_.push_back(patch.area);
+ExchangeMatrix::ExchangeMatrix(std::span<const double> area, const RayCounts& batch,
+                               const Workers& workers)
+    : own_(batch.own_rows()), area_(area), scale_(area_.size(), 1.0), rays_(area_.size()),
+      lost_(area_.size()) {
     find_lost(batch);
     store(batch);
     close(scalings, workers);
 }
 
 ExchangeMatrix::ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers)
-    : own_(batches[0].own_), scale_(batches[0].scale_.size()), area_(std::move(batches[0].area_)),
-      rays_(area_.size()), lost_(area_.size()) {
+    : own_(batches[0].own_), area_(batches[0].area_), scale_(area_.size()), rays_(area_.size()),
+      lost_(area_.size()) {
     find_lost(batches);
     for (const ExchangeMatrix& batch : batches)
         for (std::size_t i = 0; i < scale_.size(); ++i)
@@ -63,7 +61,7 @@ ExchangeMatrix::ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Worker
 
 void ExchangeMatrix::find_lost(const RayCounts& batch) {
     for (std::uint32_t i = 0; i < lost_.size(); ++i) {
-        rays_.push_back(batch.rays(i));
+        rays_[i] = batch.rays(i);
         if (rays_[i] > 0)
             lost_[i] = {batch.escaped(i) / rays_[i], batch.absorbed(i) / rays_[i]};
     }

@@ -26,9 +26,10 @@ namespace hemilux {
 class ExchangeMatrix {
   public:
     ExchangeMatrix() = default;
-    /// Makes the matrix from the rays of one batch. All ranks that have rays of it call this, as
-    /// all functions that take workers.
-    ExchangeMatrix(const Mesh& mesh, const RayCounts& batch, const Workers& workers = Workers(1));
+    /// Makes the matrix from the rays of one batch. `area`: of each patch, in local units; it
+    /// outlives this. All ranks that have rays of it call this, as all functions that take workers.
+    ExchangeMatrix(std::span<const double> area, const RayCounts& batch,
+                   const Workers& workers = Workers(1));
     /// Makes the matrix from several batches, in each of which a patch shot the same number of
     /// rays.
     ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers);
@@ -102,13 +103,13 @@ class ExchangeMatrix {
 
     const MatrixKernels* kernels_ = &matrix_kernels();
     OwnBlocks own_{one_rank(), 0};
+    std::span<const double> area_;
     /// S_ij, the same number in both rows. A column may come twice in a row of a batch: as one
     /// patch saw the other, and was seen by it.
     SparseRows rows_;
     std::vector<double> scale_;    ///< g_i
     std::vector<double> per_area_; ///< g_i / A_i
     std::vector<double> self_;     ///< S_ii, which closes the row, not scaled
-    std::vector<double> area_;
     std::vector<double> rays_;
     std::vector<EscapeFraction> lost_;
 };

@@ -52,7 +52,8 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
     const std::size_t n = h.size();
     // Only of this rank's patches; the others' are never touched.
     const auto of_patches = [n] { return std::make_unique_for_overwrite<Vec3[]>(n); };
-    const auto weight = of_patches(), r = of_patches(), p = of_patches(), q = of_patches();
+    const auto r = of_patches(), p = of_patches(), q = of_patches();
+    const auto weight = [&](std::size_t i) { return area[i] * reflectance[i]; };
     std::vector<Lanes> reflected(n);
     const std::size_t chunks = (n + factors.rows_per_chunk - 1) / factors.rows_per_chunk;
     const OwnBlocks& rows = factors.own_rows();
@@ -74,15 +75,14 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
         return all;
     };
     const auto residual_at = [&](std::size_t i) {
-        return Sums{weight[i] * r[i] * r[i], area[i] * relative_square(r[i], h[i], weight[i]),
-                    area[i] * is_lit(r[i], h[i], weight[i])};
+        return Sums{weight(i) * r[i] * r[i], area[i] * relative_square(r[i], h[i], weight(i)),
+                    area[i] * is_lit(r[i], h[i], weight(i))};
     };
     const auto reflect = [&](std::size_t i, const Vec3& x) {
         reflected[i] = factors.scaled(i, reflectance[i] * x);
     };
     factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            weight[i] = area[i] * reflectance[i];
             p[i] = Vec3(0.0);
             reflect(i, h[i]);
         }
@@ -111,7 +111,7 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
         rows.gather(reflected);
         const Vec3 curvature = sum([&](std::size_t i) {
             q[i] = p[i] - factors.row_times(i, reflected);
-            return weight[i] * p[i] * q[i];
+            return weight(i) * p[i] * q[i];
         });
         // A channel that is done, or dark, stands still.
         const Vec3 step = ratio_or_zero(sums.squares, curvature);

@@ -77,10 +77,7 @@ Mesh::Mesh(Scene scene, const MeshOptions& options)
     for (const Facet& facet : scene_.facets)
         corners_.push_back(facet.vertex);
     offset_layers();
-    divisions_.reserve(scene_.facets.size());
-    patches_.reserve(scene_.facets.size() * (two_sided_ ? 2 : 1));
-    for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
-        divide(f, options);
+    divide(options);
     find_colours();
 }
 
@@ -153,20 +150,26 @@ void Mesh::offset_layers() {
         corners_to_trace_[f].fill(corners_[f][0]);
 }
 
-void Mesh::divide(std::uint32_t f, const MeshOptions& options) {
-    const Polygon shape = polygon_of(vertices_, corners_[f]);
-    const bool is_whole =
-        !(options.max_edge > 0) || scene_.materials[scene_.facets[f].material].is_far;
-    const double max_edge =
-        is_whole ? std::numeric_limits<double>::infinity() : options.max_edge * frame_.scale;
-    const std::size_t left = options.max_patches - std::min(options.max_patches, patches_.size());
-    const std::size_t most = has_back(f) ? left / 2 : left;
-    const FacetDivision division(shape, max_edge, most);
-    const auto first_patch = static_cast<std::uint32_t>(patches_.size());
-    for (const Polygon& piece : division.cut(shape))
-        add_patches(f, piece);
-    divisions_.push_back({division, first_patch});
-    only_patch_.push_back(division.pieces() > 1 ? none : first_patch);
+void Mesh::divide(const MeshOptions& options) {
+    divisions_.reserve(scene_.facets.size());
+    std::size_t patches = 0;
+    for (std::uint32_t f = 0; f < scene_.facets.size(); ++f) {
+        const bool is_whole =
+            !(options.max_edge > 0) || scene_.materials[scene_.facets[f].material].is_far;
+        const double max_edge =
+            is_whole ? std::numeric_limits<double>::infinity() : options.max_edge * frame_.scale;
+        const std::size_t sides = has_back(f) ? 2 : 1;
+        const std::size_t left = options.max_patches - std::min(options.max_patches, patches);
+        const FacetDivision pieces(polygon_of(vertices_, corners_[f]), max_edge, left / sides);
+        const auto first_patch = static_cast<std::uint32_t>(patches);
+        divisions_.push_back({pieces, first_patch});
+        only_patch_.push_back(pieces.pieces() > 1 ? none : first_patch);
+        patches += pieces.pieces() * sides;
+    }
+    patches_.reserve(patches);
+    for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
+        for (const Polygon& piece : divisions_[f].pieces.cut(polygon_of(vertices_, corners_[f])))
+            add_patches(f, piece);
 }
 
 void Mesh::add_patches(std::uint32_t facet, const Polygon& shape) {

@@ -127,7 +127,7 @@ class Mesh {
 
     [[nodiscard]] Patch patch_from(const Polygon& shape, std::uint32_t facet, bool back) const;
     void offset_layers();
-    void divide(std::uint32_t facet, const MeshOptions& options);
+    void divide(const MeshOptions& options);
     [[nodiscard]] CellShape cell_shape(std::uint32_t facet, const Polygon& piece) const;
     void refine_facet(std::uint32_t facet, Refinement& before);
     void refine_cell(std::uint32_t cell, std::uint32_t before_cell, std::uint32_t facet,

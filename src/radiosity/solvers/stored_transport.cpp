@@ -140,7 +140,7 @@ class StoredTransportSolver final : public Solver {
             return false;
         plan_.leave_out(rays_.lit_patches(system_.emission()));
         if (aim_.has_target()) {
-            aim_.begin(rays_.factors(workers_), workers_);
+            aim_.begin(rays_.factors(system_.area(), workers_), workers_);
             plan_.aim(aim_.importance());
         }
         return true;
@@ -158,7 +158,7 @@ class StoredTransportSolver final : public Solver {
         if (planned_)
             return;
         if (aim_.is_outdated()) {
-            aim_.renew(rays_.factors(workers_), workers_);
+            aim_.renew(rays_.factors(system_.area(), workers_), workers_);
             plan_.aim(aim_.importance());
         }
         const double relative = solution_.steps > 0 ? errors_.relative(input_.mesh, solution_) : 0;

@@ -34,10 +34,10 @@ std::uint64_t StoredRays::trace_up_to(const PlannedRays& rays, double share,
     return at_random + direct_->sample_up_to(rays.to_emitters, workers, input_.monitor);
 }
 
-ExchangeMatrix StoredRays::factors(const Workers& workers) const {
+ExchangeMatrix StoredRays::factors(std::span<const double> area, const Workers& workers) const {
     std::vector<ExchangeMatrix> parts(batches);
     for_batches(batches, input_.ranks, workers, [&](std::size_t batch, const Workers& own) {
-        parts[batch] = ExchangeMatrix(input_.mesh, counts_[batch], own);
+        parts[batch] = ExchangeMatrix(area, counts_[batch], own);
     });
     return {std::move(parts), workers};
 }

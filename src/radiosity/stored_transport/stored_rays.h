@@ -35,8 +35,10 @@ class StoredRays {
     /// up the rest. `share`: what part of a step the rays at random are.
     std::uint64_t trace_up_to(const PlannedRays& rays, double share, const Workers& workers);
 
-    /// The factors that the rays at random of all batches show.
-    [[nodiscard]] ExchangeMatrix factors(const Workers& workers) const;
+    /// The factors that the rays at random of all batches show. `area`: of each patch, in local
+    /// units; it outlives them.
+    [[nodiscard]] ExchangeMatrix factors(std::span<const double> area,
+                                         const Workers& workers) const;
     /// By patch: whether it is of a part of the scene (linked_parts.h) where a patch emits or has
     /// got light by a shadow ray. `emission`: of each patch.
     [[nodiscard]] std::vector<bool> lit_patches(std::span<const Vec3> emission) const;

@@ -33,8 +33,11 @@ Vec3 sample_variance(std::span<const Vec3> values) {
 
 TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> emitters,
                                  bool closed)
-    : mesh_(mesh), closed_(closed) {
+    : closed_(closed) {
     const auto patches = mesh.patches();
+    area_.reserve(patches.size());
+    reflectance_.reserve(patches.size());
+    emission_.reserve(patches.size());
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
         const Material& material = mesh.material(i);
         area_.push_back(patches[i].area);
@@ -58,26 +61,23 @@ ExchangeMatrix TransportSystem::solve(const Rays& rays, double error,
     std::vector<Vec3> power(batches);
     const Ranks& ranks = rays.counts[0].own_rows().ranks();
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
-        parts[batch] = ExchangeMatrix(mesh_, rays.counts[batch], own);
+        parts[batch] = ExchangeMatrix(area_, rays.counts[batch], own);
         direct[batch].light = straight_light(parts[batch], rays.direct, batch, own);
         power[batch] = power_arriving(transport(parts[batch]), direct[batch].light);
     });
     const Vec3 variance = sample_variance(power);
-    std::vector<BatchLight::Light> found = light;
     // What a residual makes of the light is no larger than its sum over all reflections.
     const double known = std::fmin(left_of_batches * error, first_residual); // unknown: the latter
     const double residual = std::max(known * lost_at_least_, least_residual);
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
         direct[batch].variance = variance;
-        solve(parts[batch], std::move(direct[batch]), found[batch], own, residual, interrupted);
+        solve(parts[batch], std::move(direct[batch]), light[batch], own, residual, interrupted);
     });
     ExchangeMatrix all(std::move(parts), workers);
-    const double tolerance = left_of_all * average(found) * lost_at_least_;
+    const double tolerance = left_of_all * average(light) * lost_at_least_;
     solve(all,
           {straight_light(all, rays.direct, std::nullopt, workers), variance / double(batches)},
-          found[batches], workers, std::max(tolerance, least_residual), interrupted);
-    if (!interrupted.agree())
-        light = std::move(found);
+          light[batches], workers, std::max(tolerance, least_residual), interrupted);
     return all;
 }
 

@@ -35,8 +35,7 @@ void for_batches(std::size_t batches, const Ranks& ranks, const Workers& workers
 class TransportSystem {
   public:
     /// `emitters`: patches whose light comes by shadow rays, not by rays at random. `closed`: no
-    /// ray can leave the scene or meet the back of a face, as its geometry proves. The mesh
-    /// outlives this.
+    /// ray can leave the scene or meet the back of a face, as its geometry proves.
     TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> emitters, bool closed);
 
     /// By patch: areas in local units, reflectances [-], emissions [W/m2].
@@ -55,7 +54,7 @@ class TransportSystem {
     };
     /// `light`, of each batch and at last of all: from what it holds, on to the solution of these
     /// rays, as exactly as their noise allows. Returns the factors of all. `error`: the relative
-    /// one of what is known so far; nan: unknown. Where it is interrupted nothing is changed.
+    /// one of what is known so far; nan: unknown. Where it is interrupted `light` is of no use.
     ExchangeMatrix solve(const Rays& rays, double error, std::vector<BatchLight::Light>& light,
                          const Workers& workers, const StopFlag& interrupted) const;
 
@@ -73,7 +72,6 @@ class TransportSystem {
                                      std::optional<std::size_t> batch,
                                      const Workers& workers) const;
 
-    const Mesh& mesh_;
     std::vector<double> area_;
     std::vector<Vec3> reflectance_, emission_, sampled_emission_;
     double lost_at_least_ = 1; ///< of what falls on a patch, in any channel
