@@ -22,8 +22,8 @@ class OneRank final : public Ranks {
     }
 };
 
-/// Bytes that are gathered at a time: they are kept twice meanwhile.
-constexpr std::size_t bytes_at_a_time = std::size_t{1} << 24;
+/// Bytes that are gathered at a time: they are kept twice meanwhile, in a processor's cache.
+constexpr std::size_t bytes_at_a_time = std::size_t{1} << 20;
 
 } // namespace
 

@@ -90,8 +90,8 @@ ExchangeMatrix::hits_of_others(const RayCounts& batch) const {
         return sent;
     for (std::uint32_t i = 0; i < batch.patches(); ++i)
         for (const auto& [patch, hits] : batch.row(i))
-            if (!own_.owns(patch))
-                sent[own_.owner(patch)].push_back({i, patch, hits});
+            if (const unsigned rank = own_.owner(patch); rank != own_.ranks().index())
+                sent[rank].push_back({i, patch, hits});
     return own_.ranks().exchange(sent);
 }
 
@@ -105,15 +105,19 @@ void ExchangeMatrix::store(const RayCounts& batch) {
         rays_per_area[i] = area_[i] > 0 ? rays_[i] / area_[i] : 0;
         sizes[i] += static_cast<std::uint32_t>(batch.row(i).size());
         for (const RayCounts::Count& count : batch.row(i))
-            sizes[count.patch] += own_.owns(count.patch);
+            ++sizes[count.patch];
     }
+    for (std::uint32_t i = 0; i < n; ++i)
+        if (!own_.owns(i))
+            sizes[i] = 0;
     for (const std::vector<Hits>& of_rank : others)
         for (const Hits& hits : of_rank)
             ++sizes[hits.patch];
     rows_ = SparseRows(std::move(sizes));
-    std::vector<MatrixEntry*> next(n);
+    std::vector<MatrixEntry*> next(n); // null: another rank's
     for (std::uint32_t i = 0; i < n; ++i)
-        next[i] = rows_.to_write(i) + batch.row(i).size();
+        if (own_.owns(i))
+            next[i] = rows_.to_write(i) + batch.row(i).size();
     const auto value_of = [&](std::uint32_t i, std::uint32_t j, std::uint32_t hits) {
         return static_cast<float>(hits / (rays_per_area[i] + rays_per_area[j]));
     };
@@ -123,7 +127,7 @@ void ExchangeMatrix::store(const RayCounts& batch) {
         for (const auto& [j, hits] : batch.row(i)) {
             const float value = value_of(i, j, hits);
             *seen++ = {j, value};
-            if (own_.owns(j))
+            if (next[j])
                 *next[j]++ = {i, value};
         }
         const std::vector<Hits>& of_rank = others[own_.owner(i)];
