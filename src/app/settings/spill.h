@@ -15,7 +15,8 @@ namespace hemilux {
 /// Called once. Throws OutputError where no file can be made there, UsageError without --memory.
 void begin_spilling(SceneSettings& scene);
 
-/// The solver is made: only from now on vectors of all patches may take all of the memory.
+/// The solver is made: from now on vectors of all patches may take all of the memory. Other arrays,
+/// and those made before, are in memory up to an eighth of it.
 void leave_memory_to_steps();
 
 /// The size of that file; 0 without one.

@@ -88,9 +88,10 @@ ExchangeMatrix::hits_of_others(const RayCounts& batch) const {
     std::vector<std::vector<Hits>> sent(own_.ranks().count());
     if (!own_.ranks().are_several())
         return sent;
+    const unsigned own = own_.ranks().index();
     for (std::uint32_t i = 0; i < batch.patches(); ++i)
         for (const auto& [patch, hits] : batch.row(i))
-            if (const unsigned rank = own_.owner(patch); rank != own_.ranks().index())
+            if (const unsigned rank = own_.owner(patch); rank != own)
                 sent[rank].push_back({i, patch, hits});
     return own_.ranks().exchange(sent);
 }
@@ -109,7 +110,7 @@ void ExchangeMatrix::store(const RayCounts& batch) {
     }
     for (std::uint32_t i = 0; i < n; ++i)
         if (!own_.owns(i))
-            sizes[i] = 0;
+            sizes[i] = 0; // those hits were sent
     for (const std::vector<Hits>& of_rank : others)
         for (const Hits& hits : of_rank)
             ++sizes[hits.patch];
