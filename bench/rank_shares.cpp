@@ -36,6 +36,7 @@ class SomeRanks final : public Ranks {
     explicit SomeRanks(unsigned count) : count_(count) {}
     [[nodiscard]] unsigned count() const override { return count_; }
     [[nodiscard]] unsigned index() const override { return 0; }
+    void wait_for_all() const override {}
 
   private:
     void do_gather(std::span<const std::size_t>, std::span<std::byte>) const override {}

@@ -1,6 +1,9 @@
 #include "mpi/ranks_by_mpi.h"
 
+#include "mpi/memory_of_ranks.h"
+
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <memory>
@@ -22,6 +25,14 @@ class RanksByMpi final : public Ranks {
     }
     [[nodiscard]] unsigned count() const override { return static_cast<unsigned>(count_); }
     [[nodiscard]] unsigned index() const override { return static_cast<unsigned>(index_); }
+    void wait_for_all() const override {
+        std::atomic_thread_fence(std::memory_order_seq_cst);
+        MPI_Barrier(MPI_COMM_WORLD);
+        std::atomic_thread_fence(std::memory_order_seq_cst);
+    }
+    [[nodiscard]] std::shared_ptr<std::byte> share_memory(std::size_t bytes) const override {
+        return memory_of_ranks(*this, bytes);
+    }
 
   private:
     void do_gather(std::span<const std::size_t> sizes, std::span<std::byte> all) const override {

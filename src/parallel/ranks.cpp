@@ -12,6 +12,7 @@ class OneRank final : public Ranks {
   public:
     [[nodiscard]] unsigned count() const override { return 1; }
     [[nodiscard]] unsigned index() const override { return 0; }
+    void wait_for_all() const override {}
 
   private:
     void do_gather(std::span<const std::size_t> /*sizes*/,

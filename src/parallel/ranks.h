@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -65,6 +66,15 @@ class Ranks {
     [[nodiscard]] std::vector<std::vector<T>>
     exchange(const std::vector<std::vector<T>>& sent) const;
 
+    /// Returns when all ranks have called it: each then sees what the others wrote to memory that
+    /// they share.
+    virtual void wait_for_all() const = 0;
+    /// Memory of 0 that all ranks read and write, where they are on one machine; else null. All ask
+    /// for as many bytes at the same time.
+    [[nodiscard]] virtual std::shared_ptr<std::byte> share_memory(std::size_t /*bytes*/) const {
+        return nullptr;
+    }
+
     /// Counts work that this rank has done.
     void add_work(std::uint64_t rays, std::uint64_t entries) const {
         rays_ += rays;
@@ -91,15 +101,17 @@ class OwnBlocks {
   public:
     /// All blocks but the last are multiples of it, unless it is said how long they are.
     static constexpr std::size_t least_block = 64;
-    /// Small enough to share evenly, and up to eight times the least: what follows in memory is
+    /// Small enough to share evenly, and up to sixteen times the least: what follows in memory is
     /// read faster. The ranks outlive this.
     OwnBlocks(const Ranks& ranks, std::size_t items)
-        : OwnBlocks(ranks, items, least_block * std::clamp<std::size_t>(items / 8192, 1, 8)) {}
+        : OwnBlocks(ranks, items, least_block * std::clamp<std::size_t>(items / 8192, 1, 16)) {}
     OwnBlocks(const Ranks& ranks, std::size_t items, std::size_t block)
         : ranks_(&ranks), count_(ranks.count()), index_(ranks.index()), all_(items), block_(block),
           own_(items_of(index_)) {}
 
     [[nodiscard]] const Ranks& ranks() const { return *ranks_; }
+    /// Of all ranks.
+    [[nodiscard]] std::size_t items() const { return all_; }
     /// Items of a block.
     [[nodiscard]] std::size_t block() const { return block_; }
     [[nodiscard]] bool are_all() const { return own_ == all_; }
@@ -115,16 +127,16 @@ class OwnBlocks {
     }
     [[nodiscard]] std::size_t items_of(std::size_t rank) const;
 
-    /// Each rank has written its own items; afterwards all have all.
+    /// Each rank has written its own items, so many values of each; afterwards all have all.
     template <class T>
-    void gather(std::span<T> items) const {
+    void gather(std::span<T> values, std::size_t of_item = 1) const {
         static_assert(std::is_trivially_copyable_v<T>);
         if (ranks_->are_several())
-            gather_bytes(std::as_writable_bytes(items), sizeof(T));
+            gather_bytes(std::as_writable_bytes(values), of_item * sizeof(T));
     }
     template <class T>
-    void gather(std::vector<T>& items) const {
-        gather(std::span(items));
+    void gather(std::vector<T>& values, std::size_t of_item = 1) const {
+        gather(std::span(values), of_item);
     }
 
   private:

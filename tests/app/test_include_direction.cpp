@@ -103,12 +103,13 @@ bool may_include_system(const std::string& file, const std::string& header) {
         return layer == "mpi" && source;
     if (header == "immintrin.h")
         return layer == "bvh";
-    if (header == "sys/mman.h") // huge pages, and arrays in a file
-        return layer == "bvh" || file == "io/files/spill_file.cpp";
+    if (header == "sys/mman.h") // huge pages, arrays in a file, memory of several ranks
+        return layer == "bvh" || file == "io/files/spill_file.cpp" ||
+               file == "mpi/memory_of_ranks.cpp";
     const bool standard = header.find_first_of("./") == std::string::npos;
     const bool posix =
         header.ends_with(".h") && (header.find('/') == std::string::npos || begins("sys/"));
-    return standard || (posix && source && (layer == "io" || layer == "app"));
+    return standard || (posix && source && (layer == "io" || layer == "app" || layer == "mpi"));
 }
 
 /// The header of an #include line and whether it stands in quotes; empty for any other line.

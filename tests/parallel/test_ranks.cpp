@@ -1,4 +1,5 @@
 // Ranks that are threads: what each gets of the others.
+#include "parallel/gathered_vector.h"
 #include "support/catch.h"
 #include "support/rank_threads.h"
 
@@ -13,9 +14,10 @@ namespace {
 
 /// Whether it holds on each of so many ranks. Catch2 takes assertions of one thread alone.
 template <class Holds>
-bool on_all(unsigned count, const Holds& holds) {
+bool on_all(unsigned count, const Holds& holds, RankMemory memory = RankMemory::own) {
     std::atomic<unsigned> right{0};
-    run_as_ranks(count, [&](const Ranks& ranks) { right += holds(ranks) ? 1 : 0; });
+    run_as_ranks(
+        count, [&](const Ranks& ranks) { right += holds(ranks) ? 1 : 0; }, memory);
     return right == count;
 }
 
@@ -58,6 +60,43 @@ TEST_CASE("All ranks have what the owners wrote, and count the bytes") {
                 return right && work.received == (items - own.count()) * sizeof(Item) &&
                        work.sent == own.count() * sizeof(Item) * (count - 1);
             }));
+}
+
+TEST_CASE("Values of an item are gathered together") {
+    CHECK(on_all(3, [](const Ranks& ranks) {
+        const OwnBlocks own(ranks, 23, 4);
+        std::vector<std::size_t> all(2 * own.items());
+        for (std::size_t k = 0; k < own.count(); ++k)
+            for (const std::size_t v : {0u, 1u})
+                all[2 * own.item(k) + v] = 2 * own.item(k) + v;
+        own.gather(all, 2);
+        std::vector<std::size_t> expected(all.size());
+        std::iota(expected.begin(), expected.end(), std::size_t{0});
+        return all == expected;
+    }));
+}
+
+TEST_CASE("A gathered vector has what the owners wrote, and sends nothing where it is shared") {
+    for (const RankMemory memory : {RankMemory::own, RankMemory::shared})
+        for (const unsigned count : {1u, 2u, 5u})
+            CHECK(on_all(
+                count,
+                [&](const Ranks& ranks) {
+                    const OwnBlocks own(ranks, 1000);
+                    GatheredVector<double> all(own), others(own);
+                    bool right = true;
+                    for (const double factor : {1.0, 2.0, 3.0}) {
+                        for (std::size_t k = 0; k < own.count(); ++k)
+                            all[own.item(k)] = factor * static_cast<double>(own.item(k));
+                        all.gather();
+                        for (std::size_t i = 0; i < own.items(); ++i)
+                            right &= all[i] == factor * static_cast<double>(i);
+                        others.gather(); // all have read
+                    }
+                    return right &&
+                           (ranks.work().sent > 0) == (count > 1 && memory == RankMemory::own);
+                },
+                memory));
 }
 
 TEST_CASE("Ranks agree on a flag, and the first one's clock holds for all") {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
+#include <new>
 #include <stdexcept>
 #include <thread>
 
@@ -15,7 +17,8 @@ using Bytes = Ranks::Bytes;
 /// What the ranks show each other, and where they wait until all have done so.
 class Table {
   public:
-    explicit Table(unsigned count) : shown(count), count_(count) {}
+    Table(unsigned count, RankMemory memory)
+        : shown(count), shares_memory(memory == RankMemory::shared), count_(count) {}
 
     void wait_for_all() {
         std::unique_lock lock(mutex_);
@@ -41,6 +44,8 @@ class Table {
     }
 
     std::vector<std::vector<Bytes>> shown; ///< by rank
+    bool shares_memory;
+    std::shared_ptr<std::byte> shared; ///< of the first rank, for all
 
   private:
     unsigned count_, waiting_ = 0;
@@ -57,6 +62,19 @@ class RankThread final : public Ranks {
         return static_cast<unsigned>(table_.shown.size());
     }
     [[nodiscard]] unsigned index() const override { return index_; }
+    void wait_for_all() const override { table_.wait_for_all(); }
+    [[nodiscard]] std::shared_ptr<std::byte> share_memory(std::size_t bytes) const override {
+        if (!table_.shares_memory)
+            return nullptr;
+        constexpr std::align_val_t line{64};
+        if (is_first())
+            table_.shared = {static_cast<std::byte*>(operator new(bytes, line)),
+                             [](std::byte* memory) { operator delete(memory, line); }};
+        wait_for_all();
+        const std::shared_ptr<std::byte> shared = table_.shared;
+        wait_for_all();
+        return shared;
+    }
 
   private:
     void do_gather(std::span<const std::size_t> sizes, std::span<std::byte> all) const override {
@@ -84,8 +102,9 @@ class RankThread final : public Ranks {
 
 } // namespace
 
-void run_as_ranks(unsigned count, const std::function<void(const Ranks&)>& body) {
-    Table table(count);
+void run_as_ranks(unsigned count, const std::function<void(const Ranks&)>& body,
+                  RankMemory memory) {
+    Table table(count, memory);
     {
         std::vector<std::jthread> threads;
         for (unsigned index = 0; index < count; ++index)

@@ -73,7 +73,7 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
 }
 
 void DirectLight::gather() {
-    OwnBlocks(own_.ranks(), sum_.size(), own_.block() * seeds_.size()).gather(sum_);
+    own_.gather(sum_, seeds_.size());
     own_.gather(samples_);
     own_.gather(hits_);
     own_.gather(unblocked_);

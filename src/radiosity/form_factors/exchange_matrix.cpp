@@ -1,5 +1,7 @@
 #include "radiosity/form_factors/exchange_matrix.h"
 
+#include "parallel/gathered_vector.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -77,29 +79,46 @@ void ExchangeMatrix::find_lost(std::span<const ExchangeMatrix> batches) {
         }
 }
 
-/// What rays of another rank's patch have hit.
-struct ExchangeMatrix::Hits {
-    std::uint32_t from, patch, hits;
+/// What rays of other ranks' patches have hit of this rank's, by rank.
+struct ExchangeMatrix::HitsOfOthers {
+    std::vector<std::vector<RayCounts::Count>> hits; ///< patch after patch that they come from,
+    std::vector<std::vector<std::uint32_t>> sizes;   ///< and how many from each
 };
 
-/// On this rank's patches, by rank and in the order of the patches that they come from.
-std::vector<std::vector<ExchangeMatrix::Hits>>
-ExchangeMatrix::hits_of_others(const RayCounts& batch) const {
-    std::vector<std::vector<Hits>> sent(own_.ranks().count());
+/// `sizes`: of another rank's patch, how many hits go there.
+ExchangeMatrix::HitsOfOthers
+ExchangeMatrix::hits_of_others(const RayCounts& batch, std::span<const std::uint32_t> sizes) const {
+    const unsigned count = own_.ranks().count(), own = own_.ranks().index();
+    HitsOfOthers sent{std::vector<std::vector<RayCounts::Count>>(count),
+                      std::vector<std::vector<std::uint32_t>>(count)};
     if (!own_.ranks().are_several())
         return sent;
-    const unsigned own = own_.ranks().index();
-    for (std::uint32_t i = 0; i < batch.patches(); ++i)
-        for (const auto& [patch, hits] : batch.row(i))
-            if (const unsigned rank = own_.owner(patch); rank != own)
-                sent[rank].push_back({i, patch, hits});
-    return own_.ranks().exchange(sent);
+    std::vector<std::size_t> all(count);
+    for (std::size_t j = 0; j < sizes.size(); ++j)
+        all[own_.owner(j)] += sizes[j];
+    for (unsigned rank = 0; rank < count; ++rank)
+        if (rank != own) {
+            sent.hits[rank].reserve(all[rank]);
+            sent.sizes[rank].reserve(own_.count());
+        }
+    std::vector<std::size_t> before(count);
+    for (std::size_t k = 0; k < own_.count(); ++k) {
+        for (const RayCounts::Count& hits : batch.row(static_cast<std::uint32_t>(own_.item(k))))
+            if (const unsigned rank = own_.owner(hits.patch); rank != own)
+                sent.hits[rank].push_back(hits);
+        for (unsigned rank = 0; rank < count; ++rank)
+            if (rank != own) {
+                const std::size_t now = sent.hits[rank].size();
+                sent.sizes[rank].push_back(
+                    static_cast<std::uint32_t>(now - std::exchange(before[rank], now)));
+            }
+    }
+    return {own_.ranks().exchange(sent.hits), own_.ranks().exchange(sent.sizes)};
 }
 
 /// First in each row stands what the patch saw, then by what it was seen.
 void ExchangeMatrix::store(const RayCounts& batch) {
     const auto n = static_cast<std::uint32_t>(area_.size());
-    const std::vector<std::vector<Hits>> others = hits_of_others(batch);
     std::vector<double> rays_per_area(n);
     std::vector<std::uint32_t> sizes(n);
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -108,12 +127,13 @@ void ExchangeMatrix::store(const RayCounts& batch) {
         for (const RayCounts::Count& count : batch.row(i))
             ++sizes[count.patch];
     }
+    const HitsOfOthers others = hits_of_others(batch, sizes);
     for (std::uint32_t i = 0; i < n; ++i)
         if (!own_.owns(i))
-            sizes[i] = 0; // those hits were sent
-    for (const std::vector<Hits>& of_rank : others)
-        for (const Hits& hits : of_rank)
-            ++sizes[hits.patch];
+            sizes[i] = 0;
+    for (const std::vector<RayCounts::Count>& of_rank : others.hits)
+        for (const RayCounts::Count& count : of_rank)
+            ++sizes[count.patch];
     rows_ = SparseRows(std::move(sizes));
     std::vector<MatrixEntry*> next(n); // null: another rank's
     for (std::uint32_t i = 0; i < n; ++i)
@@ -122,7 +142,7 @@ void ExchangeMatrix::store(const RayCounts& batch) {
     const auto value_of = [&](std::uint32_t i, std::uint32_t j, std::uint32_t hits) {
         return static_cast<float>(hits / (rays_per_area[i] + rays_per_area[j]));
     };
-    std::vector<std::size_t> read(others.size());
+    std::vector<std::size_t> hits_read(others.hits.size()), sizes_read(others.hits.size());
     for (std::uint32_t i = 0; i < n; ++i) {
         MatrixEntry* seen = rows_.to_write(i);
         for (const auto& [j, hits] : batch.row(i)) {
@@ -131,9 +151,14 @@ void ExchangeMatrix::store(const RayCounts& batch) {
             if (next[j])
                 *next[j]++ = {i, value};
         }
-        const std::vector<Hits>& of_rank = others[own_.owner(i)];
-        for (std::size_t& k = read[own_.owner(i)]; k < of_rank.size() && of_rank[k].from == i; ++k)
-            *next[of_rank[k].patch]++ = {i, value_of(i, of_rank[k].patch, of_rank[k].hits)};
+        if (own_.owns(i))
+            continue;
+        const unsigned owner = own_.owner(i);
+        const auto hits_of = std::span(others.hits[owner]).subspan(hits_read[owner]);
+        const std::uint32_t size = others.sizes[owner][sizes_read[owner]++];
+        hits_read[owner] += size;
+        for (const auto& [j, hits] : hits_of.first(size))
+            *next[j]++ = {i, value_of(i, j, hits)};
     }
 }
 
@@ -184,21 +209,24 @@ std::vector<double> ExchangeMatrix::due(const Workers& workers) const {
 /// 1967). As S is symmetric, r and c end as multiples of each other, and g is their geometric mean.
 void ExchangeMatrix::find_scale(std::span<const double> due, int times, const Workers& workers) {
     const std::size_t n = area_.size();
-    std::vector<double> before, after(n);
+    std::array<GatheredVector<double>, 2> in_turn{GatheredVector<double>(own_),
+                                                  GatheredVector<double>(own_)};
+    std::span<const double> before, last = scale_;
     for (int k = 0; k < times; ++k) {
+        GatheredVector<double>& after = in_turn[static_cast<std::size_t>(k) % 2];
         for_products(workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const double sum = row_sum(rows_.row(i), scale_);
+                const double sum = row_sum(rows_.row(i), last);
                 after[i] = 1; // where the patch itself has not looked, what others saw is all
                 if (due[i] >= 0)
                     after[i] = sum > 0 ? due[i] / sum : 0;
             }
         });
-        own_.gather(after);
-        before = std::exchange(scale_, after);
+        after.gather();
+        before = std::exchange(last, after);
     }
     for (std::size_t i = 0; i < n; ++i)
-        scale_[i] = std::sqrt(scale_[i] * before[i]);
+        scale_[i] = std::sqrt(last[i] * before[i]);
 }
 
 void ExchangeMatrix::close(int times, const Workers& workers) {

@@ -94,8 +94,9 @@ class ExchangeMatrix {
     void find_lost(const RayCounts& batch);
     void find_lost(std::span<const ExchangeMatrix> batches);
     void store(const RayCounts& batch);
-    struct Hits;
-    [[nodiscard]] std::vector<std::vector<Hits>> hits_of_others(const RayCounts& batch) const;
+    struct HitsOfOthers;
+    [[nodiscard]] HitsOfOthers hits_of_others(const RayCounts& batch,
+                                              std::span<const std::uint32_t> sizes) const;
     void close(int times, const Workers& workers);
     [[nodiscard]] std::vector<double> due(const Workers& workers) const;
     void find_scale(std::span<const double> due, int times, const Workers& workers);

@@ -1,6 +1,7 @@
 #include "radiosity/linear/conjugate_gradients.h"
 
 #include "geometry/vector_ratio.h"
+#include "parallel/gathered_vector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,24 +55,24 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
     const auto of_patches = [n] { return std::make_unique_for_overwrite<Vec3[]>(n); };
     const auto r = of_patches(), p = of_patches(), q = of_patches();
     const auto weight = [&](std::size_t i) { return area[i] * reflectance[i]; };
-    std::vector<Lanes> reflected(n);
     const std::size_t chunks = (n + factors.rows_per_chunk - 1) / factors.rows_per_chunk;
     const OwnBlocks& rows = factors.own_rows();
+    GatheredVector<Lanes> reflected(rows);
     const OwnBlocks own_chunks(rows.ranks(), chunks, rows.block() / factors.rows_per_chunk);
+    GatheredVector<Vec3> parts_of_curvature(own_chunks);
+    GatheredVector<Sums> parts_of_sums(own_chunks);
     /// Sum of term(i) over all patches, in an order that does not depend on the threads or ranks.
-    const auto sum = [&](const auto& term) {
-        using Term = decltype(term(std::size_t{0}));
-        std::vector<Term> part(chunks);
+    const auto sum = [&]<class Term>(GatheredVector<Term>& parts, const auto& term) {
         factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
             Term some{};
             for (std::size_t i = begin; i < end; ++i)
                 some += term(i);
-            part[begin / factors.rows_per_chunk] = some;
+            parts[begin / factors.rows_per_chunk] = some;
         });
-        own_chunks.gather(part);
+        parts.gather();
         Term all{};
-        for (const Term& some : part)
-            all += some;
+        for (std::size_t chunk = 0; chunk < chunks; ++chunk)
+            all += parts[chunk];
         return all;
     };
     const auto residual_at = [&](std::size_t i) {
@@ -87,8 +88,8 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
             reflect(i, h[i]);
         }
     });
-    rows.gather(reflected);
-    Sums sums = sum([&](std::size_t i) {
+    reflected.gather();
+    Sums sums = sum(parts_of_sums, [&](std::size_t i) {
         r[i] = d[i] - (h[i] - factors.row_times(i, reflected));
         return residual_at(i);
     });
@@ -108,15 +109,15 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
                 reflect(i, p[i]);
             }
         });
-        rows.gather(reflected);
-        const Vec3 curvature = sum([&](std::size_t i) {
+        reflected.gather();
+        const Vec3 curvature = sum(parts_of_curvature, [&](std::size_t i) {
             q[i] = p[i] - factors.row_times(i, reflected);
             return weight(i) * p[i] * q[i];
         });
         // A channel that is done, or dark, stands still.
         const Vec3 step = ratio_or_zero(sums.squares, curvature);
         const Vec3 before = sums.squares;
-        sums = sum([&](std::size_t i) {
+        sums = sum(parts_of_sums, [&](std::size_t i) {
             h[i] += step * p[i];
             r[i] -= step * q[i];
             return residual_at(i);

@@ -124,13 +124,13 @@ std::vector<Vec3> TransportSystem::straight_light(const ExchangeMatrix& factors,
                                                   const Workers& workers) const {
     const std::size_t n = area_.size();
     std::vector<Vec3> light(n);
-    std::vector<Lanes> all(n), some(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        all[i] = factors.scaled(i, emission_[i]);
-        some[i] = factors.scaled(i, sampled_emission_[i]);
-    }
     const bool any =
         std::ranges::any_of(sampled_emission_, [](const Vec3& e) { return e != Vec3(0.0); });
+    std::vector<Lanes> all(n), some(any ? n : 0);
+    for (std::size_t i = 0; i < n; ++i)
+        all[i] = factors.scaled(i, emission_[i]);
+    for (std::size_t i = 0; i < some.size(); ++i)
+        some[i] = factors.scaled(i, sampled_emission_[i]);
     factors.for_products(workers, [&](std::size_t begin, std::size_t end) {
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
             if (shadow_rays.samples(i) == 0) // an emitter does not light itself
