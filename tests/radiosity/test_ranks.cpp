@@ -1,4 +1,8 @@
 // The same bytes on any number of ranks, which are threads here: solutions, logs and states.
+#include "parallel/workers.h"
+#include "radiosity/final_gather/final_gather.h"
+#include "radiosity/final_gather/surface_points.h"
+#include "radiosity/light_error/division_error.h"
 #include "support/catch.h"
 #include "support/rank_threads.h"
 #include "support/same_solution.h"
@@ -9,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <tuple>
 
 using namespace hemilux;
 using test::Model;
@@ -66,9 +71,10 @@ Found solve_on(const Ranks& ranks, const Run& asked) {
     return found;
 }
 
-std::vector<Found> on_ranks(unsigned count, const Run& asked) {
+std::vector<Found> on_ranks(unsigned count, const Run& asked, RankMemory memory = RankMemory::own) {
     std::vector<Found> found(count);
-    run_as_ranks(count, [&](const Ranks& ranks) { found[ranks.index()] = solve_on(ranks, asked); });
+    run_as_ranks(
+        count, [&](const Ranks& ranks) { found[ranks.index()] = solve_on(ranks, asked); }, memory);
     return found;
 }
 
@@ -113,10 +119,13 @@ TEST_CASE("Methods that share their work find the same bytes on any number of ra
                 continue;
             SolveOptions options{.rays = 8, .stop = many_steps, .threads = 1};
             const Found alone = solve_on(one_rank(), {*model, *method, options});
-            for (const auto& [count, threads] : {std::pair{2u, 1u}, {3u, 2u}, {5u, 1u}}) {
-                CAPTURE(method->name, count, threads);
+            for (const auto& [count, threads, memory] : {std::tuple{2u, 1u, RankMemory::shared},
+                                                         {3u, 2u, RankMemory::own},
+                                                         {3u, 2u, RankMemory::shared},
+                                                         {5u, 1u, RankMemory::own}}) {
+                CAPTURE(method->name, count, threads, memory);
                 options.threads = threads;
-                check_ranks(on_ranks(count, {*model, *method, options}), alone);
+                check_ranks(on_ranks(count, {*model, *method, options}, memory), alone);
             }
         }
 }
@@ -196,6 +205,57 @@ TEST_CASE("Ranks share the rays and the matrix evenly") {
     CHECK(4 * most_entries < 5 * entries / 4);
     CHECK(entries > 0);
     CHECK(all.sent == 0);
+}
+
+TEST_CASE("Ranks share the gathers that find how far light is off within patches") {
+    const Model model(test::room_with_block(), divided);
+    const Solution solution =
+        test::solve(model, *find_method("stored-transport"), {.rays = 64}, test::steps(1));
+    const auto find = [&](const StopFlag& flag) {
+        return division_error(model.mesh, model.bvh, solution, {.most_rays = 200'000}, Workers(2),
+                              flag);
+    };
+    const DivisionError alone = find(StopFlag());
+    std::vector<DivisionError> found(2);
+    std::vector<std::uint64_t> rays(2);
+    run_as_ranks(2, [&](const Ranks& ranks) {
+        StopFlag flag;
+        flag.share(ranks);
+        found[ranks.index()] = find(flag);
+        rays[ranks.index()] = ranks.work().rays;
+    });
+    for (std::size_t r = 0; r < 2; ++r) {
+        CHECK(found[r].error == alone.error);
+        CHECK(found[r].uncertainty == alone.uncertainty);
+        CHECK(found[r].points == alone.points);
+        CHECK(found[r].rays == alone.rays);
+        CHECK(3 * rays[r] > alone.rays); // about a half
+    }
+    CHECK(rays[0] + rays[1] == alone.rays);
+}
+
+TEST_CASE("What rays of a gather met is known to all ranks") {
+    const Model model(test::room_with_block(), divided);
+    const std::vector<Vec3> light(model.mesh.patches().size(), Vec3(1.0));
+    const PointsOverSurface surface(model.mesh, {});
+    const auto gather_on = [&](const Ranks& ranks, std::vector<std::uint32_t>& met) {
+        StopFlag flag;
+        flag.share(ranks);
+        FinalGather gather(model.mesh, model.bvh, std::span<const Vec3>(light));
+        gather.record_receivers(met);
+        return gather_over(surface, gather, 100, 2, 7, Workers(1), flag).irradiance;
+    };
+    std::vector<std::uint32_t> met;
+    const std::vector<Vec3> alone = gather_on(one_rank(), met);
+    std::vector<std::vector<std::uint32_t>> of_ranks(3);
+    std::vector<std::vector<Vec3>> found(3);
+    run_as_ranks(3, [&](const Ranks& ranks) {
+        found[ranks.index()] = gather_on(ranks, of_ranks[ranks.index()]);
+    });
+    for (std::size_t r = 0; r < 3; ++r) {
+        CHECK((found[r] == alone));
+        CHECK((of_ranks[r] == met));
+    }
 }
 
 TEST_CASE("Where one rank is interrupted all end at the same step") {

@@ -287,6 +287,7 @@ void SolveRun::estimate_errors() {
 int SolveRun::write() {
     if (!settings_.ranks->is_first()) // whose result is the first one's
         return exit_done;
+    const StopFlag::OfThisRank works_alone(monitor_.interrupted);
     const bool interrupted = !completed_ && !fault_;
     SolveSettings shown = settings_;
     shown.view.camera = camera_;

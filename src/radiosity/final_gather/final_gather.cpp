@@ -1,5 +1,6 @@
 #include "radiosity/final_gather/final_gather.h"
 
+#include "parallel/ranks.h"
 #include "parallel/workers.h"
 #include "radiosity/rays/receivers.h"
 #include "radiosity/rays/shot.h"
@@ -8,12 +9,15 @@
 #include "radiosity/solving/stop_flag.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace hemilux {
 namespace {
 
-constexpr std::size_t points_per_chunk = 16, rays_per_batch = 4096;
+/// Rays that are traced together; fewer take longer each. A thread or rank takes as many points as
+/// have so many, or 16.
+constexpr std::size_t rays_per_batch = 4096, most_points_per_chunk = 16;
 
 } // namespace
 
@@ -25,7 +29,15 @@ std::vector<Vec3> FinalGather::irradiance(std::span<const SurfacePoint> points,
     const std::size_t rays_of_estimate = std::size_t{random_rays_} * rounds_;
     if (receivers_)
         receivers_->assign(found.size() * rays_of_estimate, absorbed);
-    workers.for_chunks(points.size(), points_per_chunk, [&](std::size_t begin, std::size_t end) {
+    const std::size_t rays_of_point =
+        estimates * rounds_ * (std::size_t{random_rays_} + shadow_rays_);
+    const std::size_t points_per_chunk =
+        std::clamp<std::size_t>(rays_per_batch / rays_of_point, 1, most_points_per_chunk);
+    const OwnBlocks own(interrupted.ranks(), points.size(), points_per_chunk);
+    std::optional<StopFlag::OfThisRank> on_this_rank(interrupted);
+    std::atomic<std::uint64_t> traced{0};
+    workers.for_chunks(own.count(), points_per_chunk, [&](std::size_t first, std::size_t last) {
+        const std::size_t begin = own.item(first), end = begin + (last - first);
         PathRays rays;
         std::size_t place = begin * estimates * rays_of_estimate; // of the rays in the batch
         for (std::size_t k = begin; k < end && !interrupted; ++k) {
@@ -33,14 +45,21 @@ std::vector<Vec3> FinalGather::irradiance(std::span<const SurfacePoint> points,
                      rays);
             if (k + 1 < end && rays.random.size() < rays_per_batch)
                 continue;
-            const GatherPaths::Traced traced = paths_.trace(std::exchange(rays, {}), found);
-            rays_ += traced.rays;
+            const GatherPaths::Traced batch = paths_.trace(std::exchange(rays, {}), found);
+            traced += batch.rays;
             if (receivers_)
-                std::ranges::copy(traced.receivers,
+                std::ranges::copy(batch.receivers,
                                   receivers_->begin() + static_cast<std::ptrdiff_t>(place));
-            place += traced.receivers.size();
+            place += batch.receivers.size();
         }
     });
+    on_this_rank.reset();
+    own.gather(found, estimates);
+    if (receivers_)
+        own.gather(*receivers_, estimates * rays_of_estimate);
+    own.ranks().add_work(traced, 0);
+    rays_ += own.ranks().sum(traced);
+    interrupted.agree();
     return found;
 }
 

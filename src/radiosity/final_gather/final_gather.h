@@ -33,7 +33,8 @@ class FinalGather {
     /// `estimates` of the irradiance at each point [W/m2], independent of each other and without
     /// bias for the light that the solution sends: those of point k stand from k * estimates on.
     /// `streams`: of random numbers, one for each point; where points share theirs, their errors
-    /// are much alike. Where it was interrupted meanwhile the rest is 0.
+    /// are much alike. Where it was interrupted meanwhile the rest is 0. Ranks that share the flag
+    /// all call this, and each traces the rays of some points.
     [[nodiscard]] std::vector<Vec3> irradiance(std::span<const SurfacePoint> points,
                                                std::span<const std::uint64_t> streams,
                                                std::size_t estimates, const Workers& workers,

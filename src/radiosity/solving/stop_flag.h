@@ -32,6 +32,8 @@ class StopFlag : public std::atomic<bool> {
 
     /// From now on it is a flag of these ranks.
     void share(const Ranks& ranks) { ranks_ = ranks.are_several() ? &ranks : nullptr; }
+    /// Those that do together what it may stop: this one alone, unless the flag is shared.
+    [[nodiscard]] const Ranks& ranks() const { return is_own() ? one_rank() : *ranks_; }
     /// Called by all ranks: true where one of them is to stop. Of one rank, its own flag.
     bool agree() const {
         if (ranks_) {
@@ -46,13 +48,13 @@ class StopFlag : public std::atomic<bool> {
     /// whose end all agree on afterwards.
     class OfThisRank {
       public:
-        explicit OfThisRank(StopFlag& flag) : flag_(flag) { flag_.is_of_this_rank_ = true; }
+        explicit OfThisRank(const StopFlag& flag) : flag_(flag) { flag_.is_of_this_rank_ = true; }
         ~OfThisRank() { flag_.is_of_this_rank_ = false; }
         OfThisRank(const OfThisRank&) = delete;
         OfThisRank& operator=(const OfThisRank&) = delete;
 
       private:
-        StopFlag& flag_;
+        const StopFlag& flag_;
     };
 
   private:
@@ -65,7 +67,7 @@ class StopFlag : public std::atomic<bool> {
     std::atomic<bool> out_of_time_{false};
     const Ranks* ranks_ = nullptr; ///< nullptr: one alone
     mutable std::atomic<bool> agreed_wish_{false}, agreed_time_{false};
-    std::atomic<bool> is_of_this_rank_{false};
+    mutable std::atomic<bool> is_of_this_rank_{false};
 };
 
 } // namespace hemilux
