@@ -29,7 +29,7 @@ using namespace hemilux;
 namespace {
 
 constexpr unsigned batches = 4;
-constexpr std::size_t bytes_of_hit = 12;
+constexpr std::size_t bytes_of_hit = 8;
 
 class SomeRanks final : public Ranks {
   public:

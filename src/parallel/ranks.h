@@ -101,10 +101,9 @@ class OwnBlocks {
   public:
     /// All blocks but the last are multiples of it, unless it is said how long they are.
     static constexpr std::size_t least_block = 64;
-    /// Small enough to share evenly, and up to sixteen times the least: what follows in memory is
-    /// read faster. The ranks outlive this.
+    /// The ranks outlive this.
     OwnBlocks(const Ranks& ranks, std::size_t items)
-        : OwnBlocks(ranks, items, least_block * std::clamp<std::size_t>(items / 8192, 1, 16)) {}
+        : OwnBlocks(ranks, items, usual_block(items / ranks.count())) {}
     OwnBlocks(const Ranks& ranks, std::size_t items, std::size_t block)
         : ranks_(&ranks), count_(ranks.count()), index_(ranks.index()), all_(items), block_(block),
           own_(items_of(index_)) {}
@@ -140,6 +139,12 @@ class OwnBlocks {
     }
 
   private:
+    /// So many that each rank has enough to share evenly, but no more than 16 times the least: what
+    /// follows in memory is read faster.
+    static std::size_t usual_block(std::size_t items_of_rank) {
+        constexpr std::size_t enough = 64;
+        return least_block * std::clamp<std::size_t>(items_of_rank / (enough * least_block), 1, 16);
+    }
     void gather_bytes(std::span<std::byte> all, std::size_t bytes_each) const;
     void gather_rounds(std::span<std::byte> some, std::size_t bytes_of_block) const;
 
