@@ -11,6 +11,9 @@ PolygonSampler::PolygonSampler(const Polygon& polygon)
     second_ = triangle_ ? c - b : d - a;
     if (triangle_)
         return;
+    even_ = c - d == first_ && c - b == second_;
+    if (even_) // what follows would find it too
+        return;
     twist_ = (c - d) - first_;
     const Vec3 normal = polygon.area_vector();
     const auto stretch = [&](const Vec3& along, const Vec3& across) {

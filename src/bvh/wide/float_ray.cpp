@@ -50,13 +50,12 @@ void set_component(FloatRay& ray, int i, double start, double direction) {
 } // namespace
 
 Fit scale_ray(const Ray& given, const Space& space, FloatRay& ray) {
-    const double shrink = 1 / space.size; // a power of two
     if (is_unit_and_near(given, space)) {
         ray.skipped = 0;
-        ray.per_unit = shrink;
+        ray.per_unit = space.shrink;
         ray.from = given.from;
         for (int i = 0; i < 3; ++i)
-            set_component(ray, i, given.origin[i] * shrink, given.direction[i]);
+            set_component(ray, i, given.origin[i] * space.shrink, given.direction[i]);
         ray.t_min_low = below(ray, given.t_min);
         ray.t_min_high = above(ray, given.t_min);
         return Fit::good;
@@ -82,7 +81,7 @@ Fit scale_ray(const Ray& given, const Space& space, FloatRay& ray) {
     ray.per_unit = 1 / (space.size * shorten); // exact
     ray.from = given.from;
     for (int i = 0; i < 3; ++i)
-        set_component(ray, i, (given.origin[i] + skipped * given.direction[i]) * shrink,
+        set_component(ray, i, (given.origin[i] + skipped * given.direction[i]) * space.shrink,
                       given.direction[i] * shorten);
     ray.t_min_low = below(ray, given.t_min);
     ray.t_min_high = above(ray, given.t_min);

@@ -5,13 +5,15 @@
 #include "bvh/wide/wide_layout.h"
 
 #include <cmath>
+#include <limits>
 
 namespace hemilux::wide {
 
 /// The box of the scene and the number its coordinates are divided by.
 struct Space {
     Vec3 low, high;
-    double size;
+    double size = 1;
+    double shrink = 1; ///< 1 / size, which is exact
 };
 
 /// Whether the kernels can trace the ray.
@@ -38,6 +40,9 @@ inline constexpr double distance_slack = 0x1p-30;
 
 /// The nearest hit of a ray that has met nothing yet.
 [[nodiscard]] inline Nearest nothing_before(const FloatRay& scaled, double t_max) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    if (t_max == infinity) // so are its bounds, which take longer to find
+        return {infinity, infinity, no_facet, 0};
     return {below(scaled, t_max), above(scaled, t_max), no_facet, 0};
 }
 

@@ -74,9 +74,10 @@ wide::ExactTest exact(Query& query) { return {&query, closer, hits, counts}; }
 
 WideBvh::WideBvh(const FacetSoup& soup, const WideBvhOptions& options)
     : soup_(soup), kernels_(&wide::kernels_of(options.kernels)),
-      built_(wide::build(soup, options.threads, options.hierarchy)), space_{built_.low, built_.high,
-                                                                            1} {
+      built_(wide::build(soup, options.threads, options.hierarchy)), space_{built_.low,
+                                                                            built_.high} {
     space_.size = wide::size_of(built_.low, built_.high);
+    space_.shrink = 1 / space_.size;
 }
 
 std::optional<Hit> WideBvh::closest(const Ray& ray) const {
