@@ -20,6 +20,8 @@ class GatheredVector {
           not_shared_(shared_ ? 0 : own.items()),
           items_(shared_ ? std::span(reinterpret_cast<T*>(shared_.get()), own.items())
                          : std::span(not_shared_)) {}
+    GatheredVector(const GatheredVector&) = delete;
+    GatheredVector& operator=(const GatheredVector&) = delete;
 
     [[nodiscard]] T& operator[](std::size_t i) { return items_[i]; }
     [[nodiscard]] const T& operator[](std::size_t i) const { return items_[i]; }
