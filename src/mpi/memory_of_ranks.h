@@ -8,7 +8,7 @@
 
 namespace hemilux {
 
-/// Memory of 0 that all ranks read and write; null, of all of them, where they are on several
+/// Memory that all ranks read and write; null, of all of them, where they are on several
 /// machines, in containers that do not see each other's processes, or have no memory for it. All
 /// call this with as many bytes at the same time. It lasts until all have given it back.
 [[nodiscard]] std::shared_ptr<std::byte> memory_of_ranks(const Ranks& ranks, std::size_t bytes);

@@ -69,7 +69,7 @@ class Ranks {
     /// Returns when all ranks have called it: each then sees what the others wrote to memory that
     /// they share.
     virtual void wait_for_all() const = 0;
-    /// Memory of 0 that all ranks read and write, where they are on one machine; else null. All ask
+    /// Memory that all ranks read and write, where they are on one machine; else null. All ask
     /// for as many bytes at the same time.
     [[nodiscard]] virtual std::shared_ptr<std::byte> share_memory(std::size_t /*bytes*/) const {
         return nullptr;
