@@ -21,8 +21,11 @@ struct Frame {
     }
     /// This frame turned about its normal by an angle [rad].
     [[nodiscard]] Frame turned(double angle) const {
-        const double c = std::cos(angle), s = std::sin(angle);
-        return {c * x + s * y, c * y - s * x, z};
+        return turned(Vec2(std::cos(angle), std::sin(angle)));
+    }
+    /// The same by the angle's cosine and sine.
+    [[nodiscard]] Frame turned(Vec2 to) const {
+        return {to.x * x + to.y * y, to.x * y - to.y * x, z};
     }
     [[nodiscard]] Vec3 to_world(const Vec3& v) const { return v.x * x + v.y * y + v.z * z; }
     [[nodiscard]] Vec3 to_local(const Vec3& v) const {

@@ -125,6 +125,30 @@ TEST_CASE("every instruction set finds the same places") {
     }
 }
 
+TEST_CASE("every instruction set counts the same rays into the cells of a patch") {
+    Rng rng(7);
+    for (std::size_t cells = 1; cells <= 64; ++cells) {
+        std::vector<float> up_to; // some of no width, at the end too
+        for (std::size_t k = 0; k < cells; ++k)
+            up_to.push_back((k > 0 ? up_to[k - 1] : .01f) +
+                            static_cast<float>(std::max(rng.uniform() - .4, 0.0)));
+        const double before = 1e6 * rng.uniform(), rays = 100 * rng.uniform() / double(cells);
+        const PatchOnLine line{before, before + rays * up_to.back(), rays, up_to.back()};
+        for (const InstructionSet set : available_instruction_sets()) {
+            std::vector<std::int64_t> last(cells + 1, -1);
+            last[0] = static_cast<std::int64_t>(before);
+            const std::uint64_t with_rays =
+                sampling_kernels(set).last_rays(line, cells, up_to.data(), last.data());
+            for (std::size_t k = 0; k < cells; ++k) {
+                const double end = up_to[k] < line.all ? before + rays * up_to[k] : line.after;
+                CHECK(last[k + 1] == static_cast<std::int64_t>(std::floor(end)));
+                CHECK((with_rays >> k & 1) == (last[k + 1] > last[k] ? 1 : 0));
+            }
+            CHECK((cells == 64 || with_rays >> cells == 0));
+        }
+    }
+}
+
 TEST_CASE("every instruction set gives the same random numbers and directions into cells") {
     constexpr std::size_t n = 1003;
     Rng rng(8);

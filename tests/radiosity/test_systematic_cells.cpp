@@ -37,10 +37,11 @@ TEST_CASE("each ray goes to the cell that owns its place, for few rays and for m
         const double before = 1000 * rng.uniform();
         const double after = before + (trial % 2 == 0 ? 60 : 5) * rng.uniform();
         const double rays = (after - before) / allocation.rays_up_to.back();
-        double next = whole_below(before);
+        auto next = static_cast<std::int64_t>(before);
         int last = -1;
         SystematicCells(allocation, before, after)
-            .for_each_cell([&](std::uint16_t cell, double expected, double low, double high) {
+            .for_each_cell([&](std::uint16_t cell, double expected, std::int64_t low,
+                               std::int64_t high) {
                 const std::size_t k = cell - 100u;
                 REQUIRE(static_cast<int>(k) > last);
                 last = static_cast<int>(k);
@@ -48,13 +49,13 @@ TEST_CASE("each ray goes to the cell that owns its place, for few rays and for m
                 REQUIRE(high > low);
                 REQUIRE(expected == Approx(rays * allocation.rays(k)));
                 REQUIRE(expected > 0);
-                REQUIRE(high - low < expected + 1 + 1e-9);
+                REQUIRE(double(high - low) < expected + 1 + 1e-9);
                 const double begin = k > 0 ? before + rays * allocation.rays_up_to[k - 1] : before;
-                REQUIRE(low + 1 > begin - 1e-9);
-                REQUIRE(high <= before + rays * allocation.rays_up_to[k] + 1e-9);
+                REQUIRE(double(low + 1) > begin - 1e-9);
+                REQUIRE(double(high) <= before + rays * allocation.rays_up_to[k] + 1e-9);
                 next = high;
             });
-        REQUIRE(next == whole_below(after));
+        REQUIRE(next == static_cast<std::int64_t>(after));
     }
 }
 
@@ -69,9 +70,10 @@ TEST_CASE("each cell gets what it is due on average") {
         for (int k = 0; k < origins; ++k) {
             const double before = 5 + (k + .5) / origins;
             SystematicCells(allocation, before, before + expected_rays)
-                .for_each_cell([&](std::uint16_t cell, double, double low, double high) {
-                    got[cell - 100u] += (high - low) / origins;
-                });
+                .for_each_cell(
+                    [&](std::uint16_t cell, double, std::int64_t low, std::int64_t high) {
+                        got[cell - 100u] += double(high - low) / origins;
+                    });
         }
         const double rays = expected_rays / allocation.rays_up_to.back();
         for (std::size_t k = 0; k < got.size(); ++k)

@@ -21,7 +21,7 @@ constexpr double growth = 2;
 /// Per triangle: boxes while the tree is built, and a leaf's share.
 constexpr double bytes_per_triangle = 150;
 /// Of a stepwise method: solution, spread, one step.
-constexpr double bytes_per_solution = 225;
+constexpr double bytes_per_solution = 241;
 /// What `stored-transport` may use for its rays where --memory says nothing: a scene of a million
 /// patches then stays within 4 GiB.
 constexpr std::uint64_t default_transport = std::uint64_t{5} << 29;

@@ -57,6 +57,14 @@ struct CellShapes {
     const double* part[parts];
 };
 
+/// The part of a line of rays that a patch owns, on which a ray stands at each whole number; its
+/// cells follow each other by running sums.
+struct PatchOnLine {
+    double before, after; ///< where it begins and ends
+    double rays;          ///< for one unit of the sums
+    float all;            ///< the largest sum: cells that end there own all that is left
+};
+
 struct SamplingKernels {
     /// Points in (0,1)^n, n being `dimensions`: coordinate d of point k at out[16 d + k].
     void (*sobol)(const SobolBlockStart&, const SobolSteps&, std::size_t dimensions, double* out);
@@ -76,6 +84,10 @@ struct SamplingKernels {
     /// places[k]: the last place with sums[place] <= at[k], or 0. `size` is a power of two.
     void (*find_places)(const double* sums, std::size_t size, std::size_t count, const double* at,
                         std::uint64_t* places);
+    /// last[k + 1]: the last ray before the end of cell k, of at most 64; last[0] is that before
+    /// them all, which is given. Returns a bit for each cell that has rays.
+    std::uint64_t (*last_rays)(const PatchOnLine&, std::size_t count, const float* up_to,
+                               std::int64_t* last);
     /// Four independent numbers, uniform in (0,1), for each sample and attempt.
     void (*random)(const RandomKeys&, std::size_t count, std::uint32_t attempt, double* a,
                    double* b, double* c, double* d);

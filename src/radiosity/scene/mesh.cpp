@@ -103,8 +103,13 @@ void Mesh::find_colours() {
 }
 
 Frame Mesh::hemisphere_frame(std::uint32_t patch) const {
-    const double turn = static_cast<double>(mix_bits(patch + 1u) >> 11) * 0x1p-53;
-    return Frame::from_normal(patches_[patch].normal).turned(2 * std::numbers::pi * turn);
+    return hemisphere_frame(patch, hemisphere_turn(patch));
+}
+
+Vec2 Mesh::hemisphere_turn(std::uint32_t patch) {
+    const double angle =
+        2 * std::numbers::pi * (static_cast<double>(mix_bits(patch + 1u) >> 11) * 0x1p-53);
+    return {std::cos(angle), std::sin(angle)};
 }
 
 FacetSoup Mesh::soup() const { return {vertices_, corners_}; }

@@ -98,6 +98,12 @@ class Mesh {
     /// an angle hashed from the patch's index, so that its vertices do not run along the edges of a
     /// regular mesh (docs/decisions.md, D12).
     [[nodiscard]] Frame hemisphere_frame(std::uint32_t patch) const;
+    /// Cosine and sine of that angle. To find them takes about as long as to draw a ray; whoever
+    /// asks for the frames of all patches many times may keep them.
+    [[nodiscard]] static Vec2 hemisphere_turn(std::uint32_t patch);
+    [[nodiscard]] Frame hemisphere_frame(std::uint32_t patch, Vec2 turn) const {
+        return Frame::from_normal(patches_[patch].normal).turned(turn);
+    }
     /// The facets in the local frame, for a tracer to copy or to refer to.
     [[nodiscard]] FacetSoup soup() const;
     /// The same for a tracer, in which no ray can meet what is buried under many others.

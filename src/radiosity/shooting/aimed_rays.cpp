@@ -71,9 +71,8 @@ class ArrivalsRecorder final : public Strategy {
 /// All bounces of the light that `result` has as radiosity; false when interrupted.
 [[nodiscard]] bool shoot(const SolverInput& input, const StepTask& task,
                          const ArrivalsRecorder& recorder, StepResult& result) {
-    const ShootingTools tools{input, ShootingRules{}, Hemisphere(0),
-                              CellDirections(tools.hemisphere, tools.rules.area),
-                              std::make_unique<ArrivalsRecorder>(recorder)};
+    const ShootingTools tools(input, ShootingRules{}, 0,
+                              std::make_unique<ArrivalsRecorder>(recorder));
     return Bounces(tools).shoot(task, result);
 }
 

@@ -29,6 +29,14 @@ constexpr std::uint32_t shot_apart = 0xfffffffd;
 
 } // namespace
 
+ShootingTools::ShootingTools(const SolverInput& its_input, const ShootingRules& its_rules,
+                             int depth, std::unique_ptr<Strategy> its_strategy)
+    : input(its_input), rules(its_rules), hemisphere(depth), directions(hemisphere, rules.area),
+      turns(input.mesh.patches().size()), strategy(std::move(its_strategy)) {
+    for (std::uint32_t patch = 0; Vec2 & turn : turns)
+        turn = Mesh::hemisphere_turn(patch++);
+}
+
 bool Bounces::shoot(const StepTask& task, StepResult& result) {
     task_ = &task;
     begin(result);
@@ -184,7 +192,8 @@ void Bounces::reflect(StepResult& result) {
 
 void Bounces::trace(std::uint64_t stream, RayBatch& batch) const {
     thread_local std::vector<Ray> memory;
-    const RaySource source{input_.mesh, tools_.directions, *tools_.strategy, tools_.rules.origins};
+    const RaySource source{input_.mesh, tools_.turns, tools_.directions, *tools_.strategy,
+                           tools_.rules.origins};
     GroupedRays drawn(source, batch.groups, stream, memory);
     for (auto rays = drawn.next(); !rays.empty(); rays = drawn.next()) {
         if (input_.monitor.interrupted) // one emitter may shoot many millions

@@ -27,7 +27,12 @@ struct ShootingTools {
     ShootingRules rules;
     Hemisphere hemisphere;
     CellDirections directions;
+    std::vector<Vec2> turns; ///< by patch, Mesh::hemisphere_turn
     std::unique_ptr<Strategy> strategy;
+
+    /// `depth`: of the hemisphere.
+    ShootingTools(const SolverInput& input, const ShootingRules& rules, int depth,
+                  std::unique_ptr<Strategy> strategy = nullptr);
 };
 
 class Bounces {

@@ -105,15 +105,18 @@ void Bounces::schedule(std::size_t sender, const WorkItem& item, const Allocatio
                        std::vector<RayGroup>& groups) const {
     const std::uint32_t patch = senders_[sender];
     const SystematicCells line(allocation, rays_before_[sender], rays_before_[sender + 1]);
-    const double before = whole_below(rays_before_[sender]);
-    line.for_each_cell([&](std::uint16_t cell, double expected, double low, double high) {
-        const double first = std::max(low, item.from), here = std::min(high, item.to) - first;
-        // Below one ray per cell, the ray that is shot carries the power of those that are not.
-        const double sharing = expected >= 1 ? high - low : expected;
-        if (here > 0)
-            groups.push_back({patch, cell, ray_number(low - before), ray_number(first - before),
-                              static_cast<std::uint32_t>(here), 1 / sharing});
-    });
+    const auto before = static_cast<std::int64_t>(rays_before_[sender]),
+               from = static_cast<std::int64_t>(item.from), to = static_cast<std::int64_t>(item.to);
+    line.for_each_cell(
+        [&](std::uint16_t cell, double expected, std::int64_t low, std::int64_t high) {
+            const std::int64_t first = std::max(low, from), here = std::min(high, to) - first;
+            // Below one ray per cell, the ray that is shot carries the power of those that are not.
+            const double sharing = expected >= 1 ? static_cast<double>(high - low) : expected;
+            if (here > 0)
+                groups.push_back({patch, cell, static_cast<std::uint32_t>(low - before),
+                                  static_cast<std::uint32_t>(first - before),
+                                  static_cast<std::uint32_t>(here), 1 / sharing});
+        });
 }
 
 void Bounces::schedule_same_number(std::uint32_t patch, const WorkItem& item,

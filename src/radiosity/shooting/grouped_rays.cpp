@@ -76,7 +76,8 @@ void GroupedRays::add_to_batch(RayGroup& group, std::uint32_t rays, std::uint16_
 
 const PatchStart& GroupedRays::start_of(std::uint32_t patch) {
     if (!start_ || start_->patch != patch)
-        start_.emplace(source_.mesh, patch);
+        start_.emplace(source_.mesh, patch,
+                       source_.mesh.hemisphere_frame(patch, source_.turns[patch]));
     return *start_;
 }
 

@@ -29,6 +29,7 @@ struct RayGroup {
 /// What the rays are drawn from.
 struct RaySource {
     const Mesh& mesh;
+    std::span<const Vec2> turns; ///< by patch, Mesh::hemisphere_turn
     const CellDirections& directions;
     const Strategy& strategy;
     RayOrigins origins;

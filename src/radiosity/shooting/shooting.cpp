@@ -11,8 +11,7 @@ namespace hemilux {
 ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strategy,
                                const ShootingRules& rules)
     : StepwiseSolver(input, rules.rays == RaysPerPatch::by_power),
-      tools_{input, rules, Hemisphere(input.options.depth),
-             CellDirections(tools_.hemisphere, rules.area), nullptr} {
+      tools_(input, rules, input.options.depth) {
     const auto start = std::chrono::steady_clock::now();
     input_.monitor.phase = "density";
     tools_.strategy = make_strategy(input_, tools_.hemisphere, Workers(input.options.threads));

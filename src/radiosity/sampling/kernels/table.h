@@ -19,6 +19,7 @@ namespace hemilux::HEMILUX_KERNELS {
 
 extern const KernelTable table;
 const KernelTable table{
-    {sobol, cosine, weigh_emitters, weigh_clusters, find_places, random, in_cells}, {row_times}};
+    {sobol, cosine, weigh_emitters, weigh_clusters, find_places, last_rays, random, in_cells},
+    {row_times}};
 
 } // namespace hemilux::HEMILUX_KERNELS
