@@ -2,7 +2,6 @@
 
 #include "geometry/vector.h"
 #include "parallel/instruction_set.h"
-#include "radiosity/sampling/matrix_kernels.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/sampling/sampling_kernels.h"
 #include "radiosity/sampling/sobol.h"
@@ -200,10 +199,11 @@ TEST_CASE("every instruction set gives the same products with a row") {
             for (int c = 0; c < 3; ++c)
                 plain[c] += value * x[column].lane[c];
         Lanes expected{};
-        matrix_kernels(InstructionSet::baseline).row_times(row.data(), count, x.data(), &expected);
+        sampling_kernels(InstructionSet::baseline)
+            .row_times(row.data(), count, x.data(), &expected);
         for (const InstructionSet set : available_instruction_sets()) {
             Lanes sum{};
-            matrix_kernels(set).row_times(row.data(), count, x.data(), &sum);
+            sampling_kernels(set).row_times(row.data(), count, x.data(), &sum);
             for (int c = 0; c < 3; ++c) {
                 CHECK(sum.lane[c] == expected.lane[c]);
                 CHECK(sum.lane[c] == Approx(plain[c]).epsilon(1e-14));

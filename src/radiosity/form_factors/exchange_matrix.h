@@ -15,7 +15,7 @@
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/form_factors/sampled_form_factors.h"
 #include "radiosity/form_factors/sparse_rows.h"
-#include "radiosity/sampling/matrix_kernels.h"
+#include "radiosity/sampling/sampling_kernels.h"
 
 #include <cstdint>
 #include <span>
@@ -102,7 +102,7 @@ class ExchangeMatrix {
     void find_scale(std::span<const double> due, int times, const Workers& workers);
     [[nodiscard]] Workers readers(const Workers& workers) const;
 
-    const MatrixKernels* kernels_ = &matrix_kernels();
+    const SamplingKernels* kernels_ = &sampling_kernels();
     OwnBlocks own_{one_rank(), 0};
     std::span<const double> area_;
     /// S_ij, the same number in both rows. A column may come twice in a row of a batch: as one

@@ -2,7 +2,7 @@
 // A sparse matrix by its rows.
 
 #include "parallel/workers.h"
-#include "radiosity/sampling/matrix_kernels.h"
+#include "radiosity/sampling/sampling_kernels.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,23 +1,21 @@
 // Which instruction set's kernels draw samples and multiply matrices.
 
 #include "parallel/instruction_set.h"
-#include "radiosity/sampling/kernel_table.h"
+#include "radiosity/sampling/sampling_kernels.h"
 
 namespace hemilux {
 
 namespace kernels_baseline {
-extern const KernelTable table;
+extern const SamplingKernels table;
 }
 namespace kernels_avx2 {
-extern const KernelTable table;
+extern const SamplingKernels table;
 }
 namespace kernels_avx512 {
-extern const KernelTable table;
+extern const SamplingKernels table;
 }
 
-namespace {
-
-const KernelTable& table_of(InstructionSet set) {
+const SamplingKernels& sampling_kernels(InstructionSet set) {
 #if defined(HEMILUX_X86_KERNELS)
     if (set == InstructionSet::avx512)
         return kernels_avx512::table;
@@ -29,16 +27,9 @@ const KernelTable& table_of(InstructionSet set) {
     return kernels_baseline::table;
 }
 
-const KernelTable& chosen_table() {
-    static const KernelTable& chosen = table_of(chosen_instruction_set());
+const SamplingKernels& sampling_kernels() {
+    static const SamplingKernels& chosen = sampling_kernels(chosen_instruction_set());
     return chosen;
 }
-
-} // namespace
-
-const SamplingKernels& sampling_kernels(InstructionSet set) { return table_of(set).sampling; }
-const SamplingKernels& sampling_kernels() { return chosen_table().sampling; }
-const MatrixKernels& matrix_kernels(InstructionSet set) { return table_of(set).matrix; }
-const MatrixKernels& matrix_kernels() { return chosen_table().matrix; }
 
 } // namespace hemilux

@@ -1,8 +1,8 @@
 #pragma once
-// The arithmetic of drawing samples, sixteen or more at once: plain loops that the compiler turns
-// into vector instructions, compiled once per instruction set (kernels/). All sets give the same
-// bits, as every operation is rounded by itself. Plain data only: this header may define no
-// function that the linker could merge.
+// The arithmetic of drawing samples, sixteen or more at once, and of products with a sparse matrix:
+// plain loops that the compiler turns into vector instructions, compiled once per instruction set
+// (kernels/). All sets give the same bits, as every operation is rounded by itself. Plain data
+// only: this header may define no function that the linker could merge.
 
 #include <cstddef>
 #include <cstdint>
@@ -65,6 +65,16 @@ struct PatchOnLine {
     float all;            ///< the largest sum: cells that end there own all that is left
 };
 
+struct MatrixEntry {
+    std::uint32_t column;
+    float value;
+};
+
+/// Three channels side by side, and a 0.
+struct alignas(32) Lanes {
+    double lane[4];
+};
+
 struct SamplingKernels {
     /// Points in (0,1)^n, n being `dimensions`: coordinate d of point k at out[16 d + k].
     void (*sobol)(const SobolBlockStart&, const SobolSteps&, std::size_t dimensions, double* out);
@@ -96,6 +106,8 @@ struct SamplingKernels {
     void (*in_cells)(const CellShapes&, std::size_t count, const std::int32_t* cell,
                      const double* u, const double* v, double* x, double* y, double* z,
                      std::uint32_t* inside);
+    /// Sets `sum` to the sum of value times x[column] over the `count` entries of a row.
+    void (*row_times)(const MatrixEntry* row, std::size_t count, const Lanes* x, Lanes* sum);
 };
 
 /// The kernels of an instruction set, which must be available.

@@ -1,7 +1,7 @@
 // Products with the rows of a sparse matrix. No #pragma once: included once per instruction set,
 // into a namespace of its own.
 
-#include "radiosity/sampling/matrix_kernels.h"
+#include "radiosity/sampling/sampling_kernels.h"
 
 namespace hemilux::HEMILUX_KERNELS {
 

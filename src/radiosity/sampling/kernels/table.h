@@ -1,7 +1,7 @@
 // All kernels of one instruction set, gathered for the choice at run time. The file that
 // includes this names the set in HEMILUX_KERNELS.
 
-#include "radiosity/sampling/kernel_table.h"
+#include "radiosity/sampling/sampling_kernels.h"
 
 #include "radiosity/sampling/kernels/cosine.h"
 
@@ -17,9 +17,8 @@
 
 namespace hemilux::HEMILUX_KERNELS {
 
-extern const KernelTable table;
-const KernelTable table{
-    {sobol, cosine, weigh_emitters, weigh_clusters, find_places, last_rays, random, in_cells},
-    {row_times}};
+extern const SamplingKernels table;
+const SamplingKernels table{sobol,     cosine, weigh_emitters, weigh_clusters, find_places,
+                            last_rays, random, in_cells,       row_times};
 
 } // namespace hemilux::HEMILUX_KERNELS
