@@ -2,11 +2,13 @@
 
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/scene/welded_edges.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <numeric>
+#include <span>
 #include <unordered_map>
 
 namespace hemilux {
@@ -80,33 +82,14 @@ class SideSearch {
 
     /// Two facets may cut their common edge into other numbers of pieces.
     void search_between_facets() {
-        struct FacetEdge {
-            std::uint32_t low, high, facet;
-            [[nodiscard]] auto operator<=>(const FacetEdge&) const = default;
-        };
         const FacetSoup soup = mesh_.soup();
-        const std::vector<std::uint32_t> first = first_of_point(soup.vertices);
-        std::vector<FacetEdge> edges;
-        for (std::uint32_t f = 0; f < soup.facets.size(); ++f)
-            for (std::size_t c = 0; c < 4; ++c)
-                if (const std::uint32_t a = first[soup.facets[f][c]],
-                    b = first[soup.facets[f][(c + 1) % 4]];
-                    a != b)
-                    edges.push_back({std::min(a, b), std::max(a, b), f});
-        std::ranges::sort(edges);
-        const auto is_divided = [&](const FacetEdge& e) { return mesh_.is_divided(e.facet); };
-        for (auto begin = edges.begin(); begin != edges.end();) {
-            const auto end = std::find_if(begin, edges.end(), [&](const FacetEdge& e) {
-                return e.low != begin->low || e.high != begin->high;
-            });
-            if (end - begin > 1 && std::any_of(begin, end, is_divided)) {
-                std::vector<std::uint32_t> facets;
-                for (auto edge = begin; edge != end; ++edge)
-                    facets.push_back(edge->facet);
-                search_edge(soup.vertices[begin->low], soup.vertices[begin->high], facets);
-            }
-            begin = end;
-        }
+        const auto is_divided = [&](const Edge& edge) { return mesh_.is_divided(edge.facet); };
+        const std::vector<Edge> edges = edges_of(soup.facets, first_of_point(soup.vertices));
+        for_each_place(edges, [&](auto begin, auto end) {
+            if (end - begin > 1 && std::any_of(begin, end, is_divided))
+                search_edge(soup.vertices[begin->ends >> 32],
+                            soup.vertices[static_cast<std::uint32_t>(begin->ends)], {begin, end});
+        });
     }
 
     /// Both searches may have found the same.
@@ -140,7 +123,7 @@ class SideSearch {
         halve(side, between, b, part / 2);
     }
 
-    void search_edge(const Vec3& a, const Vec3& b, const std::vector<std::uint32_t>& facets) {
+    void search_edge(const Vec3& a, const Vec3& b, std::span<const Edge> edges) {
         const Vec3 along = b - a;
         const auto place_of = [&](const Vec3& p) {
             return glm::dot(p - a, along) / glm::dot(along, along);
@@ -150,8 +133,9 @@ class SideSearch {
         };
         std::vector<EdgePoint> on_edge;
         std::vector<PointOnSide> sides; // the point is where the side ends
-        for (const std::uint32_t facet : facets)
-            for (std::uint32_t i = first_patch_[facet]; i < first_patch_[facet + 1]; ++i) {
+        for (const Edge& edge : edges)
+            for (std::uint32_t i = first_patch_[edge.facet]; i < first_patch_[edge.facet + 1];
+                 ++i) {
                 const Patch& patch = mesh_.patches()[i];
                 for (std::uint32_t c = 0; c < size_of(patch); ++c)
                     if (const Vec3& corner = patch.shape.corner[c]; is_on_edge(corner)) {

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <numeric>
-#include <span>
+#include <utility>
 
 namespace hemilux {
 namespace {
@@ -33,39 +32,28 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
     return welded;
 }
 
-/// Calls visit(edge) for each side of a facet that has a length.
-template <class Visit>
-void for_each_edge(const Scene& scene, const std::vector<std::uint32_t>& welded,
-                   const Visit& visit) {
-    for (std::uint32_t f = 0; f < scene.facets.size(); ++f)
-        for (std::size_t i = 0; i < 4; ++i) {
-            const auto& vertex = scene.facets[f].vertex;
-            const std::uint64_t a = welded[vertex[i]], b = welded[vertex[(i + 1) % 4]];
-            if (a != b)
-                visit(Edge{std::min(a, b) << 32 | std::max(a, b), f, a < b});
-        }
-}
-
 } // namespace
 
-/// A counting sort by the smaller vertex, of which most have few edges, then within each.
-std::vector<Edge> welded_edges(const Scene& scene) {
-    const std::vector<std::uint32_t> welded = weld(scene.vertices);
-    std::vector<std::size_t> end(scene.vertices.size() + 1, 0);
-    for_each_edge(scene, welded, [&](const Edge& e) { ++end[(e.ends >> 32) + 1]; });
-    std::partial_sum(end.begin(), end.end(), end.begin());
-    std::vector<Edge> edges(end.back());
-    for_each_edge(scene, welded, [&](const Edge& e) { edges[end[e.ends >> 32]++] = e; });
-    std::size_t begin = 0;
-    for (const std::size_t next : std::span(end).first(scene.vertices.size())) {
-        std::sort(edges.begin() + static_cast<std::ptrdiff_t>(begin),
-                  edges.begin() + static_cast<std::ptrdiff_t>(next),
-                  [](const Edge& a, const Edge& b) {
-                      return a.ends != b.ends ? a.ends < b.ends : a.facet < b.facet;
-                  });
-        begin = next;
-    }
+std::vector<Edge> edges_of(std::span<const FacetCorners> facets,
+                           std::span<const std::uint32_t> first) {
+    std::vector<Edge> edges;
+    edges.reserve(4 * facets.size());
+    for (std::uint32_t f = 0; f < facets.size(); ++f)
+        for (std::size_t i = 0; i < 4; ++i) {
+            const std::uint64_t a = first[facets[f][i]], b = first[facets[f][(i + 1) % 4]];
+            if (a != b)
+                edges.push_back({std::min(a, b) << 32 | std::max(a, b), f, a < b});
+        }
+    std::ranges::sort(edges, {}, [](const Edge& e) { return std::pair(e.ends, e.facet); });
     return edges;
+}
+
+std::vector<Edge> welded_edges(const Scene& scene) {
+    std::vector<FacetCorners> facets;
+    facets.reserve(scene.facets.size());
+    for (const Facet& facet : scene.facets)
+        facets.push_back(facet.vertex);
+    return edges_of(facets, weld(scene.vertices));
 }
 
 EdgeCounts count_edges(const Scene& scene) {

@@ -1,15 +1,17 @@
 #pragma once
 // How the facets of a scene meet at their edges.
 
+#include "bvh/intersect.h"
 #include "radiosity/scene/scene.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hemilux {
 
-/// One side of a facet. Vertices at equal positions count as one and have the number of the first.
+/// One side of a facet. Vertices in one place count as one.
 struct Edge {
     std::uint64_t ends; ///< both vertices, the smaller one in the upper half
     std::uint32_t facet;
@@ -17,7 +19,12 @@ struct Edge {
 };
 
 /// The edges of all facets, but for those without length. They are sorted by their ends, then by
-/// facet, so that edges in one place are neighbours.
+/// facet, so that edges in one place are neighbours. `first`: for each vertex the one whose number
+/// stands for all in its place.
+[[nodiscard]] std::vector<Edge> edges_of(std::span<const FacetCorners> facets,
+                                         std::span<const std::uint32_t> first);
+/// The same of a scene. Vertices at equal positions are in one place, and the first stands for
+/// them.
 [[nodiscard]] std::vector<Edge> welded_edges(const Scene& scene);
 
 /// Calls visit(first, last) for each place: the range of the edges that lie there.
