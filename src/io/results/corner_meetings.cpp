@@ -1,12 +1,10 @@
 #include "io/results/corner_meetings.h"
 
-#include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
 #include "radiosity/scene/welded_edges.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <numeric>
 #include <span>
 #include <unordered_map>
@@ -42,13 +40,6 @@ std::vector<std::uint32_t> first_of_point(std::span<const Vec3> corners) {
 struct EdgePoint {
     double place; ///< along the edge
     std::uint32_t point;
-};
-
-struct PositionHash {
-    std::size_t operator()(const Vec3& p) const {
-        const auto word = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // -0 is 0
-        return hash_words({word(p.x), word(p.y), word(p.z)});
-    }
 };
 
 class SideSearch {

@@ -10,11 +10,6 @@
 namespace hemilux {
 namespace {
 
-std::uint64_t hash_of(const Vec3& p) {
-    const auto word = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // -0 is 0
-    return mix_bits(mix_bits(mix_bits(word(p.x)) + word(p.y)) + word(p.z));
-}
-
 /// For each vertex the first one at its position, by a hash table with linear probing.
 std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
     constexpr auto none = std::numeric_limits<std::uint32_t>::max();
@@ -22,7 +17,7 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
     std::vector<std::uint32_t> welded;
     welded.reserve(vertices.size());
     for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-        std::size_t slot = hash_of(vertices[v]) & (table.size() - 1);
+        std::size_t slot = PositionHash()(vertices[v]) & (table.size() - 1);
         while (table[slot] != none && vertices[table[slot]] != vertices[v])
             slot = (slot + 1) & (table.size() - 1);
         if (table[slot] == none)
@@ -33,6 +28,11 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
 }
 
 } // namespace
+
+std::size_t PositionHash::operator()(const Vec3& p) const {
+    const auto word = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // -0 is 0
+    return mix_bits(mix_bits(mix_bits(word(p.x)) + word(p.y)) + word(p.z));
+}
 
 std::vector<Edge> edges_of(std::span<const FacetCorners> facets,
                            std::span<const std::uint32_t> first) {

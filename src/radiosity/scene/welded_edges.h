@@ -2,6 +2,7 @@
 // How the facets of a scene meet at their edges.
 
 #include "bvh/intersect.h"
+#include "geometry/vector.h"
 #include "radiosity/scene/scene.h"
 
 #include <cstddef>
@@ -10,6 +11,11 @@
 #include <vector>
 
 namespace hemilux {
+
+/// Equal for equal positions; -0 is 0.
+struct PositionHash {
+    [[nodiscard]] std::size_t operator()(const Vec3& p) const;
+};
 
 /// One side of a facet. Vertices in one place count as one.
 struct Edge {
