@@ -4,26 +4,20 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
+#include <unordered_map>
 #include <utility>
 
 namespace hemilux {
 namespace {
 
-/// For each vertex the first one at its position, by a hash table with linear probing.
+/// For each vertex the first one at its position.
 std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
-    constexpr auto none = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> table(std::bit_ceil(2 * vertices.size() + 1), none);
+    std::unordered_map<Vec3, std::uint32_t, PositionHash> first;
+    first.reserve(vertices.size());
     std::vector<std::uint32_t> welded;
     welded.reserve(vertices.size());
-    for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-        std::size_t slot = PositionHash()(vertices[v]) & (table.size() - 1);
-        while (table[slot] != none && vertices[table[slot]] != vertices[v])
-            slot = (slot + 1) & (table.size() - 1);
-        if (table[slot] == none)
-            table[slot] = v;
-        welded.push_back(table[slot]);
-    }
+    for (std::uint32_t v = 0; v < vertices.size(); ++v)
+        welded.push_back(first.try_emplace(vertices[v], v).first->second);
     return welded;
 }
 
