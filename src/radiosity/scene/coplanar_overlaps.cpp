@@ -30,47 +30,36 @@ Box box_of(const Polygon& shape) {
     return box;
 }
 
-/// Planes are distinguished by their points nearest to a place through which hardly any plane goes:
-/// three numbers that do not depend on which side is the front. They are put into cells, and where
+/// Calls use(cell) for the cells of a facet's plane; for none if the facet is too narrow. Planes
+/// are distinguished by their points nearest to a place through which hardly any plane goes: three
+/// numbers that do not depend on which side is the front. They are put into cells, and where
 /// rounding may have moved one over a border, into both.
-class PlaneCells {
-  public:
-    /// None for what is too narrow.
-    explicit PlaneCells(const Polygon& shape) {
-        const Box bounds = box_of(shape);
-        const Vec3 size = bounds.high - bounds.low, normal = shape.area_vector();
-        const double square = glm::dot(normal, normal);
-        const double per_width = std::sqrt(glm::dot(size, size) / square);
-        if (!(per_width <= 1 / narrowest))
-            return;
-        const Vec3 foot = glm::dot(shape.corner[0] - place, normal) / square * normal;
-        const Vec3 doubt(rounding * (1 + 4 * reach * per_width)); // the plane may be tilted
-        first_ = cell_of(foot - doubt);
-        last_ = cell_of(foot + doubt);
-    }
-
-    template <class Use>
-    void for_each(const Use& use) const {
-        for (std::uint64_t x = first_[0]; x <= last_[0]; ++x)
-            for (std::uint64_t y = first_[1]; y <= last_[1]; ++y)
-                for (std::uint64_t z = first_[2]; z <= last_[2]; ++z)
-                    use((x << 32) | (y << 16) | z);
-    }
-
-  private:
-    using Cell = std::array<std::uint64_t, 3>;
-    static constexpr Vec3 place{1.3716, -1.6194, 1.8277};
-    static constexpr double reach = 5; ///< from the place to the farthest corner of the scene
-    static constexpr double cells_per_unit = 2048;
-    /// 0, where axis-aligned planes have two of their numbers, is in the middle of a cell.
-    static Cell cell_of(const Vec3& foot) {
-        const Vec3 index = (foot + reach + 1.0) * cells_per_unit + 0.5; // positive
-        return {std::uint64_t(std::int64_t(index.x)), std::uint64_t(std::int64_t(index.y)),
-                std::uint64_t(std::int64_t(index.z))};
-    }
-
-    Cell first_{1, 1, 1}, last_{0, 0, 0};
-};
+template <class Use>
+void for_each_plane_cell(const Polygon& shape, const Use& use) {
+    constexpr Vec3 place{1.3716, -1.6194, 1.8277};
+    constexpr double reach = 5; // from the place to the farthest corner of the scene
+    constexpr double cells_per_unit = 2048;
+    const Box bounds = box_of(shape);
+    const Vec3 size = bounds.high - bounds.low, normal = shape.area_vector();
+    const double square = glm::dot(normal, normal);
+    const double per_width = std::sqrt(glm::dot(size, size) / square);
+    if (!(per_width <= 1 / narrowest))
+        return;
+    const Vec3 foot = glm::dot(shape.corner[0] - place, normal) / square * normal;
+    const Vec3 doubt(rounding * (1 + 4 * reach * per_width)); // the plane may be tilted
+    // 0, where axis-aligned planes have two of their numbers, is in the middle of a cell.
+    const auto cell_of = [](const Vec3& point) {
+        const Vec3 index = (point + reach + 1.0) * cells_per_unit + 0.5; // positive
+        return std::array{std::uint64_t(std::int64_t(index.x)),
+                          std::uint64_t(std::int64_t(index.y)),
+                          std::uint64_t(std::int64_t(index.z))};
+    };
+    const auto first = cell_of(foot - doubt), last = cell_of(foot + doubt);
+    for (std::uint64_t x = first[0]; x <= last[0]; ++x)
+        for (std::uint64_t y = first[1]; y <= last[1]; ++y)
+            for (std::uint64_t z = first[2]; z <= last[2]; ++z)
+                use((x << 32) | (y << 16) | z);
+}
 
 /// Seen along an axis, counter-clockwise.
 FlatPolygon outline_of(const Polygon& shape, const Vec3& normal, int axis) {
@@ -247,7 +236,7 @@ class Finder {
         entries.reserve(scene_.facets.size());
         for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
             if (is_buried_.empty() || !is_buried_[f])
-                PlaneCells(shape(f)).for_each([&](std::uint64_t cell) {
+                for_each_plane_cell(shape(f), [&](std::uint64_t cell) {
                     entries.push_back({cell, f});
                 });
         std::ranges::sort(entries, {}, &Entry::cell);
