@@ -73,26 +73,15 @@ FlatPolygon outline_of(const Polygon& shape, const Vec3& normal, int axis) {
     return outline;
 }
 
-/// The plane of a facet as heights along an axis.
-class Heights {
-  public:
-    Heights(const Polygon& shape, const Vec3& normal, int axis)
-        : x_((axis + 1) % 3), y_((axis + 2) % 3) {
-        for (int i = 0; i < shape.size(); ++i)
-            middle_ += shape.corner[static_cast<std::size_t>(i)] / double(shape.size());
-        slope_ = -Vec2(normal[x_], normal[y_]) / normal[axis];
-        height_ = middle_[axis];
-    }
-    [[nodiscard]] double at(const Vec2& point) const {
-        return height_ + glm::dot(slope_, point - Vec2(middle_[x_], middle_[y_]));
-    }
-
-  private:
-    int x_, y_;
-    Vec3 middle_{0.0};
-    Vec2 slope_;
-    double height_;
-};
+/// Where the plane of a facet is along an axis, above or below a point seen along it.
+double height_at(const Polygon& shape, const Vec3& normal, int axis, const Vec2& point) {
+    const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+    Vec3 middle(0.0);
+    for (int i = 0; i < shape.size(); ++i)
+        middle += shape.corner[static_cast<std::size_t>(i)] / double(shape.size());
+    const Vec2 slope = -Vec2(normal[x], normal[y]) / normal[axis];
+    return middle[axis] + glm::dot(slope, point - Vec2(middle[x], middle[y]));
+}
 
 bool lie_in_one_place(const Polygon& a, const Polygon& b) {
     const Vec3 normal_a = a.area_vector(), normal_b = b.area_vector();
@@ -105,11 +94,11 @@ bool lie_in_one_place(const Polygon& a, const Polygon& b) {
     const double smaller = std::min(std::abs(normal_a[axis]), std::abs(normal_b[axis]));
     if (!(common.area() > least_share * smaller))
         return false;
-    const Heights height_a(a, normal_a, axis), height_b(b, normal_b, axis);
     return std::all_of(common.corner.begin(),
                        common.corner.begin() + static_cast<std::ptrdiff_t>(common.size),
                        [&](const Vec2& point) {
-                           return std::abs(height_a.at(point) - height_b.at(point)) <= 2 * rounding;
+                           return std::abs(height_at(a, normal_a, axis, point) -
+                                           height_at(b, normal_b, axis, point)) <= 2 * rounding;
                        });
 }
 
