@@ -81,7 +81,7 @@ std::optional<Factors> by_rays(const FormFactorSettings& settings, const Mesh& m
     log_rays(settings.verbosity, mesh.patches().size(), traced);
     if (settings.options.own.of<FactorOptions>().kind == FactorKind::rays) {
         SparseMatrix matrix = samples.matrix();
-        const MatrixQuality quality = assess_matrix(matrix, mesh, samples);
+        const MatrixQuality quality = assess_matrix(matrix, mesh, samples.lost());
         return Factors{std::move(matrix), quality};
     }
     const ExactFormFactors exact(mesh, workers, monitor);
@@ -91,7 +91,7 @@ std::optional<Factors> by_rays(const FormFactorSettings& settings, const Mesh& m
              counted(exact.exact_pairs(), "pair", "pairs") + " by contour integration, " +
                  grouped(exact.sampled_pairs()) + " by rays");
     SparseMatrix matrix = exact.matrix(samples);
-    const MatrixQuality quality = assess_matrix(matrix, mesh, samples);
+    const MatrixQuality quality = assess_matrix(matrix, mesh, samples.lost());
     return Factors{std::move(matrix), quality};
 }
 

@@ -145,7 +145,7 @@ SparseMatrix ExactFormFactors::matrix(const SampledFormFactors& samples) const {
             result.column.push_back(entry.patch);
             result.value.push_back(factor);
         }
-        const EscapeFraction lost = samples.lost(i);
+        const EscapeFraction& lost = samples.lost()[i];
         const double left = 1 - lost.escaped - lost.absorbed - exact;
         if (left > 0 && drawn > 0)
             for (const std::size_t place : open)

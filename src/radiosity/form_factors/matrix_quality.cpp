@@ -68,12 +68,4 @@ MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
     return quality;
 }
 
-MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
-                            const SampledFormFactors& samples) {
-    std::vector<EscapeFraction> lost;
-    for (std::uint32_t i = 0; i < matrix.rows(); ++i)
-        lost.push_back(samples.lost(i));
-    return assess_matrix(matrix, mesh, lost);
-}
-
 } // namespace hemilux

@@ -24,8 +24,5 @@ struct MatrixQuality {
 /// `lost`: by row.
 [[nodiscard]] MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
                                           std::span<const EscapeFraction> lost);
-/// `samples` estimate how much of each row is lost.
-[[nodiscard]] MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
-                                          const SampledFormFactors& samples);
 
 } // namespace hemilux

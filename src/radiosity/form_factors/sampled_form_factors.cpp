@@ -33,7 +33,7 @@ SampledFormFactors::SampledFormFactors(const Mesh& mesh, const Tracer& tracer,
                                        const Needs& needs)
     : mesh_(mesh), tracer_(tracer), emitters_(std::move(emitters)),
       is_emitter_(mesh.patches().size()), seed_(seed), needs_(needs), counts_(mesh, tracer, seed),
-      emitter_sum_(mesh.patches().size() * emitters_.size()) {
+      lost_(mesh.patches().size()), emitter_sum_(mesh.patches().size() * emitters_.size()) {
     for (const std::uint32_t e : emitters_)
         is_emitter_[e] = true;
 }
@@ -62,6 +62,8 @@ std::uint64_t SampledFormFactors::trace_up_to(std::uint32_t rays, const Workers&
         monitor.rays += count;
     });
     rays_ = rays;
+    for (std::uint32_t i = 0; i < patches; ++i)
+        lost_[i] = {counts_.escaped(i) / double(rays), counts_.absorbed(i) / double(rays)};
     return traced;
 }
 
@@ -76,11 +78,6 @@ std::uint64_t SampledFormFactors::trace_emitters(std::uint32_t patch, std::uint3
             sum += look.factor(points.at(k), rays);
     }
     return rays;
-}
-
-EscapeFraction SampledFormFactors::lost(std::uint32_t patch) const {
-    const double n = rays_;
-    return {counts_.escaped(patch) / n, counts_.absorbed(patch) / n};
 }
 
 double SampledFormFactors::arriving_from(std::size_t emitter) const {
@@ -135,9 +132,7 @@ SparseMatrix SampledFormFactors::matrix() const {
     const double samples = emitter_samples(rays_);
     const auto merged = merged_counts();
     for (std::uint32_t i = 0; i < merged.size(); ++i) {
-        const EscapeFraction lost_share = lost(i);
-        double rest =
-            1 - lost_share.escaped - lost_share.absorbed; // of the row, for all but emitters
+        double rest = 1 - lost_[i].escaped - lost_[i].absorbed; // of the row, for all but emitters
         for (std::size_t e = 0; e < emitters_.size(); ++e) {
             const double factor = emitter_sum_[i * emitters_.size() + e] / samples;
             if (factor > 0) {

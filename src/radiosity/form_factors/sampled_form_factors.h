@@ -60,7 +60,8 @@ class SampledFormFactors {
 
     /// F, merged and closed.
     [[nodiscard]] SparseMatrix matrix() const;
-    [[nodiscard]] EscapeFraction lost(std::uint32_t patch) const;
+    /// By patch.
+    [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }
     [[nodiscard]] std::span<const std::uint32_t> emitters() const { return emitters_; }
     /// The share of the light of one of them that arrives, by the closed form; only right if
     /// all_receive().
@@ -82,6 +83,7 @@ class SampledFormFactors {
     const Needs& needs_;
     std::uint32_t rays_ = 0; ///< per patch, so far
     RayCounts counts_;
+    std::vector<EscapeFraction> lost_;
     std::vector<double> emitter_sum_; ///< per patch and emitter: sum of the samples
 };
 

@@ -15,7 +15,7 @@ struct TwoAccounts {
 
     TwoAccounts(std::span<const SampledFormFactors> batches, std::size_t emitter) {
         for (const SampledFormFactors& factors : batches) {
-            const EscapeFraction lost = factors.lost(factors.emitters()[emitter]);
+            const EscapeFraction& lost = factors.lost()[factors.emitters()[emitter]];
             by_rays.push_back(lost.escaped + lost.absorbed);
             sum_by_rays += by_rays.back();
             by_factors.push_back(1 - factors.arriving_from(emitter));
@@ -44,8 +44,8 @@ EscapeFraction kinds_of_loss(std::span<const SampledFormFactors> batches) {
     EscapeFraction kinds;
     for (const SampledFormFactors& factors : batches)
         for (const std::uint32_t emitter : factors.emitters()) {
-            kinds.escaped += factors.lost(emitter).escaped;
-            kinds.absorbed += factors.lost(emitter).absorbed;
+            kinds.escaped += factors.lost()[emitter].escaped;
+            kinds.absorbed += factors.lost()[emitter].absorbed;
         }
     return kinds;
 }

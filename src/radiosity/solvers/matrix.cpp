@@ -135,7 +135,7 @@ class MatrixSolver final : public Solver {
             area[i] = input_.mesh.patches()[i].area;
             emission[i] = input_.mesh.material(i).emission;
             reflectance[i] = input_.mesh.material(i).reflectance;
-            const EscapeFraction by_rays = factors.lost(i);
+            const EscapeFraction& by_rays = factors.lost()[i];
             const double sum = by_rays.escaped + by_rays.absorbed;
             const double scale = sum > 0 ? std::clamp(1 - kept[i], 0.0, 1.0) / sum : 0;
             lost[i] = {scale * by_rays.escaped, scale * by_rays.absorbed};
