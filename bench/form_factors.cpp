@@ -85,9 +85,10 @@ void measure(const Mesh& mesh) {
                 "   N  3 N^2     time    mean  largest     time    mean  largest\n");
     for (const std::uint32_t edge : {16u, 32u, 64u, 128u, 256u, 512u}) {
         double started = bench::cpu_seconds();
-        const HemicubeFormFactors cubes(Hemicube(edge), mesh, bvh, one, monitor);
+        const HemicubeFormFactors cubes =
+            hemicube_form_factors(Hemicube(edge), mesh, bvh, one, monitor);
         const double seconds_of_cubes = bench::cpu_seconds() - started;
-        const Errors of_cubes = errors_of(exact, cubes.matrix());
+        const Errors of_cubes = errors_of(exact, cubes.matrix);
         started = bench::cpu_seconds();
         SampledFormFactors samples(mesh, bvh, {}, 1);
         samples.trace_up_to(3 * edge * edge, one, monitor);

@@ -26,7 +26,7 @@ struct Cubes {
     HemicubeFormFactors factors;
 
     Cubes(const test::Model& model, std::uint32_t edge)
-        : factors(Hemicube(edge), model.mesh, model.bvh, workers, monitor) {}
+        : factors(hemicube_form_factors(Hemicube(edge), model.mesh, model.bvh, workers, monitor)) {}
 };
 
 double entry(const SparseMatrix& matrix, std::size_t i, std::uint32_t j) {
@@ -85,7 +85,7 @@ double rms_error(const test::Model& model, const SparseMatrix& exact, std::uint3
     double squares = 0;
     for (std::uint32_t i = 0; i < n; ++i)
         for (std::uint32_t j = 0; j < n; ++j)
-            squares += std::pow(entry(cubes.factors.matrix(), i, j) - entry(exact, i, j), 2);
+            squares += std::pow(entry(cubes.factors.matrix, i, j) - entry(exact, i, j), 2);
     return std::sqrt(squares / (double(n) * n));
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("Between large rectangles the centre stands for the patch, and divisio
         double sum = 0;
         for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i)
             if (model.mesh.patches()[i].facet == 0)
-                sum += model.mesh.patches()[i].area * row_sum(cubes.factors.matrix(), i);
+                sum += model.mesh.patches()[i].area * row_sum(cubes.factors.matrix, i);
         double area = 0;
         for (const Patch& patch : model.mesh.patches())
             area += patch.facet == 0 ? patch.area : 0;
@@ -203,9 +203,9 @@ TEST_CASE("Rows of a closed room sum to 1, those of an open one with what is los
         const Cubes cubes(model, 30);
         double lost = 0;
         for (std::size_t i = 0; i < model.mesh.patches().size(); ++i) {
-            const EscapeFraction& of_row = cubes.factors.lost()[i];
+            const EscapeFraction& of_row = cubes.factors.lost[i];
             lost += of_row.escaped + of_row.absorbed;
-            REQUIRE(row_sum(cubes.factors.matrix(), i) + of_row.escaped + of_row.absorbed ==
+            REQUIRE(row_sum(cubes.factors.matrix, i) + of_row.escaped + of_row.absorbed ==
                     Approx(1).margin(1e-12));
         }
         CHECK((lost == 0) == closed);

@@ -63,12 +63,13 @@ std::optional<Factors> by_hemicubes(const FormFactorSettings& settings, const Me
                                     const Tracer& tracer, const Workers& workers,
                                     Monitor& monitor) {
     const Hemicube cube(settings.options.own.of<FactorOptions>().hemicube_edge);
-    const HemicubeFormFactors factors(cube, mesh, tracer, workers, monitor);
+    HemicubeFormFactors factors = hemicube_form_factors(cube, mesh, tracer, workers, monitor);
     if (monitor.interrupted)
         return std::nullopt;
-    log_rays(settings.verbosity, mesh.patches().size(), factors.rays());
+    log_rays(settings.verbosity, mesh.patches().size(), factors.rays);
     log_line(settings.verbosity, Verbosity::normal, hemicube_note);
-    return Factors{factors.matrix(), assess_matrix(factors.matrix(), mesh, factors.lost())};
+    const MatrixQuality quality = assess_matrix(factors.matrix, mesh, factors.lost);
+    return Factors{std::move(factors.matrix), quality};
 }
 
 /// Nothing where the user interrupted.

@@ -113,11 +113,10 @@ HemicubeRow hemicube_row(const Hemicube& cube, const Mesh& mesh, const Tracer& t
     return row;
 }
 
-HemicubeFormFactors::HemicubeFormFactors(const Hemicube& cube, const Mesh& mesh,
-                                         const Tracer& tracer, const Workers& workers,
-                                         Monitor& monitor)
-    : lost_(mesh.patches().size()) {
-    std::vector<HemicubeRow> rows(lost_.size());
+HemicubeFormFactors hemicube_form_factors(const Hemicube& cube, const Mesh& mesh,
+                                          const Tracer& tracer, const Workers& workers,
+                                          Monitor& monitor) {
+    std::vector<HemicubeRow> rows(mesh.patches().size());
     std::atomic<std::size_t> done{0};
     workers.for_chunks(rows.size(), 1, [&](std::size_t i, std::size_t) {
         if (monitor.interrupted)
@@ -127,16 +126,18 @@ HemicubeFormFactors::HemicubeFormFactors(const Hemicube& cube, const Mesh& mesh,
         monitor.rays += cube.pixels();
         monitor.step_share = static_cast<double>(++done) / static_cast<double>(rows.size());
     });
-    matrix_.row_begin.push_back(0);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (const HemicubeRow::Entry& entry : rows[i].entries) {
-            matrix_.column.push_back(entry.patch);
-            matrix_.value.push_back(entry.factor);
+    HemicubeFormFactors factors{{}, {}, std::uint64_t{cube.pixels()} * rows.size()};
+    SparseMatrix& matrix = factors.matrix;
+    matrix.row_begin.push_back(0);
+    for (const HemicubeRow& row : rows) {
+        for (const HemicubeRow::Entry& entry : row.entries) {
+            matrix.column.push_back(entry.patch);
+            matrix.value.push_back(entry.factor);
         }
-        matrix_.row_begin.push_back(matrix_.value.size());
-        lost_[i] = rows[i].lost;
+        matrix.row_begin.push_back(matrix.value.size());
+        factors.lost.push_back(row.lost);
     }
-    rays_ = std::uint64_t{cube.pixels()} * rows.size();
+    return factors;
 }
 
 } // namespace hemilux

@@ -19,7 +19,6 @@
 #include "radiosity/form_factors/sampled_form_factors.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace hemilux {
@@ -38,7 +37,6 @@ class Hemicube {
     /// each. Throws std::invalid_argument unless is_edge().
     explicit Hemicube(std::uint32_t edge);
 
-    [[nodiscard]] std::uint32_t edge() const { return edge_; }
     /// 3 edge^2: those of the top face, row by row, then those of the sides, from below to above.
     [[nodiscard]] std::size_t pixels() const { return std::size_t{3} * edge_ * edge_; }
     /// The form factor from the cube's centre to the pixel [-], in closed form; all sum to 1.
@@ -83,21 +81,15 @@ struct HemicubeRow {
                                        const StopFlag& interrupted);
 
 /// The rows of all patches.
-class HemicubeFormFactors {
-  public:
-    /// Adds to the rays of the monitor; void if it was interrupted.
-    HemicubeFormFactors(const Hemicube& cube, const Mesh& mesh, const Tracer& tracer,
-                        const Workers& workers, Monitor& monitor);
-
-    [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
-    /// Has an entry for each patch.
-    [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }
-    [[nodiscard]] std::uint64_t rays() const { return rays_; }
-
-  private:
-    SparseMatrix matrix_;
-    std::vector<EscapeFraction> lost_;
-    std::uint64_t rays_ = 0;
+struct HemicubeFormFactors {
+    SparseMatrix matrix;
+    std::vector<EscapeFraction> lost; ///< by patch
+    std::uint64_t rays;
 };
+
+/// Adds to the rays of the monitor; void if it was interrupted.
+[[nodiscard]] HemicubeFormFactors hemicube_form_factors(const Hemicube& cube, const Mesh& mesh,
+                                                        const Tracer& tracer,
+                                                        const Workers& workers, Monitor& monitor);
 
 } // namespace hemilux

@@ -28,17 +28,17 @@ class HemicubeMatrix final : public Solver {
         const Workers workers(input_.options.threads);
         const Hemicube cube(input_.options.own.of<FactorOptions>().hemicube_edge);
         input_.monitor.phase = "hemicubes";
-        const HemicubeFormFactors factors(cube, input_.mesh, input_.tracer, workers,
-                                          input_.monitor);
+        const HemicubeFormFactors factors =
+            hemicube_form_factors(cube, input_.mesh, input_.tracer, workers, input_.monitor);
         if (input_.monitor.interrupted)
             return false;
         input_.monitor.phase = "solving";
         const std::vector<Vec3> incident =
-            arriving_light([&](auto x, auto y) { factors.matrix().multiply(x, y, workers); },
+            arriving_light([&](auto x, auto y) { factors.matrix.multiply(x, y, workers); },
                            input_.mesh, solution_.radiosity, input_.needs.colours);
         if (input_.monitor.interrupted)
             return false;
-        check_solved(factors.matrix(), incident, workers);
+        check_solved(factors.matrix, incident, workers);
         const EnergyBalance energy = balance(factors, incident);
         for (std::uint32_t i = 0; i < incident.size(); ++i) {
             const Material& material = input_.mesh.material(i);
@@ -47,7 +47,7 @@ class HemicubeMatrix final : public Solver {
         check_finite(input_.mesh, solution_.radiosity, "the radiosity", 1);
         solution_.energy = energy;
         solution_.hits.assign(incident.size(), cube.pixels());
-        solution_.rays_energy = factors.rays();
+        solution_.rays_energy = factors.rays;
         solution_.steps = 1;
         return true;
     }
@@ -88,7 +88,7 @@ class HemicubeMatrix final : public Solver {
             const Material& material = input_.mesh.material(i);
             const double area = to_world * input_.mesh.patches()[i].area;
             const Vec3 leaving = area * (material.emission + material.reflectance * incident[i]);
-            const EscapeFraction& lost = factors.lost()[i];
+            const EscapeFraction& lost = factors.lost[i];
             energy.emitted += area * material.emission;
             energy.escaped += lost.escaped * leaving;
             energy.absorbed +=
