@@ -19,24 +19,18 @@ class Graph {
             facets_.insert(facets_.end(), {a, b});
         std::ranges::sort(facets_);
         facets_.erase(std::unique(facets_.begin(), facets_.end()), facets_.end());
-        first_.assign(facets_.size() + 1, 0);
-        for (const auto& [a, b] : pairs)
-            for (const std::uint32_t f : {a, b})
-                ++first_[number_of(f) + 1];
-        std::partial_sum(first_.begin(), first_.end(), first_.begin());
-        neighbours_.resize(2 * pairs.size());
-        std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+        neighbours_.resize(facets_.size());
         for (const auto& [a, b] : pairs) {
             const std::uint32_t i = number_of(a), j = number_of(b);
-            neighbours_[next[i]++] = j;
-            neighbours_[next[j]++] = i;
+            neighbours_[i].push_back(j);
+            neighbours_[j].push_back(i);
         }
     }
 
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(facets_.size()); }
     [[nodiscard]] std::uint32_t facet(std::uint32_t i) const { return facets_[i]; }
     [[nodiscard]] std::span<const std::uint32_t> neighbours(std::uint32_t i) const {
-        return std::span(neighbours_).subspan(first_[i], first_[i + 1] - first_[i]);
+        return neighbours_[i];
     }
 
   private:
@@ -45,8 +39,8 @@ class Graph {
                                           facets_.begin());
     }
 
-    std::vector<std::uint32_t> facets_, neighbours_;
-    std::vector<std::size_t> first_;
+    std::vector<std::uint32_t> facets_;
+    std::vector<std::vector<std::uint32_t>> neighbours_;
 };
 
 /// What decides who covers whom.
