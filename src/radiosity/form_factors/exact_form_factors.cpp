@@ -72,10 +72,10 @@ bool nothing_between(const Mesh& mesh, std::span<const Box> facet_boxes, const F
     const Plane first{from.shape.corner[0], from.normal}, second{to.shape.corner[0], to.normal};
     Box box = box_of(pair.from);
     box.include(box_of(pair.to));
-    for (std::size_t f = 0; f < facet_boxes.size(); ++f) {
+    for (std::uint32_t f = 0; f < facet_boxes.size(); ++f) {
         if (f == from.facet || f == to.facet || !overlap(facet_boxes[f], box))
             continue;
-        const Polygon shape = polygon_of(mesh.soup().vertices, mesh.soup().facets[f]);
+        const Polygon shape = mesh.shape_of(f);
         const Outline part =
             in_front(in_front(outline_of(shape), first, plane_rounding), second, plane_rounding);
         if (!part.empty() && overlap(box_of(part), box) && !separated(part, shape.normal(), pair))
@@ -89,9 +89,8 @@ bool nothing_between(const Mesh& mesh, std::span<const Box> facet_boxes, const F
 ExactFormFactors::ExactFormFactors(const Mesh& mesh, const Workers& workers, const Monitor& monitor)
     : mesh_(mesh), rows_(mesh.patches().size()) {
     std::vector<Box> boxes;
-    for (std::size_t f = 0; f < mesh.soup().facets.size(); ++f)
-        boxes.push_back(
-            box_of(outline_of(polygon_of(mesh.soup().vertices, mesh.soup().facets[f]))));
+    for (std::uint32_t f = 0; f < mesh.soup().facets.size(); ++f)
+        boxes.push_back(box_of(outline_of(mesh.shape_of(f))));
     workers.for_chunks(rows_.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
             find_row(static_cast<std::uint32_t>(i), boxes);

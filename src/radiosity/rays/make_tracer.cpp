@@ -1,7 +1,6 @@
 #include "radiosity/rays/make_tracer.h"
 
 #include "bvh/wide/wide_bvh.h"
-#include "geometry/polygon.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
@@ -18,8 +17,7 @@ Crowd find_crowd(const Mesh& mesh, const WideBvh& tree) {
     std::size_t sum = 0, most = 0;
     for (std::uint32_t k = 0; k < asked; ++k) {
         const auto f = static_cast<std::uint32_t>(std::uint64_t{k} * facets / asked);
-        const std::size_t around =
-            tree.triangles_around(polygon_of(mesh.vertices(), mesh.soup().facets[f]).centre());
+        const std::size_t around = tree.triangles_around(mesh.shape_of(f).centre());
         sum += around;
         if (around > most) {
             most = around;

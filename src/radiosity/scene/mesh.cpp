@@ -94,8 +94,8 @@ void Mesh::find_colours() {
     Workers(threads_).for_chunks(textured.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const Patch& patch = patches_[textured[k]];
-            const Colours mean = mean_colours(
-                scene_, patch.facet, polygon_of(vertices_, corners_[patch.facet]), patch.shape);
+            const Colours mean =
+                mean_colours(scene_, patch.facet, shape_of(patch.facet), patch.shape);
             colours_[first + k].reflectance = mean.reflectance;
             colours_[first + k].emission = mean.emission;
         }
@@ -119,7 +119,7 @@ FacetSoup Mesh::soup_to_trace() const {
 }
 
 Patch Mesh::whole_side(std::uint32_t facet, bool back) const {
-    return patch_from(polygon_of(vertices_, corners_[facet]), facet, back);
+    return patch_from(shape_of(facet), facet, back);
 }
 
 Patch Mesh::patch_from(const Polygon& shape, std::uint32_t facet, bool back) const {
@@ -127,7 +127,7 @@ Patch Mesh::patch_from(const Polygon& shape, std::uint32_t facet, bool back) con
     Vec3 normal(0, 0, 1);
     if (area > 0)
         normal = shape.normal();
-    else if (const Polygon whole = polygon_of(vertices_, corners_[facet]); whole.area() > 0)
+    else if (const Polygon whole = shape_of(facet); whole.area() > 0)
         normal = whole.normal();
     return {
         back ? shape.flipped() : shape, shape.centre(), back ? -normal : normal,      area, facet,
@@ -138,7 +138,7 @@ void Mesh::offset_layers() {
     constexpr double step = 0x1p-28; // larger than what is taken for rounding elsewhere
     const CoplanarLayers layers = find_coplanar_layers(scene_, vertices_);
     for (std::uint32_t f = 0; f < layers.offset.size(); ++f) {
-        const Polygon shape = polygon_of(vertices_, corners_[f]);
+        const Polygon shape = shape_of(f);
         if (layers.offset[f] == 0 || !(shape.area() > 0))
             continue;
         const bool triangle = shape.is_triangle();
@@ -165,7 +165,7 @@ void Mesh::divide(const MeshOptions& options) {
             is_whole ? std::numeric_limits<double>::infinity() : options.max_edge * frame_.scale;
         const std::size_t sides = has_back(f) ? 2 : 1;
         const std::size_t left = options.max_patches - std::min(options.max_patches, patches);
-        const FacetDivision pieces(polygon_of(vertices_, corners_[f]), max_edge, left / sides);
+        const FacetDivision pieces(shape_of(f), max_edge, left / sides);
         const auto first_patch = static_cast<std::uint32_t>(patches);
         divisions_.push_back({pieces, first_patch});
         only_patch_.push_back(pieces.pieces() > 1 ? none : first_patch);
@@ -173,7 +173,7 @@ void Mesh::divide(const MeshOptions& options) {
     }
     patches_.reserve(patches);
     for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
-        for (const Polygon& piece : divisions_[f].pieces.cut(polygon_of(vertices_, corners_[f])))
+        for (const Polygon& piece : divisions_[f].pieces.cut(shape_of(f)))
             add_patches(f, piece);
 }
 

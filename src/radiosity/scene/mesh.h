@@ -104,6 +104,10 @@ class Mesh {
     [[nodiscard]] Frame hemisphere_frame(std::uint32_t patch, Vec2 turn) const {
         return Frame::from_normal(patches_[patch].normal).turned(turn);
     }
+    /// A facet in the local frame, counter-clockwise from its front.
+    [[nodiscard]] Polygon shape_of(std::uint32_t facet) const {
+        return polygon_of(vertices_, corners_[facet]);
+    }
     /// The facets in the local frame, for a tracer to copy or to refer to.
     [[nodiscard]] FacetSoup soup() const;
     /// The same for a tracer, in which no ray can meet what is buried under many others.

@@ -38,7 +38,7 @@ class EmittingShell {
         for (const std::uint32_t f : shells.facets_of(shells.all[shell]))
             if (power_of(mesh, f) > 0) {
                 facets_.push_back(f);
-                areas_.push_back(area_of(mesh, f));
+                areas_.push_back(mesh.shape_of(f).area());
                 area_ += areas_.back();
             }
     }

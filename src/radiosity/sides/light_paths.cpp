@@ -23,7 +23,7 @@ Ray diffuse_ray_at(const Mesh& mesh, FacetSide side, const Vec3& point, Rng& rng
 
 Vec3 random_point(const Mesh& mesh, std::uint32_t facet, Rng& rng) {
     const Vec2 u(rng.uniform(), rng.uniform());
-    return mesh.whole_side(facet, false).shape.sample(u);
+    return mesh.shape_of(facet).sample(u);
 }
 
 /// From surface to surface, for as long as arrive(side) says so; `side` is empty where the path
@@ -64,7 +64,7 @@ Ray diffuse_ray(const Mesh& mesh, FacetSide side, Rng& rng) {
 Targets::Targets(const Mesh& mesh) : mesh_(mesh) {
     double sum = 0;
     for (std::uint32_t f = 0; f < mesh.scene().facets.size(); ++f)
-        area_sums_.push_back(sum += power_of(mesh, f) > 0 ? 0 : area_of(mesh, f));
+        area_sums_.push_back(sum += power_of(mesh, f) > 0 ? 0 : mesh.shape_of(f).area());
 }
 
 std::optional<Ray> Targets::ray_from(FacetSide side, Rng& rng) const {
@@ -81,17 +81,13 @@ std::optional<Ray> Targets::ray_from(FacetSide side, Rng& rng) const {
                .from = side.facet};
 }
 
-double area_of(const Mesh& mesh, std::uint32_t facet) {
-    return polygon_of(mesh.soup().vertices, mesh.soup().facets[facet]).area();
-}
-
 double power_of(const Mesh& mesh, std::uint32_t facet) {
     const Material& material = mesh.scene().materials[mesh.scene().facets[facet].material];
     const Vec3& e = material.emission;
     const double sum = e.r + e.g + e.b;
     if (material.is_far || !(sum > 0) || !std::isfinite(sum))
         return 0;
-    return sum * area_of(mesh, facet);
+    return sum * mesh.shape_of(facet).area();
 }
 
 std::vector<std::uint32_t> shares_of(const std::vector<double>& weights, std::uint32_t count) {

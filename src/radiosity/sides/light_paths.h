@@ -36,9 +36,6 @@ class Targets {
     std::vector<double> area_sums_;
 };
 
-/// The area of a facet in the local frame.
-[[nodiscard]] double area_of(const Mesh& mesh, std::uint32_t facet);
-
 /// The power that a facet emits on one side, all channels together [W/m2 times area in the local
 /// frame]; 0 where that is not finite, and of a sun or sky: its light comes from all sides,
 /// whichever of them a surface is to be seen from.

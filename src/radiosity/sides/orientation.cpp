@@ -96,7 +96,7 @@ class OrientationSearch {
             if (emits_[shells_.of[f]] || sum_of(light_[f]) == 0 || scene_.facets[f].two_sided ||
                 is_far(f))
                 continue;
-            const double area = area_of(mesh_, f);
+            const double area = mesh_.shape_of(f).area();
             lit += area;
             from_behind += area * light_[f][1] / sum_of(light_[f]);
         }
