@@ -40,7 +40,7 @@ void Subdivision1997::check(const Subdivision1997Options& options) {
 Subdivision1997::Subdivision1997(const Mesh& mesh, const Needs& needs,
                                  const Subdivision1997Options& options)
     : mesh_(mesh), needs_(needs), options_((check(options), options)), topology_(stored_levels()) {
-    const std::size_t patches = needs.densities ? mesh.patches().size() : 1;
+    const std::size_t patches = needs.visibility ? mesh.patches().size() : 1;
     direction_.resize(patches * parts() * topology_.vertices().size());
     count_.resize(direction_.size());
 }
@@ -53,16 +53,16 @@ double Subdivision1997::bytes_of_patch(const Subdivision1997Options& options) {
 
 void Subdivision1997::find(int level, const Tracer& tracer, const Workers& workers,
                            Monitor& monitor) {
-    const std::size_t patches = needs_.densities ? mesh_.patches().size() : 1;
+    const std::size_t patches = needs_.visibility ? mesh_.patches().size() : 1;
     for (const int last = std::min(level, stored_levels()); found_ < last; ++found_) {
         std::atomic<std::uint64_t> counted{0};
         workers.for_chunks(patches, 16, [&](std::size_t begin, std::size_t end) {
             for (auto i = static_cast<std::uint32_t>(begin); i < end && !monitor.interrupted; ++i)
                 for (std::size_t part = 0; part < parts(); ++part)
-                    if (!needs_.densities || needs_.power(i))
+                    if (!needs_.visibility || needs_.power(i))
                         counted += find_level(found_ + 1, i, part, tracer);
         });
-        if (needs_.densities) {
+        if (needs_.visibility) {
             rays_ += counted;
             monitor.rays += counted;
         }
@@ -102,7 +102,7 @@ std::size_t Subdivision1997::find_level(int level, std::uint32_t patch, std::siz
 
 std::uint8_t Subdivision1997::count(std::uint32_t patch, const Vec3& from, const Vec3& direction,
                                     const Tracer& tracer) const {
-    if (!needs_.densities)
+    if (!needs_.visibility)
         return 1;
     const Ray ray{.origin = from,
                   .direction = mesh_.hemisphere_frame(patch).to_world(density_direction(direction)),

@@ -74,7 +74,7 @@ class Subdivision1997 {
     [[nodiscard]] int stored_levels() const { return static_cast<int>(options_.stored_steps); }
     /// Where the directions of a part begin. Where all counts are 1 all patches are alike.
     [[nodiscard]] std::size_t place(std::uint32_t patch, std::size_t part) const {
-        return ((needs_.densities ? patch : 0) * parts() + part) * topology_.vertices().size();
+        return ((needs_.visibility ? patch : 0) * parts() + part) * topology_.vertices().size();
     }
     [[nodiscard]] CountedDirection stored(std::size_t at) const;
     /// Finds the directions that a level adds, in the patch's order of vertices; returns how many.

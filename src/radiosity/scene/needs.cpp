@@ -50,7 +50,7 @@ Needs find_needs(const Mesh& mesh) {
         return !is_grey(material.reflectance) || !is_grey(material.emission);
     });
     needs.closed = is_convex_enclosure(mesh);
-    needs.densities = needs.visibility = !needs.closed;
+    needs.visibility = !needs.closed;
     needs.tree = needs_tree(mesh);
     find_idle_patches(mesh, needs);
     return needs;

@@ -14,11 +14,12 @@ namespace hemilux {
 class Mesh;
 
 struct Needs {
-    bool colours = true;    ///< false: all is grey, one channel stands for three
-    bool densities = true;  ///< false: a convex enclosure, one surface in each direction
-    bool visibility = true; ///< false: the same, nothing stands between two patches
-    bool bounces = true;    ///< false: nothing that light may reach reflects
-    bool tree = true;       ///< false: so few triangles that a ray tests them all at once
+    bool colours = true; ///< false: all is grey, one channel stands for three
+    /// false: a convex enclosure. Nothing stands between two patches, and there is one surface in
+    /// each direction, so densities need no rays.
+    bool visibility = true;
+    bool bounces = true; ///< false: nothing that light may reach reflects
+    bool tree = true;    ///< false: so few triangles that a ray tests them all at once
 
     /// No ray can leave the scene or meet the back of a face, as its geometry proves. This leaves
     /// no work out; it says which errors are possible.

@@ -9,7 +9,7 @@ namespace {
 std::string patches(std::size_t n) { return std::to_string(n) + (n == 1 ? " patch" : " patches"); }
 
 void add_idle_patches(const Needs& needs, const MethodWork& work, std::vector<LeftOut>& list) {
-    const bool hemispheres = work.densities && needs.densities;
+    const bool hemispheres = work.densities && needs.visibility;
     if (!hemispheres && !work.pairs)
         return;
     const std::string rays = !hemispheres ? "rays"
@@ -27,7 +27,7 @@ std::vector<LeftOut> left_out_of(const Needs& needs, const MethodWork& work) {
     if (!needs.colours && work.linear_systems)
         list.push_back({"two of three colour channels", "all reflectances and emissions are grey",
                         "two of three linear systems"});
-    if (!needs.densities && work.densities)
+    if (!needs.visibility && work.densities)
         list.push_back(
             {"densities", "in a convex enclosure all are 1", "all density rays and bytes"});
     if (!needs.visibility && work.pairs)

@@ -45,7 +45,7 @@ class HemisphereStrategy final : public Strategy {
         for (std::size_t cell = 0; cell < hemisphere.cells().size(); ++cell)
             area_shares_.push_back(power_share(hemisphere, static_cast<std::uint16_t>(cell),
                                                rules(input.options).area));
-        if (input.needs.densities)
+        if (input.needs.visibility)
             densities_ = find_densities(input, hemisphere, workers);
         else
             allocate_leaves(leaves_of_one_surface(hemisphere, input.options.threshold),
@@ -154,7 +154,7 @@ std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisp
                                           const Workers& workers) {
     const Guide guide = guide_of(input.options);
     const bool by_visibility = guide == Guide::visible || guide == Guide::learned;
-    if (by_visibility && input.needs.densities)
+    if (by_visibility && input.needs.visibility)
         return make_visibility_guide(input, hemisphere, workers, guide == Guide::learned);
     return std::make_unique<HemisphereStrategy>(input, hemisphere, workers);
 }
