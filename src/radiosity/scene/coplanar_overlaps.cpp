@@ -126,7 +126,7 @@ std::vector<Buried> find_buried(const Scene& scene, std::span<const Vec3> vertic
         const Vec3& e = scene.materials[scene.facets[f].material].emission;
         alike.push_back({shape_of(scene.facets[f], vertices), -(e.x + e.y + e.z), f});
     }
-    std::ranges::sort(alike, [](const Alike& a, const Alike& b) { return a < b; });
+    std::ranges::sort(alike);
     std::vector<Buried> buried;
     for (std::size_t first = 0, k = 0; k < alike.size(); ++k) {
         if (alike[k].shape != alike[first].shape)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -91,12 +92,10 @@ class Heaps {
 
     /// By counts of keys in buckets, in which hardly ever more than a few meet by chance.
     [[nodiscard]] bool may_have_any() const {
-        std::size_t buckets = 1;
-        while (buckets < scene_.facets.size())
-            buckets *= 2;
-        std::vector<std::uint8_t> counts(buckets);
+        std::vector<std::uint8_t> counts(std::bit_ceil(scene_.facets.size()));
         for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
-            if (const std::uint64_t k = key(f, 0); k != 0 && ++counts[k % buckets] > kept_alike)
+            if (const std::uint64_t k = key(f, 0);
+                k != 0 && ++counts[k % counts.size()] > kept_alike)
                 return true;
         return false;
     }
@@ -106,7 +105,7 @@ class Heaps {
         for (std::uint32_t f = 0; f < first_.size(); ++f)
             if (const std::uint64_t k = first_[f] == f ? key(f, round) : 0; k != 0)
                 entries.push_back({k, f});
-        std::ranges::sort(entries, [](const Entry& a, const Entry& b) { return a < b; });
+        std::ranges::sort(entries);
         for (auto begin = entries.begin(); begin != entries.end();) {
             std::size_t facets = 0;
             auto end = begin;

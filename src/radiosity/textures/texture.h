@@ -61,7 +61,7 @@ class Texture {
     Vec3 mean_{0.0};
 };
 
-/// The light that bytes mean: by the sRGB curve (IEC 61966-2-1), or in proportion.
+/// The light that bytes mean by the sRGB curve (IEC 61966-2-1).
 [[nodiscard]] const std::array<double, 256>& srgb_to_linear();
 
 } // namespace hemilux
