@@ -45,7 +45,7 @@ struct EdgePoint {
 class SideSearch {
   public:
     SideSearch(const Mesh& mesh, const CornerMeetings& meetings)
-        : mesh_(mesh), meetings_(meetings), points_(mesh.patches().size()),
+        : mesh_(mesh), points_(mesh.patches().size()),
           first_patch_(mesh.scene().facets.size() + 1, 0) {
         for (std::uint32_t v = 0; v + 1 < meetings.first.size(); ++v)
             for (std::uint32_t k = meetings.first[v]; k < meetings.first[v + 1]; ++k)
@@ -160,7 +160,6 @@ class SideSearch {
     }
 
     const Mesh& mesh_;
-    const CornerMeetings& meetings_;
     std::vector<std::array<std::uint32_t, 4>> points_; ///< of the corners of each patch
     std::vector<std::uint32_t> first_patch_;           ///< of each facet
     std::unordered_map<Vec3, std::uint32_t, PositionHash> point_at_;
