@@ -37,14 +37,12 @@ class ShootingSolver final : public StepwiseSolver {
     std::vector<Bounces> bounces_; ///< for each step that is worked out at the same time
 };
 
-/// Makes the solver of a strategy, for Method::make. `rules` chooses them by the options; without
-/// it they are the unbiased ones.
-template <MakeStrategy make_strategy, ShootingRules (*rules)(const SolveOptions&) = nullptr>
+/// Makes the solver of a strategy, for Method::make. With `has_literal` the option --literal
+/// chooses its rules, without it they are the unbiased ones.
+template <MakeStrategy make_strategy, bool has_literal = false>
 [[nodiscard]] std::unique_ptr<Solver> shoot_with(const SolverInput& input) {
-    ShootingRules chosen;
-    if constexpr (rules != nullptr)
-        chosen = rules(input.options);
-    return std::make_unique<ShootingSolver>(input, make_strategy, chosen);
+    return std::make_unique<ShootingSolver>(
+        input, make_strategy, has_literal ? shooting_rules(input.options) : ShootingRules{});
 }
 
 } // namespace hemilux

@@ -2,6 +2,7 @@
 // How the power of a patch becomes rays. A strategy's file chooses; the engine knows no more of it.
 
 #include "radiosity/hemisphere/cell_directions.h"
+#include "radiosity/solving/solve_options.h"
 
 namespace hemilux {
 
@@ -23,9 +24,13 @@ struct ShootingRules {
     RaysPerPatch rays = RaysPerPatch::by_power;
 };
 
-/// The rules of the paper as printed.
-inline constexpr ShootingRules printed_rules{.area = CellArea::solid_angle,
-                                             .origins = RayOrigins::centre,
-                                             .rays = RaysPerPatch::same_number};
+/// Those of the paper as printed with --literal, else the unbiased ones.
+[[nodiscard]] inline ShootingRules shooting_rules(const SolveOptions& options) {
+    if (!options.literal)
+        return {};
+    return {.area = CellArea::solid_angle,
+            .origins = RayOrigins::centre,
+            .rays = RaysPerPatch::same_number};
+}
 
 } // namespace hemilux

@@ -33,10 +33,6 @@
 namespace hemilux {
 namespace {
 
-ShootingRules rules(const SolveOptions& options) {
-    return options.literal ? printed_rules : ShootingRules{};
-}
-
 class HemisphereStrategy final : public Strategy {
   public:
     HemisphereStrategy(const SolverInput& input, const Hemisphere& hemisphere,
@@ -44,7 +40,7 @@ class HemisphereStrategy final : public Strategy {
         : printed_(input.options.literal) {
         for (std::size_t cell = 0; cell < hemisphere.cells().size(); ++cell)
             area_shares_.push_back(power_share(hemisphere, static_cast<std::uint16_t>(cell),
-                                               rules(input.options).area));
+                                               shooting_rules(input.options).area));
         if (input.needs.visibility)
             densities_ = find_densities(input, hemisphere, workers);
         else
@@ -195,7 +191,7 @@ const Method hemisphere_method{
     .has_depth = true,
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
-    .make = shoot_with<make_hemisphere, rules>,
+    .make = shoot_with<make_hemisphere, true>,
     .strategy = make_hemisphere,
     .work = {.densities = true, .passes = true},
     .plain = plain::hemisphere,

@@ -45,10 +45,6 @@ namespace {
 
 static_assert(Subdivision1997::most_triangles < whole_hemisphere);
 
-ShootingRules rules(const SolveOptions& options) {
-    return options.literal ? printed_rules : ShootingRules{};
-}
-
 class Hemisphere1997 final : public Strategy {
   public:
     Hemisphere1997(const SolverInput& input, const Workers& workers)
@@ -153,7 +149,7 @@ const Method hemisphere_1997_method{
     .has_literal = true,
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
-    .make = shoot_with<make_hemisphere_1997, rules>,
+    .make = shoot_with<make_hemisphere_1997, true>,
     .strategy = make_hemisphere_1997,
     .work = {.densities = true, .passes = true},
     .plain = plain::hemisphere_1997,
