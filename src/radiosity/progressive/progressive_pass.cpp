@@ -1,7 +1,7 @@
 #include "radiosity/progressive/progressive_pass.h"
 
 #include "radiosity/form_factors/factor_options.h"
-#include "radiosity/progressive/arriving_power.h"
+#include "radiosity/form_factors/pair_factor.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 
 namespace hemilux {
 namespace {
@@ -48,6 +49,40 @@ struct ReflectingArea {
         mean_reflectance = glm::min(mean_reflectance / area, Vec3(most_of_errors));
     }
 };
+
+/// Of patches and emitters. Emitters beyond the first pairs, in the order of their power, count as
+/// a whole.
+constexpr std::size_t most_pairs = 10'000'000;
+
+/// The power that would arrive at patches if nothing stood between them and the emitters, in W/m2
+/// times area in local units. A sun sends most of its light elsewhere; the light of a scene is to
+/// be measured by the power that arrives.
+Vec3 power_to_patches(const Mesh& mesh) {
+    const auto power_of = [&](std::uint32_t e) {
+        return mesh.patches()[e].area * mesh.material(e).emission;
+    };
+    std::vector<std::uint32_t> emitters;
+    for (std::uint32_t e = 0; e < mesh.patches().size(); ++e)
+        if (mesh.material(e).emission != Vec3(0.0))
+            emitters.push_back(e);
+    std::ranges::stable_sort(emitters, std::greater{},
+                             [&](std::uint32_t e) { return mean_of_channels(power_of(e)); });
+    const std::size_t looked_at = 1 + most_pairs / mesh.patches().size();
+    CompensatedSum<Vec3> power;
+    for (std::size_t k = 0; k < emitters.size(); ++k) {
+        const Patch& emitter = mesh.patches()[emitters[k]];
+        double share = 1;
+        if (k < looked_at) {
+            double area = 0; // times the factor to the emitter: the emitter's times that from it
+            for (const Patch& patch : mesh.patches())
+                if (&patch != &emitter && may_see(patch, emitter))
+                    area += patch.area * rough_factor(patch, emitter);
+            share = std::min(1.0, area / emitter.area);
+        }
+        power += share * power_of(emitters[k]);
+    }
+    return power.value();
+}
 
 /// Radiosity that the mean patch will reflect in the end.
 double mean_reflected(const Mesh& mesh) {
