@@ -22,9 +22,11 @@ CountedDirection estimated_point(const CountedDirection& a, const CountedDirecti
 
 CountedTriangle estimated_child(const CountedTriangle& triangle, std::size_t child) {
     const auto& [a, b, c] = triangle;
-    const CountedTriangle between = {estimated_point(a, b), estimated_point(b, c),
-                                     estimated_point(c, a)};
-    return child_corners(triangle, between, child);
+    const CountedDirection ab = estimated_point(a, b), bc = estimated_point(b, c),
+                           ca = estimated_point(c, a);
+    const std::array<CountedTriangle, 4> children{
+        {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}};
+    return children[child];
 }
 
 } // namespace hemilux

@@ -31,27 +31,8 @@ using CountedTriangle = std::array<CountedDirection, 3>;
 [[nodiscard]] CountedDirection estimated_point(const CountedDirection& a,
                                                const CountedDirection& b);
 
-/// Corners of child 0 to 3 of the triangle ABC with new points on AB, BC and CA: those at A, B and
-/// C, then the middle one.
-template <class Corner>
-[[nodiscard]] std::array<Corner, 3> child_corners(const std::array<Corner, 3>& corner,
-                                                  const std::array<Corner, 3>& between,
-                                                  std::size_t child) {
-    const auto& [a, b, c] = corner;
-    const auto& [ab, bc, ca] = between;
-    switch (child) {
-    case 0:
-        return {a, ab, ca};
-    case 1:
-        return {ab, b, bc};
-    case 2:
-        return {ca, bc, c};
-    default:
-        return {ab, bc, ca};
-    }
-}
-
-/// Child 0 to 3, divided at the estimated points.
+/// Child 0 to 3 of the triangle ABC with estimated points on its edges: those at A, B and C, then
+/// the middle one.
 [[nodiscard]] CountedTriangle estimated_child(const CountedTriangle& triangle, std::size_t child);
 
 } // namespace hemilux
