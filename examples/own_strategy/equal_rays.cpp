@@ -59,8 +59,7 @@ void check(const SolveOptions& options, std::size_t) {
 
 } // namespace
 
-extern const Method equal_rays_method;
-const Method equal_rays_method{
+extern const Method equal_rays_method{
     .name = "equal-rays",
     .summary = "the same number of rays for every triangle (an example)",
     .unbiased = true,

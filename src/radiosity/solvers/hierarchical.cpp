@@ -268,14 +268,12 @@ std::unique_ptr<Solver> make_hierarchical(const SolverInput& input) {
 
 } // namespace
 
-extern const Method hierarchical_method;
-const Method hierarchical_method{
+extern const Method hierarchical_method{
     .name = "hierarchical",
     .summary = "links between large and small parts of surfaces (Hanrahan et al. 1991)",
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .05},
     .make = make_hierarchical,
-    .strategy = nullptr,
     .work = {.linear_systems = true, .passes = true},
     .bytes =
         [](const SolveOptions&, double patches) {

@@ -229,14 +229,12 @@ double bytes(const SolveOptions& options, double patches) {
 
 } // namespace
 
-extern const Method matrix_method;
-const Method matrix_method{
+extern const Method matrix_method{
     .name = "matrix",
     .summary = "all form factors and a linear solver (Goral et al. 1984); the reference",
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .002},
     .make = make_matrix,
-    .strategy = nullptr,
     .work = {.pairs = true, .linear_systems = true, .passes = true},
     .role = Role::reference,
     .options = options,

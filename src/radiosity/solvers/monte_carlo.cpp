@@ -240,14 +240,12 @@ std::vector<MethodOption> options() { return {one_shot_option()}; }
 
 } // namespace
 
-extern const Method monte_carlo_method;
-const Method monte_carlo_method{
+extern const Method monte_carlo_method{
     .name = "monte-carlo",
     .summary = "the brightest patch shoots all it holds by random rays (Shirley 1991; paper 3.2)",
     .unbiased = true,
     .default_stop = {.steps = 16, .seconds = {}, .error = {}},
     .make = make_monte_carlo,
-    .strategy = nullptr,
     .work = {.passes = true},
     .saves = true,
     .plain = plain::monte_carlo,

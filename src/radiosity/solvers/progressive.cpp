@@ -204,14 +204,12 @@ void adapt(MethodWork& work, const SolveOptions& options) {
 
 } // namespace
 
-extern const Method progressive_method;
-const Method progressive_method{
+extern const Method progressive_method{
     .name = "progressive",
     .summary = "the brightest patch shoots by explicit form factors (Cohen et al. 1988; paper 3.1)",
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
     .make = make_progressive,
-    .strategy = nullptr,
     .work = {.pairs = true},
     .options = options,
     .adapt = adapt,

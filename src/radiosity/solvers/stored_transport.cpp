@@ -243,14 +243,12 @@ std::unique_ptr<Solver> make_stored_transport(const SolverInput& input) {
 
 } // namespace
 
-extern const Method stored_transport_method;
-const Method stored_transport_method{
+extern const Method stored_transport_method{
     .name = "stored-transport",
     .summary = "rays are kept and all bounces solved on them; lamps by shadow rays",
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
     .make = make_stored_transport,
-    .strategy = nullptr,
     .work = {.pairs = true},
     .saves = true,
     .plain = plain::stored_transport,

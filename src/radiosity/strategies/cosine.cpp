@@ -27,8 +27,7 @@ std::unique_ptr<Strategy> make_cosine(const SolverInput&, const Hemisphere&, con
 
 } // namespace
 
-extern const Method cosine_method;
-const Method cosine_method{
+extern const Method cosine_method{
     .name = "progressive-monte-carlo",
     .summary = "steps of random cosine-distributed rays (Feda and Purgathofer 1993; paper 3.3)",
     .unbiased = true,

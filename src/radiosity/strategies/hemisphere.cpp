@@ -183,8 +183,7 @@ constexpr std::array<std::string_view, 4> division_options{"--depth", "--thresho
 
 } // namespace
 
-extern const Method hemisphere_method;
-const Method hemisphere_method{
+extern const Method hemisphere_method{
     .name = "hemisphere",
     .summary = "hemisphere subdivision guided by densities (Plemenos and Jolivet 1998; paper 5)",
     .has_literal = true,

@@ -142,8 +142,7 @@ double bytes(const SolveOptions& options, double patches) {
 
 } // namespace
 
-extern const Method hemisphere_1997_method;
-const Method hemisphere_1997_method{
+extern const Method hemisphere_1997_method{
     .name = "hemisphere-1997",
     .summary = "triangles shrunk towards many surfaces (Jolivet and Plemenos 1997; paper 4)",
     .has_literal = true,

@@ -32,8 +32,7 @@ std::unique_ptr<Strategy> make_stratified(const SolverInput&, const Hemisphere& 
 
 } // namespace
 
-extern const Method stratified_method;
-const Method stratified_method{
+extern const Method stratified_method{
     .name = "stratified",
     .summary = "the same spherical triangles without densities (the control)",
     .has_depth = true,
