@@ -6,12 +6,49 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace hemilux {
 namespace {
 
 double share_lost(const EscapeFraction& lost) { return lost.escaped + lost.absorbed; }
+
+/// Between the batches.
+double variance_of_sum(std::span<const std::vector<double>> sums, std::size_t patch) {
+    const auto n = static_cast<double>(sums.size());
+    double mean = 0, squares = 0;
+    for (const std::vector<double>& sum : sums)
+        mean += sum[patch] / n;
+    for (const std::vector<double>& sum : sums)
+        squares += (sum[patch] - mean) * (sum[patch] - mean);
+    return squares / (n - 1);
+}
+
+/// The share of the sums in the mean of both, by patch, each weighted by the inverse of its
+/// variance over all batches. It is 0 where no ray of any patch was lost.
+std::vector<double> weights_of_sums(const LostRays& rays,
+                                    std::span<const std::vector<double>> sums) {
+    const std::size_t batches = rays.batches();
+    const std::span<const double> rays_of_batch = rays.rays_of_batch();
+    std::vector<double> lost(rays.patches()), weight(rays.patches());
+    double all_lost = 0, all_rays = 0;
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        for (std::size_t r = 0; r < batches; ++r)
+            lost[i] += share_lost(rays.lost(r, i)) / double(batches);
+        all_lost += lost[i] * rays_of_batch[i];
+        all_rays += rays_of_batch[i];
+    }
+    if (!(all_lost > 0))
+        return weight;
+    const double prior = (all_lost + 1) / (all_rays + 2); // not all: a far lamp is met by none
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        const double all = rays_of_batch[i] * double(batches);
+        const double share = (all * lost[i] + prior) / (all + 1);
+        const double of_loss = share * (1 - share) / rays_of_batch[i];
+        const double of_sum = variance_of_sum(sums, i);
+        weight[i] = of_sum + of_loss > 0 ? of_loss / (of_sum + of_loss) : 0;
+    }
+    return weight;
+}
 
 } // namespace
 
@@ -76,58 +113,21 @@ double LostRays::uncertain_light(std::span<const double> area, std::span<const V
     return std::hypot(rule_of_three * leaving / all_rays, std::sqrt(variance)) / emitted;
 }
 
-RowNormalisation::RowNormalisation(const LostRays& lost, std::vector<std::vector<double>> sums,
-                                   bool closed)
-    : lost_(lost), sums_(std::move(sums)), weight_(lost.patches()), closed_(closed) {
-    if (!closed)
-        find_weights();
-}
-
-double RowNormalisation::variance_of_sum(std::size_t patch) const {
-    const auto n = static_cast<double>(sums_.size());
-    double mean = 0, squares = 0;
-    for (const std::vector<double>& sum : sums_)
-        mean += sum[patch] / n;
-    for (const std::vector<double>& sum : sums_)
-        squares += (sum[patch] - mean) * (sum[patch] - mean);
-    return squares / (n - 1);
-}
-
-void RowNormalisation::find_weights() {
-    const std::size_t batches = lost_.batches();
-    const std::span<const double> rays = lost_.rays_of_batch();
-    std::vector<double> lost(weight_.size());
-    double all_lost = 0, all_rays = 0;
-    for (std::size_t i = 0; i < lost.size(); ++i) {
-        for (std::size_t r = 0; r < batches; ++r)
-            lost[i] += share_lost(lost_.lost(r, i)) / double(batches);
-        all_lost += lost[i] * rays[i];
-        all_rays += rays[i];
-    }
-    if (!(all_lost > 0))
-        return;
-    const double prior = (all_lost + 1) / (all_rays + 2); // not all: a far lamp is met by none
-    for (std::size_t i = 0; i < lost.size(); ++i) {
-        const double all = rays[i] * double(batches), share = (all * lost[i] + prior) / (all + 1);
-        const double of_loss = share * (1 - share) / rays[i], of_sum = variance_of_sum(i);
-        weight_[i] = of_sum + of_loss > 0 ? of_loss / (of_sum + of_loss) : 0;
-    }
-}
-
-NormalisedRows RowNormalisation::rows(std::size_t batch) const {
-    const double prior = lost_.prior_escape();
-    NormalisedRows rows;
-    for (std::size_t i = 0; i < weight_.size(); ++i) {
-        const EscapeFraction by_rays = lost_.lost(batch, i);
-        const double share = share_lost(by_rays), sum = sums_[batch][i];
-        const double due = std::clamp(std::lerp(1 - share, sum, weight_[i]), 0.0, 1.0);
-        const double escaping = share > 0 ? by_rays.escaped / share : prior;
-        rows.self.push_back(due - sum);
-        rows.lost.push_back(closed_
-                                ? EscapeFraction{}
-                                : EscapeFraction{(1 - due) * escaping, (1 - due) * (1 - escaping)});
-    }
-    return rows;
+std::vector<NormalisedRows> normalise_rows(const LostRays& lost,
+                                           std::span<const std::vector<double>> sums) {
+    const std::vector<double> weight = weights_of_sums(lost, sums);
+    const double prior = lost.prior_escape();
+    std::vector<NormalisedRows> batches(sums.size());
+    for (std::size_t r = 0; r < batches.size(); ++r)
+        for (std::size_t i = 0; i < weight.size(); ++i) {
+            const EscapeFraction by_rays = lost.lost(r, i);
+            const double share = share_lost(by_rays), sum = sums[r][i];
+            const double due = std::clamp(std::lerp(1 - share, sum, weight[i]), 0.0, 1.0);
+            const double escaping = share > 0 ? by_rays.escaped / share : prior;
+            batches[r].self.push_back(due - sum);
+            batches[r].lost.push_back({(1 - due) * escaping, (1 - due) * (1 - escaping)});
+        }
+    return batches;
 }
 
 } // namespace hemilux

@@ -56,25 +56,8 @@ struct NormalisedRows {
     std::vector<EscapeFraction> lost;
 };
 
-class RowNormalisation {
-  public:
-    /// `sums`: of the rows of factors, by batch and patch. `closed`: no light is lost. The rays
-    /// outlive this.
-    RowNormalisation(const LostRays& lost, std::vector<std::vector<double>> sums, bool closed);
-
-    [[nodiscard]] NormalisedRows rows(std::size_t batch) const;
-
-  private:
-    void find_weights();
-    /// Between the batches.
-    [[nodiscard]] double variance_of_sum(std::size_t patch) const;
-
-    const LostRays& lost_;
-    std::vector<std::vector<double>> sums_;
-    /// The share of the sums in the mean of both, by patch, each weighted by the inverse of its
-    /// variance over all batches. It is 0 where no ray of any patch was lost.
-    std::vector<double> weight_;
-    bool closed_;
-};
+/// By batch. `sums`: of the rows of factors, by batch and patch. Without any rays no light is lost.
+[[nodiscard]] std::vector<NormalisedRows> normalise_rows(const LostRays& lost,
+                                                         std::span<const std::vector<double>> sums);
 
 } // namespace hemilux

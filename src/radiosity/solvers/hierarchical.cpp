@@ -137,10 +137,10 @@ class HierarchicalSolver final : public Solver {
                 return false;
             traced_ += factors.back().rays();
         }
-        const RowNormalisation normalisation(lost_rays_, row_sums(factors), input_.needs.closed);
+        const std::vector<NormalisedRows> rows = normalise_rows(lost_rays_, row_sums(factors));
         const std::optional<bool> solved =
             batches_.solve(search, solution_, [&](std::size_t r, std::vector<Vec3>& radiosity) {
-                return solve(factors[r], normalisation.rows(r), radiosity);
+                return solve(factors[r], rows[r], radiosity);
             });
         if (!solved || !*solved)
             return solved;
