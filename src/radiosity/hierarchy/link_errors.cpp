@@ -8,22 +8,23 @@ namespace hemilux {
 
 /// Squares of 1.5 times the change: there, and on the whole surface, as some patches change little
 /// by chance.
-void RefinementChanges::measure(const PatchTree& tree, std::span<const double> area,
-                                std::span<const Vec3> before, std::span<const Vec3> after) {
-    are_measured_ = true;
+std::vector<Vec3> squares_of_changes(const PatchTree& tree, std::span<const double> area,
+                                     std::span<const Vec3> before, std::span<const Vec3> after) {
+    std::vector<Vec3> squares(area.size());
     for (const std::uint32_t root : tree.roots()) {
         const PatchTree::Node& node = tree[root];
         const auto patches = tree.order().subspan(node.begin, node.end - node.begin);
         Vec3 of_root(0.0);
         for (const std::uint32_t i : patches) {
             const Vec3 change = 1.5 * (after[i] - before[i]);
-            squares_[i] = change * change;
-            of_root += area[i] * squares_[i];
+            squares[i] = change * change;
+            of_root += area[i] * squares[i];
         }
         if (node.area > 0)
             for (const std::uint32_t i : patches)
-                squares_[i] = .5 * (squares_[i] + of_root / node.area);
+                squares[i] = .5 * (squares[i] + of_root / node.area);
     }
+    return squares;
 }
 
 std::vector<Vec3> missed_over_links(const PatchTree& tree, const Links& links,

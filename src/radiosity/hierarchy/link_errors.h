@@ -12,26 +12,12 @@
 
 namespace hemilux {
 
-/// By how much the last refinement has changed the light: each about halves what nodes err by.
-class RefinementChanges {
-  public:
-    explicit RefinementChanges(std::size_t patches) : squares_(patches) {}
-
-    /// From the light by patch [W/m2] before a refinement and after it.
-    void measure(const PatchTree& tree, std::span<const double> area, std::span<const Vec3> before,
-                 std::span<const Vec3> after);
-    /// Links between patches alone err by nothing.
-    void clear() { squares_.assign(squares_.size(), Vec3(0.0)); }
-
-    /// Whether there was any refinement; without one it is not known by how much nodes err.
-    [[nodiscard]] bool are_measured() const { return are_measured_; }
-    /// By patch [(W/m2)^2].
-    [[nodiscard]] std::span<const Vec3> squares() const { return squares_; }
-
-  private:
-    std::vector<Vec3> squares_;
-    bool are_measured_ = false;
-};
+/// Squares by patch [(W/m2)^2] of what nodes may err by after a refinement, from the light by patch
+/// [W/m2] before it and after it: each about halves what nodes err by.
+[[nodiscard]] std::vector<Vec3> squares_of_changes(const PatchTree& tree,
+                                                   std::span<const double> area,
+                                                   std::span<const Vec3> before,
+                                                   std::span<const Vec3> after);
 
 /// Squares by patch [(W/m2)^2 arriving] of what links may bring of which no ray arrived in any
 /// batch: up to three of them might have. `points[l]` are those of link l in a batch, `radiosity`

@@ -208,10 +208,12 @@ class HierarchicalSolver final : public Solver {
         const std::vector<Vec3> before = solution_.radiosity;
         const std::vector<Vec3> variance = batches_.combine(solution_);
         note_hits(points);
-        if (links_.are_whole())
-            changes_.clear();
-        if (solution_.steps > 0 && refinement_ == Refinement::done)
-            changes_.measure(tree_, area_, before, solution_.radiosity);
+        if (links_.are_whole()) // links between patches alone err by nothing
+            changes_.assign(changes_.size(), Vec3(0.0));
+        if (solution_.steps > 0 && refinement_ == Refinement::done) {
+            changes_ = squares_of_changes(tree_, area_, before, solution_.radiosity);
+            changes_known_ = true;
+        }
         note_errors(variance,
                     missed_over_links(tree_, links_, factors, points, solution_.radiosity));
     }
@@ -232,12 +234,12 @@ class HierarchicalSolver final : public Solver {
                                 ? 0
                                 : lost_rays_.uncertain_light(area_, solution_.radiosity, emission_);
         const bool known = solution_.steps > 0
-                               ? changes_.are_measured() || links_.are_whole() || !(reflected() > 0)
+                               ? changes_known_ || links_.are_whole() || !(reflected() > 0)
                                : !input_.needs.bounces;
         for (std::size_t i = 0; i < variance.size(); ++i) {
             const Vec3 level = loss * (solution_.radiosity[i] - emission_[i]);
-            const Vec3 more = changes_.squares()[i] + level * level +
-                              reflectance_[i] * reflectance_[i] * missed[i];
+            const Vec3 more =
+                changes_[i] + level * level + reflectance_[i] * reflectance_[i] * missed[i];
             solution_.missed += area_[i] * glm::dot(more, Vec3(1.0));
             solution_.standard_error[i] = known ? glm::sqrt(variance[i] + more) : Vec3(unknown);
         }
@@ -255,7 +257,9 @@ class HierarchicalSolver final : public Solver {
     std::vector<double> area_, mean_reflectance_;
     std::vector<Vec3> emission_, reflectance_;
     double emitted_ = 0; ///< power, mean of channels, local units
-    RefinementChanges changes_;
+    /// By the last refinement (squares_of_changes), if there was any.
+    std::vector<Vec3> changes_;
+    bool changes_known_ = false;
     Refinement refinement_ = Refinement::not_needed; ///< in this step
     double tolerance_ = first_tolerance;
     double rays_; ///< per patch, of the next step
