@@ -5,6 +5,7 @@
 #include "geometry/vector.h"
 
 #include <limits>
+#include <span>
 
 namespace hemilux {
 
@@ -29,5 +30,12 @@ struct Box {
         return d.x * d.y + d.y * d.z + d.z * d.x;
     }
 };
+
+[[nodiscard]] inline Box box_of(std::span<const Vec3> points) {
+    Box box;
+    for (const Vec3& point : points)
+        box.include(point);
+    return box;
+}
 
 } // namespace hemilux

@@ -156,13 +156,6 @@ bool overlap_in_plane(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     return true;
 }
 
-Box bounds_of(const std::vector<Vec3>& points) {
-    Box box;
-    for (const Vec3& p : points)
-        box.include(p);
-    return box;
-}
-
 bool is_detail(const std::string& group) { return group.rfind("detail", 0) == 0; }
 
 } // namespace
@@ -236,7 +229,7 @@ TEST_CASE("no two patches of an example scene overlap in one plane") {
         std::vector<Box> bounds;
         for (const Facet& facet : scene.facets) {
             polygons.push_back(corners(scene, facet));
-            bounds.push_back(bounds_of(polygons.back()));
+            bounds.push_back(box_of(polygons.back()));
         }
         for (std::size_t i = 0; i < polygons.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)

@@ -163,11 +163,8 @@ TEST_CASE("a scene whose z is upwards stands upright in a glb") {
     const CornerClasses classes = find_corner_classes(mesh);
     const VertexLight light = vertex_light(mesh, classes, Display());
     write_glb(folder.path("a.glb"), mesh, classes, light, {}, 2);
-    Box before, turned;
-    for (const Vec3& v : mesh.scene().vertices)
-        before.include(v);
-    for (const Vec3& v : read_gltf(folder.path("a.glb")).scene.vertices)
-        turned.include(v);
+    const Box before = box_of(mesh.scene().vertices);
+    const Box turned = box_of(read_gltf(folder.path("a.glb")).scene.vertices);
     const Vec3 low(before.low.x, before.low.z, -before.high.y);
     const Vec3 high(before.high.x, before.high.z, -before.low.y);
     for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,5 @@
 // The light at points that a user names, against closed forms.
+#include "geometry/box.h"
 #include "parallel/workers.h"
 #include "radiosity/final_gather/light_at_points.h"
 #include "support/closed_forms.h"
@@ -66,12 +67,7 @@ TEST_CASE("light in a furnace is the same at each point, in the air and on walls
     const Model model(test::furnace_box(3, .5));
     const Solution solution =
         test::solve(model, *find_method("stored-transport"), {}, test::steps(2));
-    const Box box = [&] {
-        Box all;
-        for (const Vec3& vertex : model.mesh.vertices())
-            all.include(vertex);
-        return all;
-    }();
+    const Box box = box_of(model.mesh.vertices());
     const Patch& patch = model.mesh.patches()[3];
     const std::vector<Sensor> sensors{
         sensor_at(model.mesh, model.bvh, box.centre(), glm::normalize(Vec3(1, 2, 3))),

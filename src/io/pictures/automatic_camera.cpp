@@ -21,12 +21,11 @@ bool is_near(const Mesh& mesh, std::size_t patch) {
 }
 
 /// Around all that is near.
-Box box_of(const Mesh& mesh) {
+Box box_of_near(const Mesh& mesh) {
     Box box;
     for (std::size_t i = 0; i < mesh.patches().size(); ++i)
         if (is_near(mesh, i))
-            for (const Vec3& corner : mesh.patches()[i].shape.corner)
-                box.include(corner);
+            box.include(box_of(mesh.patches()[i].shape.corner));
     return box;
 }
 
@@ -168,7 +167,7 @@ bool is_object(std::span<const Camera> cameras, std::span<const Rating> ratings)
 } // namespace
 
 int guess_up(const Mesh& mesh) {
-    const Vec3 extent = glm::max(box_of(mesh).extent(), Vec3(1e-9));
+    const Vec3 extent = glm::max(box_of_near(mesh).extent(), Vec3(1e-9));
     Vec3 down(1e-9), facing(1e-9);
     for (std::size_t i = 0; i < mesh.patches().size(); ++i) {
         if (!is_near(mesh, i))
@@ -186,7 +185,7 @@ int guess_up(const Mesh& mesh) {
 
 Camera automatic_camera(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
                         double aspect, std::optional<int> up, unsigned threads) {
-    const Box box = box_of(mesh);
+    const Box box = box_of_near(mesh);
     std::vector<Camera> cameras = candidates(box, up ? *up : guess_up(mesh), aspect);
     std::vector<Rating> ratings(cameras.size());
     const std::vector<bool> lit = lit_patches(mesh, radiosity);

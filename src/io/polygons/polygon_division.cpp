@@ -59,12 +59,9 @@ bool PolygonDivision::scale_to_unit(std::span<const Vec3> corners) {
         return false;
     int exponent = 0;
     std::frexp(size, &exponent);
-    Box box;
-    for (Vec3& p : point_) {
+    for (Vec3& p : point_)
         p *= std::ldexp(1.0, -exponent);
-        box.include(p);
-    }
-    diagonal_ = glm::length(box.extent());
+    diagonal_ = glm::length(box_of(point_).extent());
     rounding_ = std::numeric_limits<double>::epsilon() * std::ldexp(largest, -exponent);
     return true;
 }

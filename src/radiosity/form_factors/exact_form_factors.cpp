@@ -17,13 +17,6 @@ namespace {
 constexpr double plane_rounding = 1e-9; ///< of the scene's size: what is nearer to a plane is in it
 constexpr double sampled = -1;          ///< marks an entry
 
-Box box_of(const Outline& outline) {
-    Box box;
-    for (const Vec3& p : outline)
-        box.include(p);
-    return box;
-}
-
 /// Whether they share more than their boundaries.
 bool overlap(const Box& a, const Box& b) {
     for (int axis = 0; axis < 3; ++axis)
@@ -90,7 +83,7 @@ ExactFormFactors::ExactFormFactors(const Mesh& mesh, const Workers& workers, con
     : mesh_(mesh), rows_(mesh.patches().size()) {
     std::vector<Box> boxes;
     for (std::uint32_t f = 0; f < mesh.soup().facets.size(); ++f)
-        boxes.push_back(box_of(outline_of(mesh.shape_of(f))));
+        boxes.push_back(box_of(mesh.shape_of(f).corner));
     workers.for_chunks(rows_.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
             find_row(static_cast<std::uint32_t>(i), boxes);

@@ -113,10 +113,8 @@ FacingPair facing_parts(const Polygon& from, const Polygon& to, double rounding)
 double exchange_area(const Outline& from, const Outline& to, double smaller_area) {
     // In a unit of length that makes both outlines and their distance about 1: ln r may have any
     // unit, as the edges of an outline sum to zero.
-    Box box;
-    for (const Outline* const outline : {&from, &to})
-        for (const Vec3& p : *outline)
-            box.include(p);
+    Box box = box_of(from);
+    box.include(box_of(to));
     const Vec3 origin = box.centre();
     const double unit = glm::length(box.extent()) / 2;
     const auto scaled = [&](Outline outline) {

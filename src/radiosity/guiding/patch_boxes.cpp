@@ -19,11 +19,8 @@ PatchBoxes::PatchBoxes(const Mesh& mesh) {
 void PatchBoxes::build(const Mesh& mesh, std::uint32_t first, std::uint32_t last) {
     const std::size_t at = nodes_.size();
     Box box;
-    for (std::uint32_t k = first; k < last; ++k) {
-        const Patch& patch = mesh.patches()[order_[k]];
-        for (const Vec3& corner : patch.shape.corner)
-            box.include(corner);
-    }
+    for (std::uint32_t k = first; k < last; ++k)
+        box.include(box_of(mesh.patches()[order_[k]].shape.corner));
     nodes_.push_back({box, first, last, 0});
     if (last - first == 1)
         return;

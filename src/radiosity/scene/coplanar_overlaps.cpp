@@ -23,13 +23,6 @@ constexpr double narrowest = 0x1p-21;
 /// Of the smaller one's area: to have less in common is to be neighbours.
 constexpr double least_share = 0x1p-13;
 
-Box box_of(const Polygon& shape) {
-    Box box;
-    for (const Vec3& corner : shape.corner)
-        box.include(corner);
-    return box;
-}
-
 /// Calls use(cell) for the cells of a facet's plane; for none if the facet is too narrow. Planes
 /// are distinguished by their points nearest to a place through which hardly any plane goes: three
 /// numbers that do not depend on which side is the front. They are put into cells, and where
@@ -39,7 +32,7 @@ void for_each_plane_cell(const Polygon& shape, const Use& use) {
     constexpr Vec3 place{1.3716, -1.6194, 1.8277};
     constexpr double reach = 5; // from the place to the farthest corner of the scene
     constexpr double cells_per_unit = 2048;
-    const Box bounds = box_of(shape);
+    const Box bounds = box_of(shape.corner);
     const Vec3 size = bounds.high - bounds.low, normal = shape.area_vector();
     const double square = glm::dot(normal, normal);
     const double per_width = std::sqrt(glm::dot(size, size) / square);
@@ -241,7 +234,7 @@ class Finder {
             for (const Entry& entry : entries) {
                 const Polygon polygon = shape(entry.facet);
                 if (std::abs(polygon.normal()[axis]) > steep)
-                    seen.push_back(rectangle(box_of(polygon), entry.facet, axis));
+                    seen.push_back(rectangle(box_of(polygon.corner), entry.facet, axis));
             }
             if (const auto near = few_near(seen))
                 compare(*near);

@@ -23,10 +23,7 @@ constexpr double narrowest_twin = 0x1p-40;
 
 /// Area over size, which is small for a sliver: slivers side by side are no twins.
 double width_of(const Polygon& shape) {
-    Box box;
-    for (const Vec3& corner : shape.corner)
-        box.include(corner);
-    return shape.area() / glm::length(box.extent());
+    return shape.area() / glm::length(box_of(shape.corner).extent());
 }
 
 std::uint64_t hash_of_cell(const Vec3& corner, double cell, double shift) {

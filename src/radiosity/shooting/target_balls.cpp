@@ -60,8 +60,7 @@ class Clusters {
         Box box;
         double sum = 0, squares = 0;
         for (const std::uint32_t i : patches)
-            for (const Vec3& corner : mesh_.patches()[i].shape.corner)
-                box.include(corner);
+            box.include(box_of(mesh_.patches()[i].shape.corner));
         const Vec3 centre = box.centre();
         for (const std::uint32_t i : patches) {
             sum += mass(i);
@@ -78,10 +77,7 @@ class Clusters {
         Box centres;
         for (const std::uint32_t i : patches)
             centres.include(mesh_.patches()[i].centre);
-        const Vec3 extent = centres.extent();
-        const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
-                         : extent.y >= extent.z                       ? 1
-                                                                      : 2;
+        const int axis = largest_axis(centres.extent());
         const auto place = [&](std::uint32_t i) { return mesh_.patches()[i].centre[axis]; };
         std::ranges::stable_sort(patches, {}, place);
         std::size_t middle = patches.size() / 2;
