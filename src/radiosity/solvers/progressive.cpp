@@ -59,10 +59,10 @@ constexpr double samples_of_error = 9;
 class ProgressiveSolver final : public Solver {
   public:
     explicit ProgressiveSolver(const SolverInput& input)
-        : input_(checked(input)), is_one_shot_(is_one_shot(input.options)),
+        : input_(input), solution_(solution_before_steps(input)),
+          is_one_shot_(is_one_shot(input.options)),
           by_hemicubes_(input.options.own.of<FactorOptions>().kind == FactorKind::hemicube),
           pass_(input) {
-        solution_.may_find_light = input.needs.bounces;
         solution_.error_batches = samples_of_error;
         pass_.begin(rays_per_light());
         publish(pass_.estimate());
@@ -106,11 +106,6 @@ class ProgressiveSolver final : public Solver {
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
   private:
-    static const SolverInput& checked(const SolverInput& input) {
-        check_input(input);
-        return input;
-    }
-
     [[nodiscard]] double rays_per_light() const {
         return rays_per_light_unit * input_.options.rays *
                std::pow(growth_of_passes, double(passes_));
@@ -175,14 +170,14 @@ class ProgressiveSolver final : public Solver {
     }
 
     SolverInput input_;
+    Solution solution_; ///< after the last step
     bool is_one_shot_;
     bool by_hemicubes_; ///< another pass would see the same
     ProgressivePass pass_;
-    // All passes before; solution_ is that after the last step.
+    // All passes before.
     Estimate mean_;
     double weight_ = 0;
     std::uint32_t passes_ = 0;
-    Solution solution_;
 };
 
 std::unique_ptr<Solver> make_progressive(const SolverInput& input) {

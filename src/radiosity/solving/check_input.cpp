@@ -96,12 +96,6 @@ std::string advice(const Needs& needs) {
                           "more";
 }
 
-} // namespace
-
-bool is_reflectance(const Vec3& r) {
-    return r.x >= 0 && r.x <= 1 && r.y >= 0 && r.y <= 1 && r.z >= 0 && r.z <= 1;
-}
-
 void check_input(const SolverInput& input) {
     const Mesh& mesh = input.mesh;
     bool perfect = false;
@@ -120,6 +114,12 @@ void check_input(const SolverInput& input) {
     if (component)
         throw SolveError(describe(mesh, *component) + advice(input.needs),
                          face_of(mesh, component->patches.front()));
+}
+
+} // namespace
+
+bool is_reflectance(const Vec3& r) {
+    return r.x >= 0 && r.x <= 1 && r.y >= 0 && r.y <= 1 && r.z >= 0 && r.z <= 1;
 }
 
 Solution solution_before_steps(const SolverInput& input) {

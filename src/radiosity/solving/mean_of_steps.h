@@ -39,7 +39,7 @@ struct StepSums {
 class MeanOfSteps {
   public:
     /// Without `equal_rays` no power is common to all rays: each patch shoots as many as any other.
-    /// Throws SolveError as check_input() does.
+    /// Throws SolveError as solution_before_steps() does.
     MeanOfSteps(const SolverInput& input, bool equal_rays);
 
     /// Solves one step, whose rays carry `ray_power` on average; false when interrupted.
