@@ -266,10 +266,6 @@ class HierarchicalSolver final : public Solver {
     std::uint64_t traced_ = 0;
 };
 
-std::unique_ptr<Solver> make_hierarchical(const SolverInput& input) {
-    return std::make_unique<HierarchicalSolver>(input);
-}
-
 } // namespace
 
 extern const Method hierarchical_method{
@@ -277,7 +273,7 @@ extern const Method hierarchical_method{
     .summary = "links between large and small parts of surfaces (Hanrahan et al. 1991)",
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .05},
-    .make = make_hierarchical,
+    .make = make_solver_of<HierarchicalSolver>,
     .work = {.linear_systems = true, .passes = true},
     .bytes =
         [](const SolveOptions&, double patches) {

@@ -40,7 +40,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <vector>
 
@@ -180,10 +179,6 @@ class ProgressiveSolver final : public Solver {
     std::uint32_t passes_ = 0;
 };
 
-std::unique_ptr<Solver> make_progressive(const SolverInput& input) {
-    return std::make_unique<ProgressiveSolver>(input);
-}
-
 std::vector<MethodOption> options() {
     return {factors_option(false), one_shot_option(),
             flag_option("--ambient", "show an estimate of the light that is still unshot",
@@ -204,7 +199,7 @@ extern const Method progressive_method{
     .summary = "the brightest patch shoots by explicit form factors (Cohen et al. 1988; paper 3.1)",
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
-    .make = make_progressive,
+    .make = make_solver_of<ProgressiveSolver>,
     .work = {.pairs = true},
     .options = options,
     .adapt = adapt,

@@ -237,10 +237,6 @@ class StoredTransportSolver final : public Solver {
     std::uint64_t traced_ = 0;
 };
 
-std::unique_ptr<Solver> make_stored_transport(const SolverInput& input) {
-    return std::make_unique<StoredTransportSolver>(input);
-}
-
 } // namespace
 
 extern const Method stored_transport_method{
@@ -248,7 +244,7 @@ extern const Method stored_transport_method{
     .summary = "rays are kept and all bounces solved on them; lamps by shadow rays",
     .unbiased = false,
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
-    .make = make_stored_transport,
+    .make = make_solver_of<StoredTransportSolver>,
     .work = {.pairs = true},
     .saves = true,
     .plain = plain::stored_transport,

@@ -84,6 +84,12 @@ struct Method {
     }
 };
 
+/// Makes a solver of this class from its input, for Method::make.
+template <class Class>
+[[nodiscard]] std::unique_ptr<Solver> make_solver_of(const SolverInput& input) {
+    return std::make_unique<Class>(input);
+}
+
 /// All methods, one per file of strategies/ and solvers/, in alphabetical order.
 [[nodiscard]] std::span<const Method* const> methods();
 /// Finds it by its name or its former name; nullptr if there is no such method.
