@@ -16,7 +16,8 @@ namespace {
 template <class CountAt, class Leaf>
 class TreeWalk {
   public:
-    TreeWalk(const Hemisphere& hemisphere, double threshold, CountAt& count_at, Leaf& leaf)
+    TreeWalk(const Hemisphere& hemisphere, double threshold, const CountAt& count_at,
+             const Leaf& leaf)
         : hemisphere_(hemisphere), threshold_(threshold), count_at_(count_at), leaf_(leaf) {
         std::fill_n(count_.begin(), hemisphere.vertices().size(), unknown);
     }
@@ -54,15 +55,10 @@ class TreeWalk {
 
     const Hemisphere& hemisphere_;
     double threshold_;
-    CountAt& count_at_;
-    Leaf& leaf_;
+    const CountAt& count_at_;
+    const Leaf& leaf_;
     std::array<std::int16_t, most_vertices> count_;
 };
-
-template <class CountAt, class Leaf>
-void walk_tree(const Hemisphere& hemisphere, double threshold, CountAt&& count_at, Leaf&& leaf) {
-    TreeWalk(hemisphere, threshold, count_at, leaf).run();
-}
 
 /// Below any mean: all triangles are divided.
 constexpr double divide_all = -1;
@@ -103,7 +99,7 @@ DensityMap::DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere&
                     static_cast<std::uint8_t>(std::min(tracer.count(ray), 255u)));
                 return std::int16_t{block.counts.back()};
             };
-            walk_tree(hemisphere, counted_above, count_at, [](std::uint16_t, double) {});
+            TreeWalk(hemisphere, counted_above, count_at, [](std::uint16_t, double) {}).run();
             block.lengths[i - begin] = static_cast<std::uint16_t>(block.counts.size() - start);
         }
         monitor.rays += block.counts.size();
@@ -151,7 +147,7 @@ const std::uint8_t* DensityMap::walk(const std::uint8_t* bytes, CountRead&& coun
         return std::int16_t{*bytes++};
     };
     if (kept_ == DensityStore::divided_only) {
-        walk_tree(hemisphere_, threshold_, next, leaf);
+        TreeWalk(hemisphere_, threshold_, next, leaf).run();
         return bytes;
     }
     std::vector<std::uint8_t> all(hemisphere_.vertices().size());
@@ -159,12 +155,12 @@ const std::uint8_t* DensityMap::walk(const std::uint8_t* bytes, CountRead&& coun
         all[vertex] = *bytes++;
         return std::int16_t{all[vertex]};
     };
-    walk_tree(hemisphere_, divide_all, keep, [](std::uint16_t, double) {});
+    TreeWalk(hemisphere_, divide_all, keep, [](std::uint16_t, double) {}).run();
     const auto kept = [&](std::uint16_t vertex) {
         count_read(vertex, all[vertex]);
         return std::int16_t{all[vertex]};
     };
-    walk_tree(hemisphere_, threshold_, kept, leaf);
+    TreeWalk(hemisphere_, threshold_, kept, leaf).run();
     return bytes;
 }
 
