@@ -94,8 +94,11 @@ ReceiverFactor ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot,
         return {};
     const Vec3 rho =
         glm::max(input_.mesh.material(receiver).reflectance, least_reflectance_of_receivers);
-    const double rays = rays_per_light / std::sqrt(crowding_) *
-                        importance(receiver, mean_of_channels(rho * glm::abs(shot)) * rough);
+    // The error of a sum is least with rays in proportion to what each term contributes; an error
+    // counts by the root of the area.
+    const double importance = mean_of_channels(rho * glm::abs(shot)) * rough / mean_reflected_ *
+                              std::sqrt(input_.mesh.patches()[receiver].area / mean_area_);
+    const double rays = rays_per_light / std::sqrt(crowding_) * importance;
     const double chance = std::min(rays / least_importance, 1.0);
     const double at_risk = chance < 1 ? rough / crowding_ : 0;
     // Of a factor that is `rough` with a probability of 1 / crowding_, looked at with `chance`.
@@ -108,12 +111,6 @@ ReceiverFactor ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot,
     f.variance = f.variance / chance + (1 - chance) * (f.factor / chance) * (f.factor / chance);
     f.factor /= chance;
     return f;
-}
-
-/// The error of a sum is least with rays in proportion to what each term contributes; an error
-/// counts by the root of the area.
-double ShotFactors::importance(std::uint32_t receiver, double light) const {
-    return light / mean_reflected_ * std::sqrt(input_.mesh.patches()[receiver].area / mean_area_);
 }
 
 FactorSum ShotFactors::sum() const {

@@ -48,7 +48,6 @@ class ShotFactors {
     [[nodiscard]] bool is_receiver(std::uint32_t patch) const;
     [[nodiscard]] ReceiverFactor look_from(std::uint32_t receiver, const Vec3& shot,
                                            double rays_per_light, std::uint64_t seed) const;
-    [[nodiscard]] double importance(std::uint32_t receiver, double light) const;
 
     SolverInput input_;
     Workers workers_;
