@@ -34,13 +34,24 @@ std::vector<double> balanced_light(const Mesh& mesh, std::span<const Patch> emit
     return light;
 }
 
+/// Of no size.
+EmitterReceiver receiver_of(const Vec3& centre, const Vec3& normal,
+                            const std::array<Vec3, 4>& corners) {
+    EmitterReceiver receiver{};
+    for (int axis = 0; axis < 3; ++axis) {
+        receiver.centre[axis] = centre[axis];
+        receiver.normal[axis] = normal[axis];
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            receiver.corner[i][axis] = corners[i][axis];
+    }
+    return receiver;
+}
+
 } // namespace
 
 EmitterChoice::EmitterChoice(const Mesh& mesh, std::span<const Patch> emitters)
     : mesh_(mesh), emitters_(emitters), order_(emitters.size()), power_sums_(1, 0.0),
       light_(balanced_light(mesh, emitters)) {
-    for (const Patch& patch : mesh.patches())
-        radius_.push_back(radius_of(patch));
     std::iota(order_.begin(), order_.end(), 0u);
     if (!order_.empty())
         divide(add(0, static_cast<std::uint32_t>(order_.size())));
@@ -64,7 +75,7 @@ void EmitterChoice::list_emitters() {
             add_point(corner);
         add(patch.area);
         add(std::sqrt(patch.area));
-        add(light_of(place));
+        add(light_[place]);
     }
 }
 
@@ -87,40 +98,23 @@ EmitterArrays EmitterChoice::arrays_from(std::size_t k) const {
     return arrays;
 }
 
-EmitterReceiver EmitterChoice::receiver_at(std::uint32_t patch) const {
-    const Patch& from = mesh_.patches()[patch];
-    EmitterReceiver receiver{};
-    for (int axis = 0; axis < 3; ++axis) {
-        receiver.centre[axis] = from.centre[axis];
-        receiver.normal[axis] = from.normal[axis];
-        for (std::size_t i = 0; i < from.shape.corner.size(); ++i)
-            receiver.corner[i][axis] = from.shape.corner[i][axis];
-    }
-    receiver.side = std::sqrt(from.area);
-    receiver.radius = radius_[patch];
-    return receiver;
-}
-
-const Vec3& EmitterChoice::centre(std::uint32_t place) const { return emitters_[place].centre; }
-
-double EmitterChoice::light_of(std::uint32_t place) const { return light_[place]; }
-
 double EmitterChoice::power_of(std::uint32_t place) const {
-    return emitters_[place].area * light_of(place);
+    return emitters_[place].area * light_[place];
 }
 
 std::uint32_t EmitterChoice::add(std::uint32_t begin, std::uint32_t end) {
     Cluster cluster{.begin = begin, .end = end};
     for (std::uint32_t k = begin; k < end; ++k) {
-        cluster.centre += centre(order_[k]) / double(end - begin);
+        cluster.centre += emitters_[order_[k]].centre / double(end - begin);
         cluster.power += power_of(order_[k]);
         cluster.area += emitters_[order_[k]].area / double(end - begin);
-        cluster.light += power_of(order_[k]) * light_of(order_[k]);
+        cluster.light += power_of(order_[k]) * light_[order_[k]];
     }
     cluster.light /= cluster.power;
     for (std::uint32_t k = begin; k < end; ++k)
-        cluster.radius = std::max(cluster.radius, glm::distance(cluster.centre, centre(order_[k])) +
-                                                      radius_of(emitters_[order_[k]]));
+        cluster.radius =
+            std::max(cluster.radius, glm::distance(cluster.centre, emitters_[order_[k]].centre) +
+                                         radius_of(emitters_[order_[k]]));
     clusters_.push_back(cluster);
     return static_cast<std::uint32_t>(clusters_.size() - 1);
 }
@@ -130,8 +124,9 @@ void EmitterChoice::divide(std::uint32_t cluster) {
     const auto [begin, end] = std::pair(clusters_[cluster].begin, clusters_[cluster].end);
     if (end - begin == 1)
         return;
-    const auto half = halve_at_median(std::span(order_).subspan(begin, end - begin),
-                                      [this](std::uint32_t place) { return centre(place); });
+    const auto half =
+        halve_at_median(std::span(order_).subspan(begin, end - begin),
+                        [this](std::uint32_t place) { return emitters_[place].centre; });
     const std::uint32_t middle = begin + static_cast<std::uint32_t>(half);
     const std::uint32_t left = add(begin, middle), right = add(middle, end);
     clusters_[cluster].left = left;
@@ -148,20 +143,15 @@ double EmitterChoice::nearness(const EmitterReceiver& to, const Cluster& cluster
 }
 
 void EmitterChoice::weigh(std::uint32_t receiver, Cut& cut) const {
-    weigh_all(receiver_at(receiver), cut);
-    add_up(cut);
+    const Patch& patch = mesh_.patches()[receiver];
+    EmitterReceiver to = receiver_of(patch.centre, patch.normal, patch.shape.corner);
+    to.side = std::sqrt(patch.area);
+    to.radius = radius_of(patch);
+    weigh_all(to, cut);
 }
 
 void EmitterChoice::weigh(const Vec3& point, const Vec3& normal, Cut& cut) const {
-    EmitterReceiver to{};
-    for (int axis = 0; axis < 3; ++axis) {
-        to.centre[axis] = point[axis];
-        to.normal[axis] = normal[axis];
-        for (auto& corner : to.corner)
-            corner[axis] = point[axis];
-    }
-    weigh_all(to, cut);
-    add_up(cut);
+    weigh_all(receiver_of(point, normal, {point, point, point, point}), cut);
 }
 
 void EmitterChoice::weigh_all(const EmitterReceiver& to, Cut& cut) const {
@@ -174,10 +164,7 @@ void EmitterChoice::weigh_all(const EmitterReceiver& to, Cut& cut) const {
         choose_clusters(to, cut);
         weigh_clusters(to, cut);
     }
-}
-
-/// Weights become running sums.
-void EmitterChoice::add_up(Cut& cut) {
+    // Weights become running sums.
     cut.sum = cut.sums[0] = 0;
     for (std::size_t k = 1; k < cut.sums.size(); ++k)
         cut.sums[k] = cut.sum += cut.sums[k];

@@ -74,24 +74,19 @@ class EmitterChoice {
     void divide(std::uint32_t cluster);
     void list_emitters();
     [[nodiscard]] EmitterArrays arrays_from(std::size_t k) const;
-    [[nodiscard]] EmitterReceiver receiver_at(std::uint32_t patch) const;
     void weigh_all(const EmitterReceiver& to, Cut& cut) const;
     void choose_clusters(const EmitterReceiver& to, Cut& cut) const;
     void weigh_clusters(const EmitterReceiver& to, Cut& cut) const;
-    static void add_up(Cut& cut);
     [[nodiscard]] Choice choose_within(const Cluster& cluster, double share) const;
-    [[nodiscard]] double light_of(std::uint32_t place) const;
     [[nodiscard]] double power_of(std::uint32_t place) const;
     [[nodiscard]] static double nearness(const EmitterReceiver& to, const Cluster& cluster);
-    [[nodiscard]] const Vec3& centre(std::uint32_t place) const;
 
     const Mesh& mesh_;
     std::span<const Patch> emitters_;
     std::vector<std::uint32_t> order_; ///< places among the emitters, cluster by cluster
     std::vector<double> power_sums_;   ///< by order_, one more: of all before
     std::vector<Cluster> clusters_;    ///< the first is all of them
-    std::vector<double> radius_;       ///< of each patch, from its centre
-    std::vector<double> light_;        ///< of each emitter, see light_of
+    std::vector<double> light_;        ///< of each emitter, see balanced_light
     /// Holds, in the order of order_, the centre, normal, four corners, area, side, light.
     std::array<std::vector<double>, 21> arrays_;
 };
