@@ -5,13 +5,13 @@
 #include "radiosity/rays/shot.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/alike_neighbours.h"
+#include "radiosity/scene/surfaces.h"
 #include "radiosity/shooting/aimed_rays.h"
 #include "radiosity/shooting/stepwise.h"
 #include "radiosity/stored_transport/importance.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-#include "support/surfaces.h"
 #include "support/targets.h"
 
 #include <algorithm>
@@ -23,7 +23,6 @@ using namespace hemilux;
 using test::first_room;
 using test::Model;
 using test::solve_for;
-using test::Surfaces;
 using test::two_rooms;
 
 namespace {

@@ -4,13 +4,13 @@
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/linear/conjugate_gradients.h"
 #include "radiosity/saving/state.h"
+#include "radiosity/scene/surfaces.h"
 #include "radiosity/solution/target.h"
 #include "radiosity/stored_transport/importance.h"
 #include "radiosity/stored_transport/ray_allocation.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-#include "support/surfaces.h"
 #include "support/targets.h"
 
 #include <algorithm>
@@ -24,7 +24,6 @@ using test::example;
 using test::first_room;
 using test::Model;
 using test::solve_for;
-using test::Surfaces;
 using test::true_error_of;
 using test::two_rooms;
 using test::weights_of;

@@ -6,11 +6,11 @@
 #include "radiosity/form_factors/ray_counts.h"
 #include "radiosity/linear/conjugate_gradients.h"
 #include "radiosity/saving/state.h"
+#include "radiosity/scene/surfaces.h"
 #include "radiosity/stored_transport/ray_allocation.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-#include "support/surfaces.h"
 #include "support/watched_tracer.h"
 
 #include <algorithm>
@@ -22,7 +22,6 @@
 
 using namespace hemilux;
 using test::Model;
-using test::Surfaces;
 
 namespace {
 

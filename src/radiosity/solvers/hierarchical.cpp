@@ -29,6 +29,7 @@
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/scene/surfaces.h"
 #include "radiosity/solving/check_input.h"
 #include "radiosity/solving/method.h"
 
@@ -60,18 +61,11 @@ class HierarchicalSolver final : public Solver {
     explicit HierarchicalSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
           batches_(input, batches, solution_), tree_(input.mesh), links_(input.mesh, tree_),
-          lost_rays_(input.mesh, input.tracer, input.options.seed, batches),
+          lost_rays_(input.mesh, input.tracer, input.options.seed, batches), surfaces_(input.mesh),
           changes_(input.mesh.patches().size()),
           rays_(std::clamp(input.options.rays, 1.0, most_rays)) {
-        const auto n = static_cast<std::uint32_t>(input.mesh.patches().size());
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const Material& material = input.mesh.material(i);
-            area_.push_back(input.mesh.patches()[i].area);
-            emission_.push_back(material.emission);
-            reflectance_.push_back(material.reflectance);
-            mean_reflectance_.push_back(
-                std::max(mean_of_channels(material.reflectance), least_reflectance));
-        }
+        for (const Vec3& reflectance : surfaces_.reflectance)
+            mean_reflectance_.push_back(std::max(mean_of_channels(reflectance), least_reflectance));
         solution_.error_batches = batches;
         emitted_ = mean_of_channels(emitted_power(input.mesh));
     }
@@ -101,8 +95,9 @@ class HierarchicalSolver final : public Solver {
     /// Mean of channels, local units.
     [[nodiscard]] double reflected() const {
         double sum = 0;
-        for (std::size_t i = 0; i < area_.size(); ++i)
-            sum += area_[i] * mean_of_channels(solution_.radiosity[i] - emission_[i]);
+        for (std::size_t i = 0; i < surfaces_.area.size(); ++i)
+            sum += surfaces_.area[i] *
+                   mean_of_channels(solution_.radiosity[i] - surfaces_.emission[i]);
         return sum;
     }
     /// By which links are judged: hardly any of what a sun emits may arrive anywhere.
@@ -122,7 +117,7 @@ class HierarchicalSolver final : public Solver {
     [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
         input_.monitor.phase = "rays";
         if (!input_.needs.closed)
-            traced_ += lost_rays_.trace_up_to(rays_, emission_, workers_, input_.monitor);
+            traced_ += lost_rays_.trace_up_to(rays_, surfaces_.emission, workers_, input_.monitor);
         if (input_.monitor.interrupted)
             return false;
         std::vector<LinkFactors> factors;
@@ -161,7 +156,7 @@ class HierarchicalSolver final : public Solver {
         tree_.pull(means(solution_.radiosity), light);
         tree_.pull(mean_reflectance_, rho);
         double area = 0, sum = 0;
-        for (const double of_patch : area_)
+        for (const double of_patch : surfaces_.area)
             area += of_patch;
         const double mean_light = emitted_ / area;
         for (const Link& link : links) {
@@ -170,7 +165,7 @@ class HierarchicalSolver final : public Solver {
                              rho[link.to] * std::sqrt(to.area));
             sum += weight.back();
         }
-        const double all = rays_ * double(area_.size()) / double(batches);
+        const double all = rays_ * double(surfaces_.area.size()) / double(batches);
         std::vector<std::uint32_t> points;
         for (const double of_link : weight) {
             const double wanted = sum > 0 ? std::ceil(all * of_link / sum) : 1;
@@ -183,7 +178,7 @@ class HierarchicalSolver final : public Solver {
     /// By batch and patch.
     [[nodiscard]] std::vector<std::vector<double>>
     row_sums(std::span<const LinkFactors> factors) const {
-        const std::vector<double> ones(area_.size(), 1.0);
+        const std::vector<double> ones(surfaces_.area.size(), 1.0);
         std::vector<std::vector<double>> sums(batches, ones);
         for (std::size_t r = 0; r < batches; ++r)
             factors[r].multiply(ones, sums[r]);
@@ -199,8 +194,8 @@ class HierarchicalSolver final : public Solver {
                 for (std::size_t i = 0; i < y.size(); ++i)
                     y[i] += rows.self[i] * x[i];
             },
-            {area_, emission_, reflectance_, rows.lost, lost_rays_.rays_of_batch(),
-             input_.needs.closed},
+            {surfaces_.area, surfaces_.emission, surfaces_.reflectance, rows.lost,
+             lost_rays_.rays_of_batch(), input_.needs.closed},
             input_, radiosity);
     }
 
@@ -211,7 +206,7 @@ class HierarchicalSolver final : public Solver {
         if (links_.are_whole()) // links between patches alone err by nothing
             changes_.assign(changes_.size(), Vec3(0.0));
         if (solution_.steps > 0 && refinement_ == Refinement::done) {
-            changes_ = squares_of_changes(tree_, area_, before, solution_.radiosity);
+            changes_ = squares_of_changes(tree_, surfaces_.area, before, solution_.radiosity);
             changes_known_ = true;
         }
         note_errors(variance,
@@ -220,7 +215,7 @@ class HierarchicalSolver final : public Solver {
 
     /// Of a patch: points of all links by which it gathers.
     void note_hits(std::span<const std::uint32_t> points) {
-        std::vector<double> by_node(tree_.nodes().size()), by_patch(area_.size());
+        std::vector<double> by_node(tree_.nodes().size()), by_patch(surfaces_.area.size());
         for (std::size_t l = 0; l < points.size(); ++l)
             by_node[links_.all()[l].to] += double(points[l]) * batches;
         tree_.push(by_node, by_patch);
@@ -232,15 +227,16 @@ class HierarchicalSolver final : public Solver {
         solution_.missed = 0;
         const double loss = input_.needs.closed
                                 ? 0
-                                : lost_rays_.uncertain_light(area_, solution_.radiosity, emission_);
+                                : lost_rays_.uncertain_light(surfaces_.area, solution_.radiosity,
+                                                             surfaces_.emission);
         const bool known = solution_.steps > 0
                                ? changes_known_ || links_.are_whole() || !(reflected() > 0)
                                : !input_.needs.bounces;
         for (std::size_t i = 0; i < variance.size(); ++i) {
-            const Vec3 level = loss * (solution_.radiosity[i] - emission_[i]);
-            const Vec3 more =
-                changes_[i] + level * level + reflectance_[i] * reflectance_[i] * missed[i];
-            solution_.missed += area_[i] * glm::dot(more, Vec3(1.0));
+            const Vec3 level = loss * (solution_.radiosity[i] - surfaces_.emission[i]);
+            const Vec3 more = changes_[i] + level * level +
+                              surfaces_.reflectance[i] * surfaces_.reflectance[i] * missed[i];
+            solution_.missed += surfaces_.area[i] * glm::dot(more, Vec3(1.0));
             solution_.standard_error[i] = known ? glm::sqrt(variance[i] + more) : Vec3(unknown);
         }
         if (!known)
@@ -254,8 +250,8 @@ class HierarchicalSolver final : public Solver {
     PatchTree tree_;
     Links links_;
     LostRays lost_rays_;
-    std::vector<double> area_, mean_reflectance_;
-    std::vector<Vec3> emission_, reflectance_;
+    Surfaces surfaces_;
+    std::vector<double> mean_reflectance_;
     double emitted_ = 0; ///< power, mean of channels, local units
     /// By the last refinement (squares_of_changes), if there was any.
     std::vector<Vec3> changes_;

@@ -24,6 +24,7 @@
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
+#include "radiosity/scene/surfaces.h"
 #include "radiosity/solution/missed_light.h"
 #include "radiosity/solving/check_input.h"
 #include "radiosity/solving/method.h"
@@ -58,7 +59,7 @@ class MatrixSolver final : public Solver {
   public:
     explicit MatrixSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
-          batches_(input, batches, solution_) {
+          batches_(input, batches, solution_), surfaces_(input.mesh) {
         std::vector<std::uint32_t> emitters;
         if (input.options.own.of<FactorOptions>().kind == FactorKind::exact)
             exact_.emplace(input.mesh, workers_, input.monitor);
@@ -125,16 +126,12 @@ class MatrixSolver final : public Solver {
                         std::vector<Vec3>& radiosity) {
         const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
         const std::size_t n = radiosity.size();
-        std::vector<double> area(n), rays(n, rays_of_step_);
-        std::vector<Vec3> emission(n), reflectance(n);
+        std::vector<double> rays(n, rays_of_step_);
         std::vector<EscapeFraction> lost(n);
         const std::vector<double> ones(n, 1.0);
         std::vector<double> kept(n);
         f.multiply(ones, kept, workers_);
         for (std::uint32_t i = 0; i < n; ++i) {
-            area[i] = input_.mesh.patches()[i].area;
-            emission[i] = input_.mesh.material(i).emission;
-            reflectance[i] = input_.mesh.material(i).reflectance;
             const EscapeFraction& by_rays = factors.lost()[i];
             const double sum = by_rays.escaped + by_rays.absorbed;
             const double scale = sum > 0 ? std::clamp(1 - kept[i], 0.0, 1.0) / sum : 0;
@@ -145,7 +142,8 @@ class MatrixSolver final : public Solver {
             rays[factors.emitters()[e]] = losses[e].rays;
         }
         return solve_closed([&](auto x, auto y) { f.multiply(x, y, workers_); },
-                            {area, emission, reflectance, lost, rays}, input_, radiosity);
+                            {surfaces_.area, surfaces_.emission, surfaces_.reflectance, lost, rays},
+                            input_, radiosity);
     }
 
     void combine() {
@@ -156,8 +154,8 @@ class MatrixSolver final : public Solver {
         const double share = missed_loss();
         solution_.missed = 0;
         for (std::uint32_t i = 0; i < missed.size(); ++i) {
-            const Vec3 level = share * (solution_.radiosity[i] - input_.mesh.material(i).emission);
-            solution_.missed += input_.mesh.patches()[i].area * glm::dot(level, level);
+            const Vec3 level = share * (solution_.radiosity[i] - surfaces_.emission[i]);
+            solution_.missed += surfaces_.area[i] * glm::dot(level, level);
             solution_.standard_error[i] =
                 glm::sqrt(variance[i] + level * level + missed[i] * missed[i]);
         }
@@ -173,9 +171,8 @@ class MatrixSolver final : public Solver {
         for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i) {
             if (solution_.radiosity[i] == Vec3(0.0))
                 continue;
-            const double area = input_.mesh.patches()[i].area;
-            leaving += area * mean_of_channels(solution_.radiosity[i]);
-            emitted += area * mean_of_channels(input_.mesh.material(i).emission);
+            leaving += surfaces_.area[i] * mean_of_channels(solution_.radiosity[i]);
+            emitted += surfaces_.area[i] * mean_of_channels(surfaces_.emission[i]);
             rays += double(rays_) * double(batches);
         }
         return emitted > 0 ? rule_of_three * leaving / (rays * emitted) : 0;
@@ -185,24 +182,21 @@ class MatrixSolver final : public Solver {
     /// Emission with a closed form does not wait for a ray to find it.
     [[nodiscard]] std::vector<Vec3> missed_light() const {
         const std::size_t n = solution_.radiosity.size();
-        std::vector<double> area(n), rays(n, double(rays_) * batches);
-        std::vector<Vec3> reflectance(n), incident(n);
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const Material& material = input_.mesh.material(i);
-            area[i] = input_.mesh.patches()[i].area;
-            reflectance[i] = material.reflectance;
-            incident[i] = solution_.radiosity[i] - material.emission; // in the same order, about
-        }
         if (exact_ || input_.needs.closed)
             return std::vector<Vec3>(n, Vec3(0.0));
+        const std::vector<double> rays(n, double(rays_) * batches);
+        std::vector<Vec3> incident(n);
+        for (std::size_t i = 0; i < n; ++i) // of the same order: what is reflected of it
+            incident[i] = solution_.radiosity[i] - surfaces_.emission[i];
         const std::vector<Vec3>& leaving = rays_find_emission_ ? solution_.radiosity : incident;
-        return missed_by_rays({area, reflectance, incident, leaving, rays});
+        return missed_by_rays({surfaces_.area, surfaces_.reflectance, incident, leaving, rays});
     }
 
     SolverInput input_;
     Solution solution_;
     Workers workers_;
     BatchSolutions batches_;
+    Surfaces surfaces_;
     std::vector<SampledFormFactors> factors_;
     std::optional<ExactFormFactors> exact_;
     bool rays_find_emission_ = true; ///< no column has the closed form

@@ -1,7 +1,6 @@
 #include "radiosity/stored_transport/transport_system.h"
 
 #include "radiosity/linear/conjugate_gradients.h"
-#include "radiosity/scene/mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,20 +32,10 @@ Vec3 sample_variance(std::span<const Vec3> values) {
 
 TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> emitters,
                                  bool closed)
-    : closed_(closed) {
-    const auto patches = mesh.patches();
-    area_.reserve(patches.size());
-    reflectance_.reserve(patches.size());
-    emission_.reserve(patches.size());
-    for (std::uint32_t i = 0; i < patches.size(); ++i) {
-        const Material& material = mesh.material(i);
-        area_.push_back(patches[i].area);
-        reflectance_.push_back(material.reflectance);
-        emission_.push_back(material.emission);
+    : surfaces_(mesh), sampled_emission_(surfaces_.emission), closed_(closed) {
+    for (const Vec3& reflectance : surfaces_.reflectance)
         for (int c = 0; c < 3; ++c)
-            lost_at_least_ = std::min(lost_at_least_, 1 - material.reflectance[c]);
-    }
-    sampled_emission_ = emission_;
+            lost_at_least_ = std::min(lost_at_least_, 1 - reflectance[c]);
     for (const std::uint32_t emitter : emitters)
         sampled_emission_[emitter] = Vec3(0.0);
 }
@@ -61,7 +50,7 @@ ExchangeMatrix TransportSystem::solve(const Rays& rays, double error,
     std::vector<Vec3> power(batches);
     const Ranks& ranks = rays.counts[0].own_rows().ranks();
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
-        parts[batch] = ExchangeMatrix(area_, rays.counts[batch], own);
+        parts[batch] = ExchangeMatrix(surfaces_.area, rays.counts[batch], own);
         direct[batch].light = straight_light(parts[batch], rays.direct, batch, own);
         power[batch] = power_arriving(transport(parts[batch]), direct[batch].light);
     });
@@ -82,7 +71,8 @@ ExchangeMatrix TransportSystem::solve(const Rays& rays, double error,
 }
 
 Transport TransportSystem::transport(const ExchangeMatrix& factors) const {
-    return {area_, emission_, reflectance_, factors.lost(), factors.rays(), closed_};
+    return {surfaces_.area, surfaces_.emission, surfaces_.reflectance,
+            factors.lost(), factors.rays(),     closed_};
 }
 
 /// What arrives at each patch in the end, from what `light` holds on.
@@ -90,8 +80,8 @@ void TransportSystem::solve(const ExchangeMatrix& factors, Direct direct, BatchL
                             const Workers& workers, double residual,
                             const StopFlag& interrupted) const {
     scale_direct_light(transport(factors), direct.variance, direct.light);
-    solve_by_gradients(factors, area_, reflectance_, direct.light, light.incident, workers,
-                       {.tolerance = residual, .interrupted = &interrupted});
+    solve_by_gradients(factors, surfaces_.area, surfaces_.reflectance, direct.light, light.incident,
+                       workers, {.tolerance = residual, .interrupted = &interrupted});
     light.energy = balance_energy(transport(factors), light.incident);
 }
 
@@ -100,7 +90,7 @@ void TransportSystem::solve(const ExchangeMatrix& factors, Direct direct, BatchL
 double TransportSystem::average(std::vector<BatchLight::Light>& light) const {
     const std::size_t batches = light.size() - 1;
     double squares = 0, size = 0;
-    for (std::size_t i = 0; i < area_.size(); ++i) {
+    for (std::size_t i = 0; i < surfaces_.area.size(); ++i) {
         Vec3 mean(0.0), of_squares(0.0);
         for (std::size_t batch = 0; batch < batches; ++batch) {
             const Vec3& incident = light[batch].incident[i];
@@ -108,7 +98,7 @@ double TransportSystem::average(std::vector<BatchLight::Light>& light) const {
             of_squares += incident * incident / double(batches);
         }
         light[batches].incident[i] = mean;
-        const Vec3 weight = area_[i] * reflectance_[i] * reflectance_[i];
+        const Vec3 weight = surfaces_.area[i] * surfaces_.reflectance[i] * surfaces_.reflectance[i];
         squares += glm::dot(weight, of_squares - mean * mean) / double(batches - 1);
         size += glm::dot(weight, mean * mean);
     }
@@ -122,20 +112,20 @@ std::vector<Vec3> TransportSystem::straight_light(const ExchangeMatrix& factors,
                                                   const DirectLight& shadow_rays,
                                                   std::optional<std::size_t> batch,
                                                   const Workers& workers) const {
-    const std::size_t n = area_.size();
+    const std::size_t n = surfaces_.area.size();
     std::vector<Vec3> light(n);
     const bool any =
         std::ranges::any_of(sampled_emission_, [](const Vec3& e) { return e != Vec3(0.0); });
     std::vector<Lanes> all(n), some(any ? n : 0);
     for (std::size_t i = 0; i < n; ++i)
-        all[i] = factors.scaled(i, emission_[i]);
+        all[i] = factors.scaled(i, surfaces_.emission[i]);
     for (std::size_t i = 0; i < some.size(); ++i)
         some[i] = factors.scaled(i, sampled_emission_[i]);
     factors.for_products(workers, [&](std::size_t begin, std::size_t end) {
         for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
             if (shadow_rays.samples(i) == 0) // an emitter does not light itself
                 light[i] = factors.row_times(i, all) -
-                           factors.self_factor(i) * (emission_[i] - sampled_emission_[i]);
+                           factors.self_factor(i) * (surfaces_.emission[i] - sampled_emission_[i]);
             else if (any)
                 light[i] = factors.row_times(i, some);
             light[i] += batch ? shadow_rays.irradiance(i, *batch) : shadow_rays.irradiance(i);

@@ -7,6 +7,7 @@
 #include "radiosity/emitters/direct_light.h"
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/linear/energy_ledger.h"
+#include "radiosity/scene/surfaces.h"
 #include "radiosity/solving/stop_flag.h"
 #include "radiosity/stored_transport/batch_light.h"
 
@@ -16,8 +17,6 @@
 #include <vector>
 
 namespace hemilux {
-
-class Mesh;
 
 /// Calls body(batch, workers) for each: by a thread of its own, or where ranks solve each together
 /// one after the other.
@@ -39,9 +38,9 @@ class TransportSystem {
     TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> emitters, bool closed);
 
     /// By patch: areas in local units, reflectances [-], emissions [W/m2].
-    [[nodiscard]] std::span<const double> area() const { return area_; }
-    [[nodiscard]] std::span<const Vec3> reflectance() const { return reflectance_; }
-    [[nodiscard]] std::span<const Vec3> emission() const { return emission_; }
+    [[nodiscard]] std::span<const double> area() const { return surfaces_.area; }
+    [[nodiscard]] std::span<const Vec3> reflectance() const { return surfaces_.reflectance; }
+    [[nodiscard]] std::span<const Vec3> emission() const { return surfaces_.emission; }
     /// The emission [W/m2] of the patches that random rays are to find, 0 elsewhere.
     [[nodiscard]] std::span<const Vec3> sampled_emission() const { return sampled_emission_; }
     /// Whether the geometry proves that no ray is lost.
@@ -72,8 +71,8 @@ class TransportSystem {
                                      std::optional<std::size_t> batch,
                                      const Workers& workers) const;
 
-    std::vector<double> area_;
-    std::vector<Vec3> reflectance_, emission_, sampled_emission_;
+    Surfaces surfaces_;
+    std::vector<Vec3> sampled_emission_;
     double lost_at_least_ = 1; ///< of what falls on a patch, in any channel
     bool closed_;
 };
