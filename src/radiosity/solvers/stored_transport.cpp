@@ -116,8 +116,8 @@ class StoredTransportSolver final : public Solver {
         const double error = solution_.steps > 0 ? estimated_error(input_.mesh, solution_)
                                                  : std::numeric_limits<double>::quiet_NaN();
         std::vector<BatchLight::Light> found = light_.solved();
-        const ExchangeMatrix all = system_.solve({rays_.counts(), rays_.direct()}, error, found,
-                                                 workers_, input_.monitor.interrupted);
+        const ExchangeMatrix all =
+            system_.solve(rays_, error, found, workers_, input_.monitor.interrupted);
         if (input_.monitor.interrupted)
             return false;
         planned_ = false;

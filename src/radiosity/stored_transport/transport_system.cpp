@@ -1,6 +1,8 @@
 #include "radiosity/stored_transport/transport_system.h"
 
+#include "radiosity/emitters/direct_light.h"
 #include "radiosity/linear/conjugate_gradients.h"
+#include "radiosity/stored_transport/stored_rays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,32 +43,32 @@ TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t
 }
 
 /// Each batch by itself; then the whole by all threads, from where their mean is.
-ExchangeMatrix TransportSystem::solve(const Rays& rays, double error,
+ExchangeMatrix TransportSystem::solve(const StoredRays& rays, double error,
                                       std::vector<BatchLight::Light>& light, const Workers& workers,
                                       const StopFlag& interrupted) const {
-    const std::size_t batches = rays.counts.size();
+    const std::size_t batches = rays.counts().size();
     std::vector<ExchangeMatrix> parts(batches);
-    std::vector<Direct> direct(batches);
+    std::vector<std::vector<Vec3>> direct(batches);
     std::vector<Vec3> power(batches);
-    const Ranks& ranks = rays.counts[0].own_rows().ranks();
+    const Ranks& ranks = rays.counts()[0].own_rows().ranks();
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
-        parts[batch] = ExchangeMatrix(surfaces_.area, rays.counts[batch], own);
-        direct[batch].light = straight_light(parts[batch], rays.direct, batch, own);
-        power[batch] = power_arriving(transport(parts[batch]), direct[batch].light);
+        parts[batch] = ExchangeMatrix(surfaces_.area, rays.counts()[batch], own);
+        direct[batch] = straight_light(parts[batch], rays.direct(), batch, own);
+        power[batch] = power_arriving(transport(parts[batch]), direct[batch]);
     });
     const Vec3 variance = sample_variance(power);
     // What a residual makes of the light is no larger than its sum over all reflections.
     const double known = std::fmin(left_of_batches * error, first_residual); // unknown: the latter
     const double residual = std::max(known * lost_at_least_, least_residual);
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
-        direct[batch].variance = variance;
-        solve(parts[batch], std::move(direct[batch]), light[batch], own, residual, interrupted);
+        solve(parts[batch], std::move(direct[batch]), variance, light[batch], own, residual,
+              interrupted);
     });
     ExchangeMatrix all(std::move(parts), workers);
     const double tolerance = left_of_all * average(light) * lost_at_least_;
-    solve(all,
-          {straight_light(all, rays.direct, std::nullopt, workers), variance / double(batches)},
-          light[batches], workers, std::max(tolerance, least_residual), interrupted);
+    solve(all, straight_light(all, rays.direct(), std::nullopt, workers),
+          variance / double(batches), light[batches], workers, std::max(tolerance, least_residual),
+          interrupted);
     return all;
 }
 
@@ -76,11 +78,11 @@ Transport TransportSystem::transport(const ExchangeMatrix& factors) const {
 }
 
 /// What arrives at each patch in the end, from what `light` holds on.
-void TransportSystem::solve(const ExchangeMatrix& factors, Direct direct, BatchLight::Light& light,
-                            const Workers& workers, double residual,
-                            const StopFlag& interrupted) const {
-    scale_direct_light(transport(factors), direct.variance, direct.light);
-    solve_by_gradients(factors, surfaces_.area, surfaces_.reflectance, direct.light, light.incident,
+void TransportSystem::solve(const ExchangeMatrix& factors, std::vector<Vec3> direct,
+                            const Vec3& variance, BatchLight::Light& light, const Workers& workers,
+                            double residual, const StopFlag& interrupted) const {
+    scale_direct_light(transport(factors), variance, direct);
+    solve_by_gradients(factors, surfaces_.area, surfaces_.reflectance, direct, light.incident,
                        workers, {.tolerance = residual, .interrupted = &interrupted});
     light.energy = balance_energy(transport(factors), light.incident);
 }

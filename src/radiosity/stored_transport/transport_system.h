@@ -4,7 +4,6 @@
 // and once for all together.
 
 #include "parallel/workers.h"
-#include "radiosity/emitters/direct_light.h"
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/linear/energy_ledger.h"
 #include "radiosity/scene/surfaces.h"
@@ -17,6 +16,9 @@
 #include <vector>
 
 namespace hemilux {
+
+class DirectLight;
+class StoredRays;
 
 /// Calls body(batch, workers) for each: by a thread of its own, or where ranks solve each together
 /// one after the other.
@@ -46,25 +48,18 @@ class TransportSystem {
     /// Whether the geometry proves that no ray is lost.
     [[nodiscard]] bool closed() const { return closed_; }
 
-    /// Rays at random of each batch, and shadow rays with an estimate for each.
-    struct Rays {
-        std::span<const RayCounts> counts;
-        const DirectLight& direct;
-    };
     /// `light`, of each batch and at last of all: from what it holds, on to the solution of these
     /// rays, as exactly as their noise allows. Returns the factors of all. `error`: the relative
     /// one of what is known so far; nan: unknown. Where it is interrupted `light` is of no use.
-    ExchangeMatrix solve(const Rays& rays, double error, std::vector<BatchLight::Light>& light,
-                         const Workers& workers, const StopFlag& interrupted) const;
+    ExchangeMatrix solve(const StoredRays& rays, double error,
+                         std::vector<BatchLight::Light>& light, const Workers& workers,
+                         const StopFlag& interrupted) const;
 
   private:
-    /// Light that comes straight from the emitters, and the variance of its power by channel.
-    struct Direct {
-        std::vector<Vec3> light;
-        Vec3 variance{0.0};
-    };
-    void solve(const ExchangeMatrix& factors, Direct direct, BatchLight::Light& light,
-               const Workers& workers, double residual, const StopFlag& interrupted) const;
+    /// `direct`: light that comes straight from the emitters; `variance`: of its power, by channel.
+    void solve(const ExchangeMatrix& factors, std::vector<Vec3> direct, const Vec3& variance,
+               BatchLight::Light& light, const Workers& workers, double residual,
+               const StopFlag& interrupted) const;
     [[nodiscard]] Transport transport(const ExchangeMatrix& factors) const;
     double average(std::vector<BatchLight::Light>& light) const;
     std::vector<Vec3> straight_light(const ExchangeMatrix& factors, const DirectLight& shadow_rays,
