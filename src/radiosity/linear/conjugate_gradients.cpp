@@ -10,6 +10,8 @@
 namespace hemilux {
 namespace {
 
+constexpr int most_iterations = 1000;
+
 /// The square of a residual relative to the light it belongs to; at most 1, where there is no light
 /// yet. What is not reflected is left to the step after the last.
 Vec3 relative_square(const Vec3& residual, const Vec3& light, const Vec3& weight) {
@@ -46,10 +48,10 @@ struct Sums {
 
 } // namespace
 
-GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> area,
-                                  std::span<const Vec3> reflectance, std::span<const Vec3> d,
-                                  std::vector<Vec3>& h, const Workers& workers,
-                                  const GradientOptions& options) {
+int solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> area,
+                       std::span<const Vec3> reflectance, std::span<const Vec3> d,
+                       std::vector<Vec3>& h, const Workers& workers, double tolerance,
+                       const StopFlag* interrupted) {
     const std::size_t n = h.size();
     // Only of this rank's patches; the others' are never touched.
     const auto of_patches = [n] { return std::make_unique_for_overwrite<Vec3[]>(n); };
@@ -94,15 +96,13 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
         return residual_at(i);
     });
     Vec3 more(0.0);
-    GradientResult result;
     const auto worst = [&] {
         const Vec3 share = glm::sqrt(ratio_or_zero(sums.relative, sums.lit));
         return std::max({share.x, share.y, share.z});
     };
-    const auto interrupted = [&] { return options.interrupted && options.interrupted->agree(); };
-    for (result.residual = worst();
-         result.residual > options.tolerance && result.iterations < options.most && !interrupted();
-         result.residual = worst(), ++result.iterations) {
+    const auto is_interrupted = [&] { return interrupted && interrupted->agree(); };
+    int iterations = 0;
+    for (; worst() > tolerance && iterations < most_iterations && !is_interrupted(); ++iterations) {
         factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 p[i] = r[i] + more * p[i];
@@ -130,8 +130,8 @@ GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const
             h[i] += r[i];
     });
     rows.gather(h);
-    factors.count_products(1 + result.iterations);
-    return result;
+    factors.count_products(1 + iterations);
+    return iterations;
 }
 
 } // namespace hemilux

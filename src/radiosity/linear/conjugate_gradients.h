@@ -13,26 +13,15 @@
 
 namespace hemilux {
 
-struct GradientOptions {
-    /// Ends when the residual relative to the light at the same patch, as root mean square over the
-    /// area that is lit, is below this in each channel. So a faint room beside a bright one is
-    /// solved to its own scale.
-    double tolerance = 1e-9;
-    int most = 1000;                       ///< iterations
-    const StopFlag* interrupted = nullptr; ///< ends them; h is void then
-};
-
-/// h and how it was found.
-struct GradientResult {
-    int iterations = 0;
-    double residual = 0; ///< relative [-], the largest of the channels
-};
-
 /// Solves h = d + F rho h, light that arrives [W/m2] by patch, from the guess in `h`; areas are
-/// local.
-GradientResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> area,
-                                  std::span<const Vec3> reflectance, std::span<const Vec3> d,
-                                  std::vector<Vec3>& h, const Workers& workers,
-                                  const GradientOptions& options = {});
+/// local. Returns the number of iterations.
+///
+/// Ends when the residual relative to the light at the same patch, as root mean square over the
+/// area that is lit, is below `tolerance` in each channel. So a faint room beside a bright one is
+/// solved to its own scale. It also ends when it is interrupted; h is void then.
+int solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> area,
+                       std::span<const Vec3> reflectance, std::span<const Vec3> d,
+                       std::vector<Vec3>& h, const Workers& workers, double tolerance,
+                       const StopFlag* interrupted = nullptr);
 
 } // namespace hemilux

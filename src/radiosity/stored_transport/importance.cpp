@@ -38,8 +38,7 @@ std::vector<Vec3> importance_of(const ExchangeMatrix& factors, std::span<const d
     for (const double w : weight)
         source.emplace_back(w);
     std::vector<Vec3> importance(weight.size(), Vec3(0.0));
-    solve_by_gradients(factors, area, reflectance, source, importance, workers,
-                       {.tolerance = tolerance});
+    solve_by_gradients(factors, area, reflectance, source, importance, workers, tolerance);
     return importance;
 }
 

@@ -31,7 +31,7 @@ class TransportSystem;
                                               std::span<const double> area,
                                               std::span<const Vec3> reflectance,
                                               std::span<const double> weight,
-                                              const Workers& workers, double tolerance = 1e-2);
+                                              const Workers& workers, double tolerance);
 
 /// What the variance of the light that rays bring to a patch counts in the error of the target,
 /// over what it counts on a target of the mean weight (that of its own light): m_k below.

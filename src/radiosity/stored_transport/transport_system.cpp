@@ -83,7 +83,7 @@ void TransportSystem::solve(const ExchangeMatrix& factors, std::vector<Vec3> dir
                             double residual, const StopFlag& interrupted) const {
     scale_direct_light(transport(factors), variance, direct);
     solve_by_gradients(factors, surfaces_.area, surfaces_.reflectance, direct, light.incident,
-                       workers, {.tolerance = residual, .interrupted = &interrupted});
+                       workers, residual, &interrupted);
     light.energy = balance_energy(transport(factors), light.incident);
 }
 
