@@ -16,12 +16,11 @@ constexpr double least_share = 1.0 / 8;
 /// inherit too much of what those with few are off by (docs/decisions.md, D57).
 constexpr double least_of_expected = 1.0 / 4;
 
-/// The power of two nearest to a number, in logarithms: the whole part of log2(sqrt(2) rays), which
-/// is an exponent's bits. The allocation asks for it ten times a patch.
+/// The power of two nearest to a number, in logarithms: the largest up to sqrt(2) rays.
 std::uint32_t power_of_two(double rays) {
-    constexpr std::uint64_t mantissa_bits = 52, bias = 1023;
-    const auto bits = std::bit_cast<std::uint64_t>(std::numbers::sqrt2 * std::max(rays, 1.0));
-    return std::uint32_t{1} << std::min<std::uint64_t>((bits >> mantissa_bits) - bias, 31);
+    constexpr double most = 0x1p31;
+    return std::bit_floor(
+        static_cast<std::uint32_t>(std::min(most, std::numbers::sqrt2 * std::max(rays, 1.0))));
 }
 
 /// From -1/2 to 1/2, another for each patch.
@@ -39,11 +38,6 @@ std::vector<double> rounded(std::span<const double> weights, double largest) {
                 : 0);
     return result;
 }
-
-/// A patch, and its rays at both ends of a range of rays per weight and in the middle.
-struct Open {
-    std::uint32_t index, low, high, middle = 0;
-};
 
 } // namespace
 
@@ -64,32 +58,29 @@ std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double m
         const double share = std::clamp(per_weight * weights[i], least(i) * mean, most * mean);
         return std::max(power_of_two(share), already[i]);
     };
-    // The number of rays per weight that allocates what there is, by bisection of its
-    // logarithm. A patch that gets as many at one end as at the other needs no more asking.
+    // Sets the rays and returns their sum.
+    const auto allocate = [&](double log_per_weight) {
+        const double per_weight = std::exp(log_per_weight);
+        std::uint64_t sum = 0;
+        for (std::uint32_t i = 0; i < weights.size(); ++i)
+            if (weights[i] > 0)
+                sum += rays[i] = rays_of(i, per_weight);
+        return sum;
+    };
+    // The number of rays per weight that allocates what there is, by bisection of its logarithm.
+    // Where as many are allocated at both ends, all patches get as many at one as at the other.
+    const double all =
+        mean * double(std::ranges::count_if(weights, [](double weight) { return weight > 0; }));
     double low = std::log(least_share * mean), high = low + 80;
-    std::vector<Open> open;
-    for (std::uint32_t i = 0; i < weights.size(); ++i)
-        if (weights[i] > 0)
-            open.push_back({i, rays_of(i, std::exp(low)), rays_of(i, std::exp(high))});
-    const double all = mean * static_cast<double>(open.size());
-    std::uint64_t fixed = 0;
-    for (int k = 0; k < 50 && !open.empty(); ++k) {
-        const double middle = (low + high) / 2, per_weight = std::exp(middle);
-        std::uint64_t sum = fixed;
-        for (Open& patch : open)
-            sum += patch.middle = rays_of(patch.index, per_weight);
-        const bool enough = static_cast<double>(sum) <= all;
+    std::uint64_t sum_low = allocate(low), sum_high = allocate(high);
+    for (int k = 0; k < 50 && sum_low < sum_high; ++k) {
+        const double middle = (low + high) / 2;
+        const std::uint64_t sum = allocate(middle);
+        const bool enough = double(sum) <= all;
         (enough ? low : high) = middle;
-        std::erase_if(open, [&](Open& patch) {
-            (enough ? patch.low : patch.high) = patch.middle;
-            if (patch.low < patch.high)
-                return false;
-            fixed += rays[patch.index] = patch.low;
-            return true;
-        });
+        (enough ? sum_low : sum_high) = sum;
     }
-    for (const Open& patch : open)
-        rays[patch.index] = patch.low;
+    allocate(low);
     return rays;
 }
 
