@@ -56,18 +56,14 @@ Vec3 LinearLight::variance_left() const {
     return products / (count() - fitted);
 }
 
-Vec3 radiosity_at(const Mesh& mesh, std::uint32_t patch, const Vec3& radiosity, const Slope& slope,
-                  const Vec3& point) {
-    const Patch& on = mesh.patches()[patch];
-    const Vec3 rises = rise(slope, along_axes(Frame::from_normal(on.normal), point - on.centre));
-    return glm::max(radiosity + rises, mesh.material(on).emission);
-}
-
 Vec3 radiosity_at(const Mesh& mesh, const PatchLight& light, std::uint32_t patch,
                   const Vec3& point) {
     if (light.slope.empty())
         return light.radiosity[patch];
-    return radiosity_at(mesh, patch, light.radiosity[patch], light.slope[patch], point);
+    const Patch& on = mesh.patches()[patch];
+    const Vec2 way = along_axes(Frame::from_normal(on.normal), point - on.centre);
+    return glm::max(light.radiosity[patch] + rise(light.slope[patch], way),
+                    mesh.material(on).emission);
 }
 
 /// By the middles of edges: exact for triangles; of a parallelogram's mean square it is 3 / 2.

@@ -51,10 +51,7 @@ struct PatchLight {
     PatchLight(const Solution& solution) : PatchLight(solution.radiosity, solution.slope) {}
 };
 
-/// B at a point of a patch whose mean is `radiosity` [W/m2]; what it reflects is not below 0.
-[[nodiscard]] Vec3 radiosity_at(const Mesh& mesh, std::uint32_t patch, const Vec3& radiosity,
-                                const Slope& slope, const Vec3& point);
-
+/// B at a point of a patch [W/m2]; with a slope, what it reflects is not below 0.
 [[nodiscard]] Vec3 radiosity_at(const Mesh& mesh, const PatchLight& light, std::uint32_t patch,
                                 const Vec3& point);
 
