@@ -139,11 +139,14 @@ class StoredTransportSolver final : public Solver {
         if (!trace(0))
             return false;
         plan_.leave_out(rays_.lit_patches(system_.emission()));
-        if (aim_.has_target()) {
-            aim_.begin(rays_.factors(system_.area(), workers_), workers_);
-            plan_.aim(aim_.importance());
-        }
+        if (aim_.has_target())
+            renew_aim();
         return true;
+    }
+
+    void renew_aim() {
+        aim_.renew(rays_.factors(system_.area(), workers_), workers_);
+        plan_.aim(aim_.importance());
     }
 
     /// The rays that are planned. Whether it was not interrupted.
@@ -157,10 +160,8 @@ class StoredTransportSolver final : public Solver {
     void plan() {
         if (planned_)
             return;
-        if (aim_.is_outdated()) {
-            aim_.renew(rays_.factors(system_.area(), workers_), workers_);
-            plan_.aim(aim_.importance());
-        }
+        if (aim_.is_outdated())
+            renew_aim();
         const double relative = solution_.steps > 0 ? errors_.relative(input_.mesh, solution_) : 0;
         const double room = room_to_grow();
         if (room >= RayPlan::least_growth) {

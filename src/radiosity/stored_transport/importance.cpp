@@ -74,7 +74,7 @@ TargetAim::TargetAim(const Mesh& mesh, const TransportSystem& system,
 }
 
 /// What light cannot leave for the target, as far as is known, may yet turn out to.
-void TargetAim::learn(const ExchangeMatrix& factors, const Workers& workers) {
+void TargetAim::renew(const ExchangeMatrix& factors, const Workers& workers) {
     constexpr double least = 1e-9, roughly = .1; // numbers of rays are as its power 0.8
     learned_ = importance_of_rays(
         mesh_,
@@ -82,11 +82,8 @@ void TargetAim::learn(const ExchangeMatrix& factors, const Workers& workers) {
         weight_);
     for (double& each : learned_)
         each = std::max(each, least);
-}
-
-void TargetAim::begin(const ExchangeMatrix& factors, const Workers& workers) {
-    learn(factors, workers);
-    of_rays_ = learned_;
+    is_outdated_ = false;
+    leave_out_unneeded();
 }
 
 void TargetAim::step_done(std::span<const std::uint32_t> part, const std::vector<bool>& lit) {
@@ -108,15 +105,11 @@ void TargetAim::step_done(std::span<const std::uint32_t> part, const std::vector
     leave_out_unneeded();
 }
 
-void TargetAim::renew(const ExchangeMatrix& factors, const Workers& workers) {
-    learn(factors, workers);
-    is_outdated_ = false;
-    leave_out_unneeded();
-}
-
 void TargetAim::leave_out_unneeded() {
+    of_rays_ = learned_;
     for (std::size_t i = 0; i < needed_.size(); ++i)
-        of_rays_[i] = needed_[i] ? learned_[i] : 0;
+        if (!needed_[i])
+            of_rays_[i] = 0;
 }
 
 double TargetAim::counts_alone(std::uint32_t patch) const {
@@ -145,7 +138,6 @@ void TargetAim::load(StateReader& state) {
     needed_.resize(state.flag() ? learned_.size() : 0);
     for (std::size_t i = 0; i < needed_.size(); ++i)
         needed_[i] = state.flag();
-    of_rays_ = learned_;
     leave_out_unneeded();
     unneeded_ = state.whole_up_to(learned_.size());
     is_outdated_ = state.flag();

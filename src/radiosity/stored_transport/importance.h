@@ -27,6 +27,7 @@ class StateWriter;
 class TransportSystem;
 
 /// I = w + F rho I by channel; by patch, `weight` is w.
+/// `tolerance`: as of solve_by_gradients().
 [[nodiscard]] std::vector<Vec3> importance_of(const ExchangeMatrix& factors,
                                               std::span<const double> area,
                                               std::span<const Vec3> reflectance,
@@ -61,15 +62,13 @@ class TargetAim {
     TargetAim(const Mesh& mesh, const TransportSystem& system, std::span<const double> weight);
 
     [[nodiscard]] bool has_target() const { return !weight_.empty(); }
-    /// Starts from the first few rays, of which nothing is concluded but what is important.
-    void begin(const ExchangeMatrix& factors, const Workers& workers);
     /// After a step: parts of the scene (linked_parts.h) without a patch of the target are not
     /// needed, as far as the target is lit.
     void step_done(std::span<const std::uint32_t> part, const std::vector<bool>& lit);
     /// Whether what is important is to be found out once more before further rays: after the first
     /// step, and later only where a part has turned out to be needed.
     [[nodiscard]] bool is_outdated() const { return is_outdated_; }
-    /// From the rays so far.
+    /// From the rays so far. Of the first few nothing is concluded but what is important.
     void renew(const ExchangeMatrix& factors, const Workers& workers);
 
     /// The importance of the rays of each patch (importance_of_rays); 0: it needs no more rays.
@@ -85,7 +84,6 @@ class TargetAim {
     void load(StateReader& state);
 
   private:
-    void learn(const ExchangeMatrix& factors, const Workers& workers);
     void leave_out_unneeded();
 
     const Mesh& mesh_;
