@@ -72,62 +72,33 @@ using OffAt = std::function<Vec3(const PatchPoint& point, const Vec3& gathered)>
 class ErrorAtPoints {
   public:
     /// All outlive it.
-    ErrorAtPoints(const LightSource& light, const Workers& workers, const StopFlag& interrupted)
-        : mesh_(light.mesh), tracer_(light.tracer), solution_(light.solution), workers_(workers),
-          interrupted_(interrupted), size_(surface_square(mesh_, solution_)) {}
+    ErrorAtPoints(const LightSource& light, const OffAt& off_at, FinalGather& gather,
+                  const PointsOverSurface& surface, const Workers& workers,
+                  const StopFlag& interrupted)
+        : light_(light), off_at_(off_at), gather_(gather), surface_(surface), workers_(workers),
+          interrupted_(interrupted), size_(surface_square(light.mesh, light.solution)) {}
 
-    [[nodiscard]] SquaredError within_patches(const OtherError& other,
-                                              const DivisionErrorOptions& options) const;
-    /// It varies little over the surfaces.
-    [[nodiscard]] SquaredError spread(bool reads_near, const Manner& manner,
-                                      const DivisionErrorOptions& options) const;
+    [[nodiscard]] SquaredError find(const OtherError& other, const Manner& manner,
+                                    const DivisionErrorOptions& options) const;
 
   private:
-    [[nodiscard]] SquaredError find(const OffAt& off_at, FinalGather& gather,
-                                    const PointsOverSurface& surface, const OtherError& other,
-                                    const Manner& manner,
-                                    const DivisionErrorOptions& options) const;
-    [[nodiscard]] Products products(const OffAt& off_at, FinalGather& gather,
-                                    const PointsOverSurface& surface, std::size_t count,
-                                    std::size_t gathers, std::uint64_t seed) const;
+    [[nodiscard]] Products products(std::size_t count, std::size_t gathers,
+                                    std::uint64_t seed) const;
 
-    const Mesh& mesh_;
-    const Tracer& tracer_;
-    const Solution& solution_;
+    const LightSource& light_;
+    const OffAt& off_at_;
+    FinalGather& gather_;
+    const PointsOverSurface& surface_;
     const Workers& workers_;
     const StopFlag& interrupted_;
     double size_; ///< all errors are relative to it
 };
 
-SquaredError ErrorAtPoints::within_patches(const OtherError& other,
-                                           const DivisionErrorOptions& options) const {
-    FinalGather gather(mesh_, tracer_, solution_);
-    const OffAt off_at = [&](const PatchPoint& point, const Vec3& light) {
-        return light - (radiosity_at(mesh_, solution_, point.patch, point.at.position) -
-                        mesh_.material(point.patch).emission);
-    };
-    const PointsOverSurface surface(
-        mesh_, mixed_density(mesh_, solution_.weight,
-                             {reflected_squares(mesh_, solution_.radiosity), options.square}));
-    return find(off_at, gather, surface, other, options.square.empty() ? of_patches : of_divided,
-                options);
-}
-
-SquaredError ErrorAtPoints::spread(bool reads_near, const Manner& manner,
-                                   const DivisionErrorOptions& options) const {
-    FinalGather gather(mesh_, tracer_, solution_,
-                       2 * FinalGather::usual_random_rays / manner.gathers);
-    gather.find_spread(reads_near);
-    const OffAt lacking = [](const PatchPoint&, const Vec3& lacks) { return lacks; };
-    return find(lacking, gather, PointsOverSurface(mesh_, solution_.weight), {}, manner, options);
-}
-
 /// Gathers are short at first. The variance of a product is about (error^2 + noise^2)^2, so where
 /// noise leaves too much uncertainty longer gathers know the error sooner than more points would.
 /// They begin anew, as a sum that ends by its own spread is biased.
-SquaredError ErrorAtPoints::find(const OffAt& off_at, FinalGather& gather,
-                                 const PointsOverSurface& surface, const OtherError& other,
-                                 const Manner& manner, const DivisionErrorOptions& options) const {
+SquaredError ErrorAtPoints::find(const OtherError& other, const Manner& manner,
+                                 const DivisionErrorOptions& options) const {
     // For f times less noise longer gathers, which begin anew, cost f times the rays so far, and
     // more points f^2 - 1 times.
     constexpr double barely_negligible = .01, growth_pays = 1.6, least_growth = 2, most_growth = 4;
@@ -138,8 +109,7 @@ SquaredError ErrorAtPoints::find(const OffAt& off_at, FinalGather& gather,
     Rounds rounds, noise;
     double uncertainty = 0;
     for (std::uint64_t number = 0;; ++number) {
-        const Products sums = products(off_at, gather, surface, points, manner.gathers,
-                                       hash_words({options.seed, number}));
+        const Products sums = products(points, manner.gathers, hash_words({options.seed, number}));
         if (interrupted_)
             return {};
         rounds.add(sums.error / size_);
@@ -148,18 +118,18 @@ SquaredError ErrorAtPoints::find(const OffAt& off_at, FinalGather& gather,
             continue;
         const double enough = std::max(
             manner.well_known * (rounds.mean() - other.square),
-            gather.rays() < manner.cheap_rays ? barely_negligible * negligible : negligible);
+            gather_.rays() < manner.cheap_rays ? barely_negligible * negligible : negligible);
         // Rounds may be alike by chance: they differ at least by the noise within them.
         const double by_noise = std::sqrt(noise.mean() / static_cast<double>(noise.count));
         uncertainty = std::max(rounds.uncertainty(), by_noise);
         if (uncertainty <= enough)
             break;
-        const auto rays = double(gather.rays()), most_rays = double(options.most_rays);
+        const auto rays = double(gather_.rays()), most_rays = double(options.most_rays);
         const double growth =
             std::clamp(std::min(by_noise / enough, most_rays / rays), least_growth, most_growth);
         if (growth_pays * enough < by_noise && length < longest && growth * rays <= most_rays) {
             length = std::min(std::round(growth * length), longest);
-            gather.set_rounds(static_cast<unsigned>(length));
+            gather_.set_rounds(static_cast<unsigned>(length));
             points = std::max(manner.least_points,
                               manner.points_per_round / static_cast<std::size_t>(length));
             rounds = noise = {};
@@ -168,32 +138,43 @@ SquaredError ErrorAtPoints::find(const OffAt& off_at, FinalGather& gather,
         }
     }
     return {rounds.mean() - other.square, std::hypot(uncertainty, other.scatter),
-            rounds.count * points, gather.rays()};
+            rounds.count * points, gather_.rays()};
 }
 
-Products ErrorAtPoints::products(const OffAt& off_at, FinalGather& gather,
-                                 const PointsOverSurface& surface, std::size_t count,
-                                 std::size_t gathers, std::uint64_t seed) const {
+Products ErrorAtPoints::products(std::size_t count, std::size_t gathers, std::uint64_t seed) const {
     const auto [points, irradiance] =
-        gather_over(surface, gather, count, gathers, seed, workers_, interrupted_);
+        gather_over(surface_, gather_, count, gathers, seed, workers_, interrupted_);
     const auto n = static_cast<double>(gathers);
     Products sums;
     for (std::size_t k = 0; k < points.size(); ++k) {
-        const Vec3& rho = mesh_.material(points[k].patch).reflectance;
+        const Vec3& rho = light_.mesh.material(points[k].patch).reflectance;
         Vec3 sum(0.0);
         double squares = 0;
         for (std::size_t e = 0; e < gathers; ++e) {
-            const Vec3 off = off_at(points[k], rho * irradiance[k * gathers + e]);
+            const Vec3 off = off_at_(points[k], rho * irradiance[k * gathers + e]);
             sum += off;
             squares += glm::dot(off, off);
         }
-        const double counts = solution_.weight_of(points[k].patch) * points[k].area;
+        const double counts = light_.solution.weight_of(points[k].patch) * points[k].area;
         sums.error += counts * (glm::dot(sum, sum) - squares) / (n * (n - 1));
         // Of normal noise the squared sample variance is (n + 1) / (n - 1) times what it should be.
         const double noise = counts * (squares - glm::dot(sum, sum) / n) / (n - 1);
         sums.by_noise += noise * noise * 2 / (n * (n + 1));
     }
     return sums;
+}
+
+/// By how much light that varies within patches is off; it varies little over the surfaces.
+SquaredError spread(const LightSource& light, bool reads_near, const Manner& manner,
+                    const DivisionErrorOptions& options, const Workers& workers,
+                    const StopFlag& interrupted) {
+    FinalGather gather(light.mesh, light.tracer, light.solution,
+                       2 * FinalGather::usual_random_rays / manner.gathers);
+    gather.find_spread(reads_near);
+    const OffAt lacking = [](const PatchPoint&, const Vec3& lacks) { return lacks; };
+    const PointsOverSurface surface(light.mesh, light.solution.weight);
+    return ErrorAtPoints(light, lacking, gather, surface, workers, interrupted)
+        .find({}, manner, options);
 }
 
 } // namespace
@@ -210,18 +191,29 @@ double surface_square(const Mesh& mesh, const Solution& solution) {
 SquaredError error_within_patches(const LightSource& light, const OtherError& other,
                                   const DivisionErrorOptions& options, const Workers& workers,
                                   const StopFlag& interrupted) {
-    return ErrorAtPoints(light, workers, interrupted).within_patches(other, options);
+    const Mesh& mesh = light.mesh;
+    const Solution& solution = light.solution;
+    FinalGather gather(mesh, light.tracer, solution);
+    const OffAt off_at = [&](const PatchPoint& point, const Vec3& gathered) {
+        return gathered - (radiosity_at(mesh, solution, point.patch, point.at.position) -
+                           mesh.material(point.patch).emission);
+    };
+    const PointsOverSurface surface(
+        mesh, mixed_density(mesh, solution.weight,
+                            {reflected_squares(mesh, solution.radiosity), options.square}));
+    return ErrorAtPoints(light, off_at, gather, surface, workers, interrupted)
+        .find(other, options.square.empty() ? of_patches : of_divided, options);
 }
 
 SquaredError error_of_spread(const LightSource& light, const DivisionErrorOptions& options,
                              const Workers& workers, const StopFlag& interrupted) {
-    return ErrorAtPoints(light, workers, interrupted).spread(false, of_spread, options);
+    return spread(light, false, of_spread, options, workers, interrupted);
 }
 
 SquaredError error_of_gathers(const LightSource& light, bool reads_near,
                               const DivisionErrorOptions& options, const Workers& workers,
                               const StopFlag& interrupted) {
-    return ErrorAtPoints(light, workers, interrupted).spread(reads_near, of_gathered, options);
+    return spread(light, reads_near, of_gathered, options, workers, interrupted);
 }
 
 } // namespace hemilux
