@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 using namespace hemilux;
 using Catch::Contains;
@@ -61,6 +62,12 @@ Scene box_in_a_room(const Material& inner, const Material& outer) {
         scene.facets.push_back(facet);
     }
     return scene;
+}
+
+std::optional<LosslessComponent> lossless_component(const Model& model) {
+    Monitor monitor;
+    const SolveOptions options = few_rays();
+    return find_lossless_component({model.mesh, model.bvh, options, monitor}, 3e5);
 }
 
 double total(const Vec3& v) { return v.x + v.y + v.z; }
@@ -144,9 +151,7 @@ TEST_CASE("A closed room of reflectance 1 has no solution: it is named", "[slow]
                   {"no finite solution: 6 patches", "'wall'", "'default'", "(face 0", "rays"});
     for (const Scene& scene : {test::furnace_l_shape(1), test::sphere(1, 3, 1, 1)}) {
         const Model model(scene);
-        Monitor monitor;
-        const auto component =
-            find_lossless_component(model.mesh, model.bvh, 1, 3e5, Workers(2), monitor);
+        const auto component = lossless_component(model);
         REQUIRE(component);
         CHECK(component->patches.size() == scene.facets.size());
         CHECK(component->channel == 0);
@@ -225,12 +230,10 @@ TEST_CASE("A lamp that few rays would find is a way out") {
     test::add_quad(scene, {.5, .99, .5}, {.501, .99, .5}, {.501, .99, .501}, {.5, .99, .501}, 1, 1,
                    1);
     const Model lit(scene);
-    Monitor monitor;
-    CHECK_FALSE(find_lossless_component(lit.mesh, lit.bvh, 1, 3e5, Workers(2), monitor));
+    CHECK_FALSE(lossless_component(lit));
     scene.materials[1].reflectance = Vec3(1.0);
     const Model closed(scene);
-    const auto component =
-        find_lossless_component(closed.mesh, closed.bvh, 1, 3e5, Workers(2), monitor);
+    const auto component = lossless_component(closed);
     REQUIRE(component);
     CHECK(component->patches.size() == 24 + 1);
     CHECK(component->rays >= 300'000);

@@ -33,21 +33,17 @@ void check_material(const Mesh& mesh, std::uint32_t patch) {
 
 /// Channel by channel the brightest emitter must not be too faint.
 void check_faint_channels(const Mesh& mesh) {
-    std::array<std::uint32_t, 3> brightest{};
-    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            std::uint32_t& most = brightest.at(static_cast<std::size_t>(c));
-            if (mesh.material(i).emission[c] > mesh.material(most).emission[c])
-                most = i;
-        }
     for (int c = 0; c < 3; ++c) {
-        const std::uint32_t i = brightest.at(static_cast<std::size_t>(c));
-        const double emission = mesh.material(i).emission[c];
-        if (emission > 0 && emission < least_radiosity)
-            throw SolveError("the emission of " + name_of_patch(mesh, i) +
+        const auto emission = [&](std::uint32_t i) { return mesh.material(i).emission[c]; };
+        std::uint32_t brightest = 0;
+        for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
+            if (emission(i) > emission(brightest))
+                brightest = i;
+        if (emission(brightest) > 0 && emission(brightest) < least_radiosity)
+            throw SolveError("the emission of " + name_of_patch(mesh, brightest) +
                                  ", the largest of its channel, is too small to go on with; scale "
                                  "emissions up or make it 0",
-                             face_of(mesh, i));
+                             face_of(mesh, brightest));
     }
 }
 
@@ -108,10 +104,7 @@ void check_input(const SolverInput& input) {
     if (!perfect)
         return;
     input.monitor.phase = "closed?";
-    const auto component =
-        find_lossless_component(mesh, input.tracer, input.options.seed, enough_rays(input),
-                                Workers(input.options.threads), input.monitor);
-    if (component)
+    if (const auto component = find_lossless_component(input, enough_rays(input)))
         throw SolveError(describe(mesh, *component) + advice(input.needs),
                          face_of(mesh, component->patches.front()));
 }

@@ -2,6 +2,7 @@
 
 #include "geometry/frame.h"
 #include "geometry/polygon_sampler.h"
+#include "parallel/workers.h"
 #include "radiosity/rays/patch_start.h"
 #include "radiosity/rays/receivers.h"
 #include "radiosity/sampling/rng.h"
@@ -20,12 +21,11 @@ constexpr std::size_t patches_per_chunk = 4;
 
 class Search {
   public:
-    Search(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed, const Workers& workers,
-           Monitor& monitor, double enough_rays, int channel)
-        : mesh_(mesh), tracer_(tracer), seed_(seed), workers_(workers), monitor_(monitor),
-          enough_rays_(enough_rays), channel_(channel), held_(mesh.patches().size()) {
+    Search(const SolverInput& input, double enough_rays, int channel)
+        : input_(input), enough_rays_(enough_rays), channel_(channel),
+          held_(input.mesh.patches().size()) {
         for (std::uint32_t i = 0; i < held_.size(); ++i)
-            held_[i] = mesh.material(i).reflectance[channel] >= 1;
+            held_[i] = input.mesh.material(i).reflectance[channel] >= 1;
     }
 
     std::optional<LosslessComponent> run() {
@@ -41,7 +41,7 @@ class Search {
                 since += static_cast<double>(static_cast<std::size_t>(each) * shooters.size());
                 rays *= 4;
             }
-            if (monitor_.interrupted)
+            if (input_.monitor.interrupted)
                 return std::nullopt;
         }
         if (!is_lit())
@@ -51,7 +51,7 @@ class Search {
 
   private:
     [[nodiscard]] double emission(std::uint32_t patch) const {
-        return mesh_.material(patch).emission[channel_];
+        return input_.mesh.material(patch).emission[channel_];
     }
     [[nodiscard]] bool is_lit() const {
         for (std::uint32_t i = 0; i < held_.size(); ++i)
@@ -71,11 +71,11 @@ class Search {
     bool release(const std::vector<std::uint32_t>& shooters, std::size_t rays) {
         ++round_;
         std::vector<std::vector<std::uint32_t>> freed(shooters.size());
-        workers_.for_chunks(shooters.size(), patches_per_chunk,
-                            [&](std::size_t begin, std::size_t end) {
-                                for (std::size_t k = begin; k < end && !monitor_.interrupted; ++k)
-                                    freed[k] = freed_by(shooters[k], rays);
-                            });
+        const auto body = [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end && !input_.monitor.interrupted; ++k)
+                freed[k] = freed_by(shooters[k], rays);
+        };
+        Workers(input_.options.threads).for_chunks(shooters.size(), patches_per_chunk, body);
         bool any = false;
         for (const std::vector<std::uint32_t>& list : freed)
             for (const std::uint32_t patch : list)
@@ -99,13 +99,13 @@ class Search {
 
     [[nodiscard]] std::vector<std::uint32_t> receivers_of(std::uint32_t shooter,
                                                           std::size_t rays) const {
-        Rng rng(hash_words({seed_, round_, shooter}));
-        const auto start = PatchStart::in_any_axes(mesh_, shooter);
+        Rng rng(hash_words({input_.options.seed, round_, shooter}));
+        const auto start = PatchStart::in_any_axes(input_.mesh, shooter);
         std::vector<Ray> drawn;
         for (std::size_t k = 0; k < rays; ++k)
             drawn.push_back(start.cosine_ray(rng));
         std::vector<std::uint32_t> receivers;
-        find_receivers(drawn, mesh_, tracer_, receivers);
+        find_receivers(drawn, input_.mesh, input_.tracer, receivers);
         return receivers;
     }
 
@@ -120,7 +120,7 @@ class Search {
         std::vector<std::uint32_t> found{brightest};
         std::vector<char> seen(held_.size());
         seen[brightest] = true;
-        for (std::size_t k = 0; k < found.size() && !monitor_.interrupted; ++k)
+        for (std::size_t k = 0; k < found.size() && !input_.monitor.interrupted; ++k)
             for (const std::uint32_t hit : receivers_of(found[k], rays))
                 if (hit < seen.size() && held_[hit] && !std::exchange(seen[hit], char{1}))
                     found.push_back(hit);
@@ -128,11 +128,7 @@ class Search {
         return found;
     }
 
-    const Mesh& mesh_;
-    const Tracer& tracer_;
-    std::uint64_t seed_;
-    Workers workers_;
-    Monitor& monitor_;
+    const SolverInput& input_;
     double enough_rays_;
     int channel_;
     std::vector<char> held_; ///< no way out is known
@@ -149,13 +145,12 @@ bool alike(const Mesh& mesh, int a, int b) {
 
 } // namespace
 
-std::optional<LosslessComponent> find_lossless_component(const Mesh& mesh, const Tracer& tracer,
-                                                         std::uint64_t seed, double enough_rays,
-                                                         const Workers& workers, Monitor& monitor) {
+std::optional<LosslessComponent> find_lossless_component(const SolverInput& input,
+                                                         double enough_rays) {
     for (int c = 0; c < 3; ++c) {
-        if (c > 0 && alike(mesh, c, c - 1))
+        if (c > 0 && alike(input.mesh, c, c - 1))
             continue;
-        if (auto component = Search(mesh, tracer, seed, workers, monitor, enough_rays, c).run())
+        if (auto component = Search(input, enough_rays, c).run())
             return component;
     }
     return std::nullopt;

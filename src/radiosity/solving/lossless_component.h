@@ -7,17 +7,13 @@
 // do those whose rays meet them. Patches that remain when many rays have found
 // no other way out trap the light. Only reflectances of exactly 1 are looked at.
 
-#include "bvh/tracer.h"
-#include "parallel/workers.h"
-
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace hemilux {
 
-class Mesh;
-struct Monitor;
+struct SolverInput;
 
 struct LosslessComponent {
     int channel;
@@ -27,8 +23,7 @@ struct LosslessComponent {
 
 /// Finds such a component that holds an emitter; empty if there is none, or when interrupted. There
 /// is no way out if `enough_rays` rays in a row have found none.
-[[nodiscard]] std::optional<LosslessComponent>
-find_lossless_component(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed,
-                        double enough_rays, const Workers& workers, Monitor& monitor);
+[[nodiscard]] std::optional<LosslessComponent> find_lossless_component(const SolverInput& input,
+                                                                       double enough_rays);
 
 } // namespace hemilux
