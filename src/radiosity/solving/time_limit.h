@@ -3,8 +3,6 @@
 
 #include "radiosity/solving/stop_flag.h"
 
-#include <condition_variable>
-#include <mutex>
 #include <optional>
 #include <thread>
 
@@ -16,17 +14,10 @@ class TimeLimit {
   public:
     TimeLimit(StopFlag& flag, std::optional<double> seconds);
     ~TimeLimit();
-    TimeLimit(const TimeLimit&) = delete;
-    TimeLimit& operator=(const TimeLimit&) = delete;
 
   private:
-    void wait(double seconds);
-
     StopFlag& flag_;
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    bool ended_ = false;
-    std::thread waiting_;
+    std::jthread waiting_;
 };
 
 } // namespace hemilux
