@@ -179,7 +179,7 @@ std::vector<double> ExchangeMatrix::due(const Workers& workers) const {
     for (std::size_t i = 0; i < n; ++i) {
         rays_per_area[i] = area_[i] > 0 ? rays_[i] / area_[i] : 0;
         all += rays_[i];
-        lost += rays_[i] * (lost_[i].escaped + lost_[i].absorbed);
+        lost += rays_[i] * lost_[i].sum();
     }
     for_rows(workers, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

@@ -33,7 +33,7 @@ void assess_rows(const SparseMatrix& matrix, std::span<const EscapeFraction> los
             quality.most = std::max(quality.most, f);
             ++quality.entries;
         }
-        const double elsewhere = lost[i].escaped + lost[i].absorbed;
+        const double elsewhere = lost[i].sum();
         const double closure = std::abs(sum - 1 + elsewhere);
         quality.closure_mean += closure / rows;
         quality.closure_most = std::max(quality.closure_most, closure);

@@ -43,6 +43,8 @@ struct SparseMatrix {
 struct EscapeFraction {
     double escaped = 0;  ///< left the scene
     double absorbed = 0; ///< fell on the back of a one-sided face
+
+    [[nodiscard]] double sum() const { return escaped + absorbed; }
 };
 
 class SampledFormFactors {

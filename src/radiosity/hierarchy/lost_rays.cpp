@@ -10,8 +10,6 @@
 namespace hemilux {
 namespace {
 
-double share_lost(const EscapeFraction& lost) { return lost.escaped + lost.absorbed; }
-
 /// Between the batches.
 double variance_of_sum(std::span<const std::vector<double>> sums, std::size_t patch) {
     const auto n = static_cast<double>(sums.size());
@@ -33,7 +31,7 @@ std::vector<double> weights_of_sums(const LostRays& rays,
     double all_lost = 0, all_rays = 0;
     for (std::size_t i = 0; i < lost.size(); ++i) {
         for (std::size_t r = 0; r < batches; ++r)
-            lost[i] += share_lost(rays.lost(r, i)) / double(batches);
+            lost[i] += rays.lost(r, i).sum() / double(batches);
         all_lost += lost[i] * rays_of_batch[i];
         all_rays += rays_of_batch[i];
     }
@@ -121,7 +119,7 @@ std::vector<NormalisedRows> normalise_rows(const LostRays& lost,
     for (std::size_t r = 0; r < batches.size(); ++r)
         for (std::size_t i = 0; i < weight.size(); ++i) {
             const EscapeFraction by_rays = lost.lost(r, i);
-            const double share = share_lost(by_rays), sum = sums[r][i];
+            const double share = by_rays.sum(), sum = sums[r][i];
             const double due = std::clamp(std::lerp(1 - share, sum, weight[i]), 0.0, 1.0);
             const double escaping = share > 0 ? by_rays.escaped / share : prior;
             batches[r].self.push_back(due - sum);

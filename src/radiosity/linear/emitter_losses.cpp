@@ -15,8 +15,7 @@ struct TwoAccounts {
 
     TwoAccounts(std::span<const SampledFormFactors> batches, std::size_t emitter) {
         for (const SampledFormFactors& factors : batches) {
-            const EscapeFraction& lost = factors.lost()[factors.emitters()[emitter]];
-            by_rays.push_back(lost.escaped + lost.absorbed);
+            by_rays.push_back(factors.lost()[factors.emitters()[emitter]].sum());
             sum_by_rays += by_rays.back();
             by_factors.push_back(1 - factors.arriving_from(emitter));
         }
@@ -56,7 +55,7 @@ std::vector<std::vector<EmitterLoss>> emitter_losses(std::span<const SampledForm
                                                      double rays) {
     std::vector<std::vector<EmitterLoss>> losses(batches.size());
     const EscapeFraction kinds = kinds_of_loss(batches);
-    const double sum = kinds.escaped + kinds.absorbed;
+    const double sum = kinds.sum();
     if (!batches.front().all_receive() || !(sum > 0))
         return losses;
     for (std::size_t e = 0; e < batches.front().emitters().size(); ++e) {

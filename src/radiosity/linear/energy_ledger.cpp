@@ -28,8 +28,6 @@ struct Ledger {
     [[nodiscard]] double lost(int c) const { return escaped.value()[c] + left_behind.value()[c]; }
 };
 
-double lost_in_all(const EscapeFraction& lost) { return lost.escaped + lost.absorbed; }
-
 /// Of a share of which `count` of `rays` were counted, before which all shares were alike: that of
 /// the Beta distribution with count + 1 and rays - count + 1.
 double variance_of_share(double count, double rays) {
@@ -43,7 +41,7 @@ double prior_loss(const Transport& t, std::span<const Vec3> incident) {
     for (std::size_t i = 0; i < t.rays.size(); ++i) {
         if (t.emission[i] + t.reflectance[i] * incident[i] == Vec3(0.0))
             continue;
-        lost += t.rays[i] * lost_in_all(t.lost[i]);
+        lost += t.rays[i] * t.lost[i].sum();
         rays += t.rays[i];
     }
     return rays > 0 ? lost / rays : 0;
@@ -74,7 +72,7 @@ Vec3 variance_of_losses(const Transport& t, std::span<const Vec3> incident) {
         if (!(t.rays[i] > 0))
             continue;
         const Vec3 leaving = t.area[i] * (t.emission[i] + t.reflectance[i] * incident[i]);
-        const double share = (t.rays[i] * lost_in_all(t.lost[i]) + prior) / (t.rays[i] + 1);
+        const double share = (t.rays[i] * t.lost[i].sum() + prior) / (t.rays[i] + 1);
         variance += leaving * leaving * (share * (1 - share) / t.rays[i]);
     }
     return variance;
@@ -110,7 +108,7 @@ void scale_direct_light(const Transport& t, const Vec3& variance, std::span<Vec3
         emitted.add(power, t.lost[i]);
         if (!t.closed)
             variance_of_lost +=
-                power * power * variance_of_share(t.rays[i] * lost_in_all(t.lost[i]), t.rays[i]);
+                power * power * variance_of_share(t.rays[i] * t.lost[i].sum(), t.rays[i]);
     }
     const Vec3 arriving = power_arriving(t, direct);
     Vec3 scale(1.0);

@@ -75,7 +75,7 @@ ShotShares ShotBalance::balance(const FactorSum& factors, const ShotRays& rays) 
     const double relative = joined > 0 ? of_joined / (joined * joined) : 0;
     const EscapeFraction kinds{rays.escaped + all_.escaped / all_.count,
                                rays.absorbed + all_.absorbed / all_.count};
-    const double known = kinds.escaped + kinds.absorbed;
+    const double known = kinds.sum();
     // More than all is chance, and evens out: cut off, light would be missing on average.
     if (!(known > 0) || joined >= 1)
         return {joined / sum, {}, 1 - joined, true, relative};

@@ -133,7 +133,7 @@ class MatrixSolver final : public Solver {
         f.multiply(ones, kept, workers_);
         for (std::uint32_t i = 0; i < n; ++i) {
             const EscapeFraction& by_rays = factors.lost()[i];
-            const double sum = by_rays.escaped + by_rays.absorbed;
+            const double sum = by_rays.sum();
             const double scale = sum > 0 ? std::clamp(1 - kept[i], 0.0, 1.0) / sum : 0;
             lost[i] = {scale * by_rays.escaped, scale * by_rays.absorbed};
         }

@@ -120,7 +120,7 @@ class Account {
     /// well-distributed ones only those at the edge of an opening are.
     [[nodiscard]] double variance_of_loss(std::uint32_t i) const {
         constexpr double batches = BatchLight::batches;
-        const double share = result_.factors.lost()[i].escaped + result_.factors.lost()[i].absorbed;
+        const double share = result_.factors.lost()[i].sum();
         const double of_batch = std::max(rays_[i] * std::min(share, 1 - share) / batches, 0.0);
         return batches * std::min(of_batch, std::sqrt(of_batch)) / (rays_[i] * rays_[i]);
     }
