@@ -68,15 +68,11 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
     on_this_rank.reset();
     monitor.interrupted.agree();
     own_.ranks().add_work(traced, 0);
-    gather();
-    return own_.ranks().sum(traced);
-}
-
-void DirectLight::gather() {
     own_.gather(sum_, seeds_.size());
     own_.gather(samples_);
     own_.gather(hits_);
     own_.gather(unblocked_);
+    return own_.ranks().sum(traced);
 }
 
 void DirectLight::sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch) {

@@ -73,7 +73,6 @@ class DirectLight {
     struct RayBatch;
     void sample(std::uint32_t patch, std::uint32_t end, RayBatch& batch);
     void send(RayBatch& batch);
-    void gather();
 
     const Mesh& mesh_;
     const Tracer& tracer_;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 namespace hemilux {
@@ -132,8 +133,7 @@ std::vector<std::uint32_t> small_emitters(const Mesh& mesh) {
     const std::vector<EmittingSide> sides = sides_of(mesh, emitters);
     const std::vector<double> shares = shares_of(mesh, sides, emitters);
     std::vector<std::uint32_t> order(sides.size());
-    for (std::uint32_t k = 0; k < order.size(); ++k)
-        order[k] = k;
+    std::iota(order.begin(), order.end(), 0u);
     std::ranges::stable_sort(order, std::ranges::greater{},
                              [&](std::uint32_t k) { return sides[k].brightness; });
     std::vector<std::uint32_t> small;
@@ -159,25 +159,17 @@ std::vector<std::uint32_t> small_emitters(const Mesh& mesh) {
     return small;
 }
 
-std::vector<std::uint32_t> one_of_each_side(const Mesh& mesh,
-                                            std::span<const std::uint32_t> emitters) {
-    std::vector<std::uint32_t> patches;
+std::vector<Patch> sides_of_emitters(const Mesh& mesh, std::span<const std::uint32_t> emitters) {
+    std::vector<Patch> sides;
     std::array<std::uint32_t, 2> last{none, none};
     for (const std::uint32_t e : emitters) {
         const Patch& patch = mesh.patches()[e];
-        if (std::exchange(last[patch.back ? 1 : 0], patch.facet) != patch.facet ||
-            mesh.emits_by_texture(patch))
-            patches.push_back(e);
+        const bool first = std::exchange(last[patch.back ? 1 : 0], patch.facet) != patch.facet;
+        if (mesh.emits_by_texture(patch))
+            sides.push_back(patch);
+        else if (first)
+            sides.push_back(mesh.whole_side(patch.facet, patch.back));
     }
-    return patches;
-}
-
-std::vector<Patch> whole_sides(const Mesh& mesh, std::span<const std::uint32_t> patches) {
-    std::vector<Patch> sides;
-    for (const std::uint32_t p : patches)
-        sides.push_back(mesh.emits_by_texture(mesh.patches()[p])
-                            ? mesh.patches()[p]
-                            : mesh.whole_side(mesh.patches()[p].facet, mesh.patches()[p].back));
     return sides;
 }
 

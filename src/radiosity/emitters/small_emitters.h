@@ -19,12 +19,10 @@ struct Patch;
 /// sun has much area and fills little. A facet's patches are all among them or none.
 [[nodiscard]] std::vector<std::uint32_t> small_emitters(const Mesh& mesh);
 
-/// One patch of each emitter as it was before facets were divided: how finely the light is to be
-/// known is nothing to those who only receive it. All patches of one that emits by a texture.
-[[nodiscard]] std::vector<std::uint32_t> one_of_each_side(const Mesh& mesh,
-                                                          std::span<const std::uint32_t> emitters);
-/// The sides of facets that these patches are of; of a texture's emitters the patches themselves.
-[[nodiscard]] std::vector<Patch> whole_sides(const Mesh& mesh,
-                                             std::span<const std::uint32_t> patches);
+/// The sides of facets that these patches are of, each once, as before facets were divided: how
+/// finely the light is to be known is nothing to those who only receive it. Of a side that emits by
+/// a texture the patches themselves.
+[[nodiscard]] std::vector<Patch> sides_of_emitters(const Mesh& mesh,
+                                                   std::span<const std::uint32_t> emitters);
 
 } // namespace hemilux
