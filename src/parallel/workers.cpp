@@ -24,8 +24,7 @@ bool holds_soon(const Condition& condition) {
 
 /// A call of work_together: it lives until nobody is inside any more.
 struct Job {
-    void (*work)(const void*);
-    const void* context;
+    const std::function<void()>& work;
     std::size_t wanted;                 ///< helpers that may still come
     std::atomic<std::size_t> inside{0}; ///< helpers
 };
@@ -43,7 +42,7 @@ class Pool {
 
     void run(Job& job) {
         post(job);
-        job.work(job.context);
+        job.work();
         withdraw(job);
         const auto left_alone = [&] { return job.inside.load(std::memory_order_acquire) == 0; };
         if (holds_soon(left_alone))
@@ -107,7 +106,7 @@ class Pool {
             open_jobs_.store(jobs_.size(), std::memory_order_relaxed);
         }
         lock.unlock();
-        job.work(job.context);
+        job.work();
         lock.lock();
         if (job.inside.fetch_sub(1, std::memory_order_release) == 1) // the job may be gone now
             left_.notify_all();
@@ -124,9 +123,9 @@ class Pool {
 
 } // namespace
 
-void work_together(std::size_t helpers, void (*work)(const void*), const void* context) {
+void work_together(std::size_t helpers, const std::function<void()>& work) {
     static Pool pool;
-    Job job{work, context, helpers};
+    Job job{work, helpers};
     pool.run(job);
 }
 

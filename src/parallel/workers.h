@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -17,7 +18,7 @@ namespace hemilux {
 /// do, and returns when all calls have returned. It must not throw, and each call must do with what
 /// the others leave: perhaps nobody comes to help. May be used from several threads, and from
 /// within work itself.
-void work_together(std::size_t helpers, void (*work)(const void* context), const void* context);
+void work_together(std::size_t helpers, const std::function<void()>& work);
 
 class Workers {
   public:
@@ -54,9 +55,7 @@ class Workers {
         };
         const std::size_t threads = std::min<std::size_t>(threads_, chunks);
         if (threads > 1)
-            work_together(
-                threads - 1, [](const void* it) { (*static_cast<const decltype(work)*>(it))(); },
-                &work);
+            work_together(threads - 1, std::ref(work));
         else
             work();
         if (failure)
