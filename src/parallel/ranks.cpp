@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
-#include <utility>
 
 namespace hemilux {
 namespace {
@@ -80,10 +79,8 @@ void OwnBlocks::gather_rounds(std::span<std::byte> some, std::size_t bytes_of_bl
     for (std::size_t r = 0; r < count_; ++r)
         sizes.push_back(OwnBlocks(*ranks_, some.size(), bytes_of_block).items_of(r));
     const auto packed = std::make_unique_for_overwrite<std::byte[]>(some.size());
-    std::size_t place = 0;
-    std::vector<std::size_t> places;
-    for (const std::size_t size : sizes)
-        places.push_back(std::exchange(place, place + size));
+    std::vector<std::size_t> places(count_);
+    std::exclusive_scan(sizes.begin(), sizes.end(), places.begin(), std::size_t{0});
     const auto for_blocks_of = [&](std::size_t r, const auto& copy) {
         std::byte* next = &packed[places[r]];
         for (std::size_t at = r * bytes_of_block; at < some.size(); at += round) {

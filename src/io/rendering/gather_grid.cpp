@@ -78,14 +78,11 @@ void GatherGrid::ask_neighbours(const Workers& workers) {
     for_each_point(workers, [&](const GridPoint& here, int x, int y) {
         double sum = 0, count = 0;
         Asked& of = asked[number_of(here)];
-        for (int dy = -1; dy <= 1; ++dy)
-            for (int dx = -1; dx <= 1; ++dx)
-                if (const GridPoint* const there = point(x + dx, y + dy);
-                    there && here.is_of_surface(there->at)) {
-                    sum += there->nearness;
-                    ++count;
-                    of.shadow |= there->shadow;
-                }
+        for_each_around(here, x, y, 1, [&](const GridPoint& there) {
+            sum += there.nearness;
+            ++count;
+            of.shadow |= there.shadow;
+        });
         of.nearness = sum / count;
     });
     for (std::size_t k = 0; k < points_.size(); ++k) {

@@ -1,6 +1,7 @@
 #include "radiosity/linear/gmres.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace hemilux {
 namespace {
@@ -8,10 +9,7 @@ namespace {
 using Vector = std::vector<double>;
 
 double dot(const Vector& a, const Vector& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        sum += a[i] * b[i];
-    return sum;
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
@@ -29,7 +27,6 @@ void scale(Vector& x, double factor) {
 /// A rotation of two neighbouring rows that makes the second entry zero.
 struct Rotation {
     double c = 1, s = 0;
-    Rotation() = default;
     Rotation(double a, double b) {
         const double r = std::hypot(a, b);
         if (r > 0) {

@@ -8,11 +8,11 @@ namespace {
 
 /// The least byte first.
 template <class Whole>
-std::array<char, sizeof(Whole)> bytes_of(Whole value) {
+void append_whole(Whole value, std::string& to) {
     std::array<char, sizeof(Whole)> bytes;
     for (std::size_t i = 0; i < bytes.size(); ++i)
         bytes[i] = static_cast<char>(value >> (8 * i) & 0xff);
-    return bytes;
+    to.append(bytes.data(), bytes.size());
 }
 
 template <class Whole>
@@ -25,15 +25,9 @@ Whole from_bytes(std::string_view bytes) {
 
 } // namespace
 
-void StateWriter::add(std::uint64_t value) {
-    const auto bytes = bytes_of(value);
-    bytes_.append(bytes.data(), bytes.size());
-}
+void StateWriter::add(std::uint64_t value) { append_whole(value, bytes_); }
 
-void StateWriter::add(std::uint32_t value) {
-    const auto bytes = bytes_of(value);
-    bytes_.append(bytes.data(), bytes.size());
-}
+void StateWriter::add(std::uint32_t value) { append_whole(value, bytes_); }
 
 void StateWriter::add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
 

@@ -133,8 +133,7 @@ double MeanOfSteps::emitted() const {
 
 /// The weight of the squared error of a patch.
 double MeanOfSteps::weighted_area(std::uint32_t patch) const {
-    const double area = input_.mesh.patches()[patch].area;
-    return solution.weight.empty() ? area : solution.weight[patch] * area;
+    return solution.weight_of(patch) * input_.mesh.patches()[patch].area;
 }
 
 /// By the solution [W, local units].
@@ -199,8 +198,7 @@ double MeanOfSteps::missed() const {
     const Vec3 power = rule_of_three * mean_ray();
     double area = 0, squares = 0;
     for (std::uint32_t i = 0; i < sums.squares.size(); ++i) {
-        const double weight = solution.weight.empty() ? 1 : solution.weight[i];
-        const Vec3 reflected = weight * input_.mesh.material(i).reflectance * power;
+        const Vec3 reflected = solution.weight_of(i) * input_.mesh.material(i).reflectance * power;
         area += weighted_area(i);
         squares += glm::dot(reflected, reflected);
     }
