@@ -1,7 +1,6 @@
 // Matrices as files.
 #include "io/files/error.h"
-#include "io/results/factor_table.h"
-#include "io/results/npy.h"
+#include "io/results/factor_files.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 

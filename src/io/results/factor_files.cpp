@@ -1,14 +1,15 @@
-#include "io/results/npy.h"
+#include "io/results/factor_files.h"
 
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/little_endian.h"
+#include "io/results/csv.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 namespace hemilux {
-
 namespace {
 
 /// Magic, version, length of the text, and the text, padded so that the numbers begin at a multiple
@@ -30,6 +31,30 @@ std::string npy_header(std::size_t rows) {
 }
 
 } // namespace
+
+void write_factor_table(const std::string& path, const SparseMatrix& matrix,
+                        const std::atomic<bool>* interrupted) {
+    AtomicFile file(path);
+    file.write("i,j,F\n");
+    std::string line;
+    for (std::size_t i = 0; i < matrix.rows(); ++i) {
+        if (interrupted && *interrupted)
+            throw Interrupted();
+        for (std::size_t k = matrix.row_begin[i]; k < matrix.row_begin[i + 1]; ++k) {
+            if (!(matrix.value[k] > 0))
+                continue;
+            line.clear();
+            csv::append_number(line, std::uint64_t{i});
+            line += ',';
+            csv::append_number(line, std::uint64_t{matrix.column[k]});
+            line += ',';
+            csv::append_number(line, matrix.value[k]);
+            line += '\n';
+            file.write(line);
+        }
+    }
+    file.commit();
+}
 
 void write_npy(const std::string& path, const SparseMatrix& matrix,
                const std::atomic<bool>* interrupted) {
