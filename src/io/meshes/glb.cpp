@@ -30,43 +30,30 @@ struct Part {
     std::vector<std::uint32_t> indices;  ///< of vertices, three a triangle
 };
 
-/// Vertices are numbered within each group as they first occur.
-class PartBuilder {
-  public:
-    explicit PartBuilder(const CornerClasses& classes)
-        : classes_(classes), number_(classes.position.size()), of_(classes.position.size(), none) {}
-
-    Part build(std::uint32_t group, std::span<const std::uint32_t> patches) {
-        Part part{group, {}, {}};
-        for (const std::uint32_t i : patches)
-            for_each_triangle(classes_, i, [&](auto... corners) { (add(part, corners), ...); });
-        return part;
-    }
-
-  private:
-    void add(Part& part, std::uint32_t vertex) {
-        if (of_[vertex] != part.group) {
-            of_[vertex] = part.group;
-            number_[vertex] = static_cast<std::uint32_t>(part.vertices.size());
-            part.vertices.push_back(vertex);
-        }
-        part.indices.push_back(number_[vertex]);
-    }
-
-    const CornerClasses& classes_;
-    std::vector<std::uint32_t> number_, of_; ///< of a class: its number in the group that had it
-};
-
+/// The vertices of a group are numbered as they first occur in it.
 std::vector<Part> parts_of(const Mesh& mesh, const CornerClasses& classes) {
     std::vector<std::vector<std::uint32_t>> patches(mesh.scene().groups.size());
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
         if (const Patch& patch = mesh.patches()[i]; !mesh.material(patch).is_far)
             patches[mesh.scene().facets[patch.facet].group].push_back(i);
-    PartBuilder builder(classes);
+    // Of a class: the last group that had it, and its number there.
+    std::vector<std::uint32_t> group_of(classes.position.size(), none), number(group_of.size());
     std::vector<Part> parts;
-    for (std::uint32_t group = 0; group < patches.size(); ++group)
-        if (!patches[group].empty())
-            parts.push_back(builder.build(group, patches[group]));
+    for (std::uint32_t group = 0; group < patches.size(); ++group) {
+        if (patches[group].empty())
+            continue;
+        Part& part = parts.emplace_back(Part{group, {}, {}});
+        const auto add = [&](std::uint32_t vertex) {
+            if (group_of[vertex] != group) {
+                group_of[vertex] = group;
+                number[vertex] = static_cast<std::uint32_t>(part.vertices.size());
+                part.vertices.push_back(vertex);
+            }
+            part.indices.push_back(number[vertex]);
+        };
+        for (const std::uint32_t i : patches[group])
+            for_each_triangle(classes, i, [&](auto... corners) { (add(corners), ...); });
+    }
     return parts;
 }
 
