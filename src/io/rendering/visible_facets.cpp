@@ -52,16 +52,13 @@ VisibleFacets::VisibleFacets(const Mesh& mesh, const CameraRays& camera, const S
             halves_[next[static_cast<std::size_t>(band)]++] = half;
 }
 
-/// From the eye. False where the half does not exist.
-bool VisibleFacets::corners_of(std::uint32_t half, Corners& corner) const {
+/// From the eye. What would be the second half of a triangle has one corner twice: its volume is 0.
+VisibleFacets::Corners VisibleFacets::corners_of(std::uint32_t half) const {
     const FacetSoup soup = mesh_.soup_to_trace();
     const FacetCorners& all = soup.facets[half / 2];
     const bool second = half % 2 == 1;
-    if (second && all[2] == all[3])
-        return false;
-    corner = {soup.vertices[all[0]] - eye_, soup.vertices[all[second ? 2 : 1]] - eye_,
-              soup.vertices[all[second ? 3 : 2]] - eye_};
-    return true;
+    return {soup.vertices[all[0]] - eye_, soup.vertices[all[second ? 2 : 1]] - eye_,
+            soup.vertices[all[second ? 3 : 2]] - eye_};
 }
 
 /// Six times the volume between the eye and the triangle: negative where its front faces the eye.
@@ -71,9 +68,7 @@ double VisibleFacets::volume(const Corners& corner) {
 
 /// False where none of the rows shows the half.
 bool VisibleFacets::rows_of(std::uint32_t half, int& first, int& last) const {
-    Corners corner;
-    if (!corners_of(half, corner))
-        return false;
+    const Corners corner = corners_of(half);
     const double volume_seen = volume(corner);
     if (!(volume_seen < 0) && !(mesh_.has_back(half / 2) && volume_seen > 0))
         return false;
@@ -105,20 +100,19 @@ bool VisibleFacets::rows_of(std::uint32_t half, int& first, int& last) const {
     return first <= last && high.x >= -1 && low.x <= grid_.columns + 1;
 }
 
-bool VisibleFacets::set_up(std::uint32_t half, Triangle& triangle) const {
-    Corners corner;
-    if (!corners_of(half, corner))
-        return false;
+VisibleFacets::Triangle VisibleFacets::set_up(std::uint32_t half) const {
+    const Corners corner = corners_of(half);
     const auto linear = [&](const Vec3& v, double scale) {
         return Triangle::Linear{scale * glm::dot(v, origin_), scale * glm::dot(v, column_),
                                 scale * glm::dot(v, row_)};
     };
     const double volume_seen = volume(corner), sign = volume_seen < 0 ? -1 : 1;
+    Triangle triangle{};
     for (std::size_t k = 0; k < 3; ++k)
         triangle.inside[k] = linear(glm::cross(corner[k], corner[(k + 1) % 3]), sign);
     triangle.nearness =
         linear(glm::cross(corner[1] - corner[0], corner[2] - corner[0]), 1 / volume_seen);
-    return true;
+    return triangle;
 }
 
 void VisibleFacets::fill(int band, Band& out) const {
@@ -127,11 +121,9 @@ void VisibleFacets::fill(int band, Band& out) const {
     out.half.assign(size, nothing_visible);
     out.nearness.assign(size, 0.0);
     const int begin = band * rows_per_band, end = std::min(begin + rows_per_band, grid_.rows);
-    Triangle triangle{};
     for (std::size_t k = first_[static_cast<std::size_t>(band)];
          k < first_[static_cast<std::size_t>(band) + 1]; ++k) {
-        if (!set_up(halves_[k], triangle))
-            continue;
+        const Triangle triangle = set_up(halves_[k]);
         std::size_t at = 0;
         for (const Vec2& offset : offsets_) {
             for (int row = begin; row < end; ++row)
@@ -182,8 +174,7 @@ void VisibleFacets::fill_row(const Triangle& triangle, const Vec2& start, std::u
 }
 
 Hit VisibleFacets::hit_at(std::uint32_t half, const Vec3& direction) const {
-    Corners corner{};
-    (void)corners_of(half, corner);
+    const Corners corner = corners_of(half);
     const Vec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
     // Its sign says for all samples alike which side faces the eye, as in rows_of().
     const double volume_seen = volume(corner);

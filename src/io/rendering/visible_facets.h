@@ -65,10 +65,10 @@ class VisibleFacets {
   private:
     struct Triangle;
     using Corners = std::array<Vec3, 3>;
-    [[nodiscard]] bool corners_of(std::uint32_t half, Corners& corner) const;
+    [[nodiscard]] Corners corners_of(std::uint32_t half) const;
     [[nodiscard]] static double volume(const Corners& corner);
     [[nodiscard]] bool rows_of(std::uint32_t half, int& first, int& last) const;
-    [[nodiscard]] bool set_up(std::uint32_t half, Triangle& triangle) const;
+    [[nodiscard]] Triangle set_up(std::uint32_t half) const;
     void fill_row(const Triangle& triangle, const Vec2& start, std::uint32_t half,
                   std::uint32_t* halves, double* nearness) const;
 
