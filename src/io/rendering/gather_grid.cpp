@@ -37,26 +37,20 @@ GatherGrid::GatherGrid(const Mesh& mesh, const CameraRays& camera, int width, in
     points_.resize(columns * static_cast<std::size_t>(rows_));
     for (GridPoint& point : points_)
         point.at.facet = none;
-    workers.for_chunks_with(
-        static_cast<std::size_t>(visible.bands()), 1, [] { return VisibleFacets::Band(); },
-        [&](VisibleFacets::Band& band, std::size_t b, std::size_t) {
-            check();
-            visible.fill(static_cast<int>(b), band);
-            const std::size_t first = b * VisibleFacets::rows_per_band;
-            const std::size_t rows = std::min<std::size_t>(VisibleFacets::rows_per_band,
-                                                           static_cast<std::size_t>(rows_) - first);
-            for (std::size_t k = 0; k < rows * columns; ++k) {
-                if (band.half[k] == nothing_visible)
-                    continue;
-                const Vec2 place(static_cast<double>(k % columns),
-                                 static_cast<double>(first + k / columns));
-                const Vec3 direction = visible.direction(place + pixel_centre);
-                const Hit hit = visible.hit_at(band.half[k], direction);
-                const std::uint32_t patch = mesh.patch_at(hit);
-                points_[first * columns + k].at = {visible.eye() + hit.t * direction,
-                                                   mesh.patches()[patch].normal, hit.facet};
-            }
-        });
+    visible.for_each_band(workers, check, [&](const VisibleFacets::Band& band, int first, int end) {
+        const auto begin = static_cast<std::size_t>(first) * columns;
+        for (std::size_t k = begin; k < static_cast<std::size_t>(end) * columns; ++k) {
+            const std::uint32_t half = band.half[k - begin];
+            if (half == nothing_visible)
+                continue;
+            const Vec2 place(static_cast<double>(k % columns), static_cast<double>(k / columns));
+            const Vec3 direction = visible.direction(place + pixel_centre);
+            const Hit hit = visible.hit_at(half, direction);
+            const std::uint32_t patch = mesh.patch_at(hit);
+            points_[k].at = {visible.eye() + hit.t * direction, mesh.patches()[patch].normal,
+                             hit.facet};
+        }
+    });
 }
 
 double GatherGrid::spacing(int x, int y) const {

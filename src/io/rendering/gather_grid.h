@@ -45,11 +45,9 @@ class GatherGrid {
                const std::function<void()>& check, const Workers& workers);
 
     [[nodiscard]] int columns() const { return columns_; }
-    [[nodiscard]] int rows() const { return rows_; }
     /// All points by number, row after row, also those without a surface.
     [[nodiscard]] std::size_t size() const { return points_.size(); }
     [[nodiscard]] GridPoint& operator[](std::size_t number) { return points_[number]; }
-    [[nodiscard]] const GridPoint& operator[](std::size_t number) const { return points_[number]; }
     [[nodiscard]] std::size_t number_of(const GridPoint& point) const {
         return static_cast<std::size_t>(&point - points_.data());
     }

@@ -1,12 +1,13 @@
 #include "io/rendering/gathered_picture.h"
 
-#include "io/files/error.h"
 #include "io/rendering/pixel_colours.h"
 #include "parallel/workers.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace hemilux {
 namespace {
@@ -19,45 +20,60 @@ float weight_at(int step) {
     return window[static_cast<std::size_t>(std::ptrdiff_t{step} + half_window)];
 }
 
-} // namespace
+class GatheredPicture {
+  public:
+    GatheredPicture(const Mesh& mesh, const VisibleFacets& visible, const PictureGather& gather,
+                    std::span<const Vec2> offsets, int width, int height)
+        : mesh_(mesh), visible_(visible), gather_(gather), offsets_(offsets), image_(width, height),
+          whole_(image_.pixels.size()), parts_(static_cast<std::size_t>(height)) {}
 
-GatheredPicture::GatheredPicture(const Mesh& mesh, const VisibleFacets& visible,
-                                 const PictureGather& gather, std::span<const Vec2> offsets,
-                                 int width, int height)
-    : mesh_(mesh), visible_(visible), gather_(gather), offsets_(offsets), width_(width),
-      height_(height), whole_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
-      parts_(static_cast<std::size_t>(height)) {}
+    [[nodiscard]] Image render(const std::function<void()>& check, const Workers& workers);
 
-Image GatheredPicture::render(const std::function<bool()>& give_up, const Workers& workers) {
-    const auto check = [&] {
-        if (give_up && give_up())
-            throw Interrupted();
+  private:
+    /// What a pixel shows of one facet, or a whole pixel where it shows nothing else.
+    struct Part {
+        glm::vec3 position{0.0f};                 ///< local frame
+        glm::vec3 direct{0.0f}, unshadowed{0.0f}; ///< by its own shadow rays
+        glm::vec3 smooth_unshadowed{0.0f}, indirect{0.0f};
+        glm::vec3 reflectance{0.0f}, emission{0.0f};
+        std::uint32_t patch = none;
+        float share = 0; ///< of the pixel
+        int x = 0;
     };
-    workers.for_chunks_with(
-        static_cast<std::size_t>(visible_.bands()), 1, [] { return VisibleFacets::Band(); },
-        [&](VisibleFacets::Band& band, std::size_t b, std::size_t) {
-            check();
-            visible_.fill(static_cast<int>(b), band);
-            gather_band(band, static_cast<int>(b) * VisibleFacets::rows_per_band);
-        });
-    Image image(width_, height_);
+    void gather_band(const VisibleFacets::Band& band, int first, int end);
+    [[nodiscard]] glm::vec3 direct_light(const Part& part, int y) const;
+    [[nodiscard]] glm::vec3 radiosity(const Part& part, int y) const;
+
+    const Mesh& mesh_;
+    const VisibleFacets& visible_;
+    const PictureGather& gather_;
+    std::span<const Vec2> offsets_;
+    Image image_;
+    std::vector<Part> whole_;              ///< by pixel; share 0 where it shows nothing or several
+    std::vector<std::vector<Part>> parts_; ///< by row, from left to right
+};
+
+Image GatheredPicture::render(const std::function<void()>& check, const Workers& workers) {
+    visible_.for_each_band(workers, check,
+                           [&](const VisibleFacets::Band& band, int first, int end) {
+                               gather_band(band, first, end);
+                           });
     workers.for_chunks(parts_.size(), 8, [&](std::size_t begin, std::size_t end) {
         check();
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-            for (int x = 0; x < width_; ++x)
-                if (const Part& whole = whole_[image.index(x, y)]; whole.share > 0)
-                    image.at(x, y) = radiosity(whole, y);
+            for (int x = 0; x < image_.width; ++x)
+                if (const Part& whole = whole_[image_.index(x, y)]; whole.share > 0)
+                    image_.at(x, y) = radiosity(whole, y);
             for (const Part& part : parts_[static_cast<std::size_t>(y)])
-                image.at(part.x, y) += part.share * radiosity(part, y);
+                image_.at(part.x, y) += part.share * radiosity(part, y);
         }
     });
-    return image;
+    return std::move(image_);
 }
 
 /// Pixels are visited square by square: those near each other share what they have in common.
-void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first) {
+void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, int end) {
     constexpr int side = 4;
-    const int end = std::min(first + VisibleFacets::rows_per_band, height_);
     std::vector<Part> parts;
     std::vector<int> rows;
     std::vector<PictureGather::Place> places;
@@ -83,9 +99,9 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first) {
             });
     };
     for (int top = first; top < end; top += side)
-        for (int left = 0; left < width_; left += side)
+        for (int left = 0; left < image_.width; left += side)
             for (int y = top; y < std::min(top + side, end); ++y)
-                for (int x = left; x < std::min(left + side, width_); ++x)
+                for (int x = left; x < std::min(left + side, image_.width); ++x)
                     visit(x, y);
     const std::vector<PictureGather::Light> lights = gather_.irradiance(places);
     for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -94,7 +110,7 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first) {
         parts[k].smooth_unshadowed = glm::vec3(lights[k].slow.unshadowed);
         parts[k].indirect = glm::vec3(lights[k].slow.indirect);
         if (places[k].count == offsets_.size())
-            whole_[index(parts[k].x, rows[k])] = parts[k];
+            whole_[image_.index(parts[k].x, rows[k])] = parts[k];
         else
             parts_[static_cast<std::size_t>(rows[k])].push_back(parts[k]);
     }
@@ -115,11 +131,11 @@ glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
         unshadowed += weight * from.unshadowed;
     };
     const int left = std::max(part.x - half_window, 0),
-              right = std::min(part.x + half_window, width_ - 1);
-    for (int row = std::max(y - half_window, 0); row <= std::min(y + half_window, height_ - 1);
-         ++row) {
+              right = std::min(part.x + half_window, image_.width - 1);
+    for (int row = std::max(y - half_window, 0);
+         row <= std::min(y + half_window, image_.height - 1); ++row) {
         for (int x = left; x <= right; ++x)
-            add(whole_[index(x, row)], weight_at(x - part.x) * weight_at(row - y));
+            add(whole_[image_.index(x, row)], weight_at(x - part.x) * weight_at(row - y));
         if (part.share == 1)
             continue;
         const std::vector<Part>& parts = parts_[static_cast<std::size_t>(row)];
@@ -136,6 +152,14 @@ glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
 
 glm::vec3 GatheredPicture::radiosity(const Part& part, int y) const {
     return part.emission + part.reflectance * (direct_light(part, y) + part.indirect);
+}
+
+} // namespace
+
+Image gathered_picture(const Mesh& mesh, const VisibleFacets& visible, const PictureGather& gather,
+                       std::span<const Vec2> offsets, int width, int height,
+                       const std::function<void()>& check, const Workers& workers) {
+    return GatheredPicture(mesh, visible, gather, offsets, width, height).render(check, workers);
 }
 
 } // namespace hemilux

@@ -1,6 +1,5 @@
 #include "io/rendering/picture_gather.h"
 
-#include "io/files/error.h"
 #include "parallel/workers.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
@@ -35,27 +34,32 @@ std::uint32_t spread_bits(std::uint32_t x) {
     return (x | x << 1) & 0x5555u;
 }
 
+/// Some of many points, and the samples that each takes.
+struct SomePoints {
+    std::vector<std::size_t> which;
+    std::vector<SurfacePoint> points;
+    std::vector<GatherSamples> samples;
+
+    void add(std::size_t number, const SurfacePoint& point, const GatherSamples& of) {
+        which.push_back(number);
+        points.push_back(point);
+        samples.push_back(of);
+    }
+};
+
 } // namespace
 
 PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight light,
                              const CameraRays& camera, int width, int height,
                              const PictureGatherOptions& options, const Workers& workers)
     : options_(options), in_parts_(mesh, tracer, light),
-      grid_(
-          mesh, camera, width, height, [this] { give_up_if_asked(); }, workers),
-      light_(grid_) {
+      grid_(mesh, camera, width, height, options.check, workers), light_(grid_) {
     gather([&](int, int) { return std::max(1u, options_.rays / 4); }, Shadows::traced, workers);
     grid_.ask_neighbours(workers);
     judge_points(workers);
     gather([&](int x, int y) { return more_rays(x, y); }, Shadows::left_out, workers);
     for (const int stride : {1, reach_points})
-        light_.fit(
-            stride, [this] { give_up_if_asked(); }, workers);
-}
-
-void PictureGather::give_up_if_asked() const {
-    if (options_.give_up && options_.give_up())
-        throw Interrupted();
+        light_.fit(stride, options.check, workers);
 }
 
 /// Along a Z-curve, so that each aligned square of points has a net of the sequence (Ahmed and
@@ -69,17 +73,12 @@ GatherSamples PictureGather::samples_of(int x, int y, unsigned count) {
 /// By rays_at(x, y) more rays at each point.
 template <class Rays>
 void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& workers) {
-    struct Own {
-        std::vector<std::size_t> places;
-        std::vector<SurfacePoint> points;
-        std::vector<GatherSamples> samples;
-    };
     const auto columns = static_cast<std::size_t>(grid_.columns());
-    workers.for_chunks_with(
-        grid_.size(), std::max<std::size_t>(16, 8192 / options_.rays), [] { return Own(); },
-        [&](Own& own, std::size_t begin, std::size_t end) {
-            give_up_if_asked();
-            own = {};
+    workers.for_chunks(
+        grid_.size(), std::max<std::size_t>(16, 8192 / options_.rays),
+        [&](std::size_t begin, std::size_t end) {
+            options_.check();
+            SomePoints some;
             for (std::size_t k = begin; k < end; ++k) {
                 if (grid_[k].at.facet == none)
                     continue;
@@ -87,19 +86,18 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
                 const unsigned rays = rays_at(x, y);
                 if (rays == 0)
                     continue;
-                own.places.push_back(k);
-                own.points.push_back(grid_[k].at);
-                own.samples.push_back(samples_of(x, y, rays));
-                own.samples.back().partly_aimed = grid_[k].aims;
+                GatherSamples samples = samples_of(x, y, rays);
+                samples.partly_aimed = grid_[k].aims;
+                some.add(k, grid_[k].at, samples);
             }
-            const std::vector<IndirectLight> lights = in_parts_.indirect(own.points, own.samples);
+            const std::vector<IndirectLight> lights = in_parts_.indirect(some.points, some.samples);
             const std::vector<EmitterLight> direct =
-                in_parts_.direct(own.points, own.samples, shadows);
+                in_parts_.direct(some.points, some.samples, shadows);
             for (std::size_t i = 0; i < lights.size(); ++i) {
-                GridPoint& point = grid_[own.places[i]];
-                point.rays += own.samples[i].count;
-                const double share = double(own.samples[i].count) / point.rays;
-                SlowLight& light = light_.at(own.places[i]);
+                GridPoint& point = grid_[some.which[i]];
+                point.rays += some.samples[i].count;
+                const double share = double(some.samples[i].count) / point.rays;
+                SlowLight& light = light_.at(some.which[i]);
                 light.indirect = point.aims ? lights[i].irradiance
                                             : glm::mix(light.indirect, lights[i].irradiance, share);
                 light.unshadowed = glm::mix(light.unshadowed, direct[i].unshadowed, share);
@@ -142,19 +140,7 @@ void PictureGather::judge_points(const Workers& workers) {
 /// Shadow rays are traced where some were blocked around, and some were not; all rays where no
 /// point is around.
 std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Place> places) const {
-    /// Which of the places, and with which samples.
-    struct Some {
-        std::vector<std::size_t> which;
-        std::vector<SurfacePoint> points;
-        std::vector<GatherSamples> samples;
-
-        void add(std::size_t place, const SurfacePoint& point, const GatherSamples& of) {
-            which.push_back(place);
-            points.push_back(point);
-            samples.push_back(of);
-        }
-    };
-    Some alone, in_penumbra;
+    SomePoints alone, in_penumbra;
     std::vector<Light> found(places.size());
     const unsigned each = std::max(1u, options_.rays / (2 * options_.samples)),
                    of_pixel = each * options_.samples;

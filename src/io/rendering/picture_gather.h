@@ -27,8 +27,8 @@ struct PictureGatherOptions {
     /// average over, up to five times as many where it has few. A pixel at the edge of a shadow
     /// takes half as many shadow rays. Four times as many halve the noise.
     unsigned rays = 16;
-    unsigned samples = 4;               ///< of a pixel
-    std::function<bool()> give_up = {}; ///< true ends it with Interrupted
+    unsigned samples = 4;                ///< of a pixel
+    std::function<void()> check = [] {}; ///< may throw to end it; is called by several threads
 };
 
 class PictureGather {
@@ -59,7 +59,6 @@ class PictureGather {
     void gather(const Rays& rays_at, Shadows shadows, const Workers& workers);
     [[nodiscard]] unsigned more_rays(int x, int y) const;
     void judge_points(const Workers& workers);
-    void give_up_if_asked() const;
 
     PictureGatherOptions options_;
     GatherInParts in_parts_;

@@ -11,7 +11,7 @@
 #include "radiosity/scene/mesh.h"
 #include "radiosity/solution/solution.h"
 
-#include <algorithm>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -100,7 +100,7 @@ class Shading {
 
 /// The light of the patches at what each pixel shows.
 Image shaded_picture(const VisibleFacets& visible, const Shading& shading,
-                     const RenderOptions& options) {
+                     const RenderOptions& options, const std::function<void()>& check) {
     Image image(options.width, options.height);
     const auto pixel = [&](const VisibleFacets::Band& band, int x, int y) {
         Vec3 sum(0.0);
@@ -110,19 +110,12 @@ Image shaded_picture(const VisibleFacets& visible, const Shading& shading,
                             });
         return glm::vec3(sum / double(options.samples));
     };
-    Workers(options.threads)
-        .for_chunks_with(
-            static_cast<std::size_t>(visible.bands()), 1, [] { return VisibleFacets::Band(); },
-            [&](VisibleFacets::Band& band, std::size_t b, std::size_t) {
-                if (options.give_up && options.give_up())
-                    throw Interrupted();
-                visible.fill(static_cast<int>(b), band);
-                const int first = static_cast<int>(b) * VisibleFacets::rows_per_band;
-                const int end = std::min(first + VisibleFacets::rows_per_band, options.height);
-                for (int y = first; y < end; ++y)
-                    for (int x = 0; x < options.width; ++x)
-                        image.at(x, y) = pixel(band, x, y);
-            });
+    visible.for_each_band(Workers(options.threads), check,
+                          [&](const VisibleFacets::Band& band, int first, int end) {
+                              for (int y = first; y < end; ++y)
+                                  for (int x = 0; x < options.width; ++x)
+                                      image.at(x, y) = pixel(band, x, y);
+                          });
     return image;
 }
 
@@ -137,15 +130,18 @@ Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radio
     const std::vector<Vec2> offsets = pixel_samples(options.samples);
     const VisibleFacets visible(mesh, rays, {options.width, options.height, 1 / width, 1 / height},
                                 offsets, options.threads);
+    const std::function<void()> check = [&] {
+        if (options.give_up && options.give_up())
+            throw Interrupted();
+    };
     if (options.gather == 0)
-        return shaded_picture(visible, Shading(mesh, radiosity, options), options);
+        return shaded_picture(visible, Shading(mesh, radiosity, options), options, check);
     const auto samples = static_cast<unsigned>(options.samples);
     const PictureGather gather(
         mesh, tracer, PatchLight(radiosity, options.slope), rays, options.width, options.height,
-        {.rays = options.gather, .samples = samples, .give_up = options.give_up},
-        Workers(options.threads));
-    return GatheredPicture(mesh, visible, gather, offsets, options.width, options.height)
-        .render(options.give_up, Workers(options.threads));
+        {.rays = options.gather, .samples = samples, .check = check}, Workers(options.threads));
+    return gathered_picture(mesh, visible, gather, offsets, options.width, options.height, check,
+                            Workers(options.threads));
 }
 
 double exposure_of(const Image& picture, const Mesh& mesh, const Tracer& tracer,

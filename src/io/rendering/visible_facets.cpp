@@ -136,6 +136,19 @@ void VisibleFacets::fill(int band, Band& out) const {
     }
 }
 
+void VisibleFacets::for_each_band(
+    const Workers& workers, const std::function<void()>& check,
+    const std::function<void(const Band& band, int first, int end)>& visit) const {
+    workers.for_chunks_with(
+        static_cast<std::size_t>(bands_), 1, [] { return Band(); },
+        [&](Band& band, std::size_t b, std::size_t) {
+            check();
+            fill(static_cast<int>(b), band);
+            const int first = static_cast<int>(b) * rows_per_band;
+            visit(band, first, std::min(first + rows_per_band, grid_.rows));
+        });
+}
+
 /// `start`: of the first sample.
 void VisibleFacets::fill_row(const Triangle& triangle, const Vec2& start, std::uint32_t half,
                              std::uint32_t* halves, double* nearness) const {

@@ -13,12 +13,14 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 namespace hemilux {
 
 class Mesh;
+class Workers;
 
 /// Samples in columns and rows. Sample (x, y) of a set lies at (x + offset.x, y + offset.y).
 struct SampleGrid {
@@ -46,6 +48,11 @@ class VisibleFacets {
         std::vector<double> nearness; ///< inverse of the distance along CameraRays::direction
     };
     void fill(int band, Band& out) const;
+    /// Calls visit(band, first, end) for each band once it is filled, with its rows of the picture,
+    /// by several threads; before each check(), which may throw to end it.
+    void
+    for_each_band(const Workers& workers, const std::function<void()>& check,
+                  const std::function<void(const Band& band, int first, int end)>& visit) const;
     /// CameraRays::direction through a place in samples.
     [[nodiscard]] Vec3 direction(const Vec2& place) const {
         return origin_ + place.x * column_ + place.y * row_;
