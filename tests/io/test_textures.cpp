@@ -2,7 +2,6 @@
 
 #include "io/files/error.h"
 #include "io/pictures/image.h"
-#include "io/pictures/zlib.h"
 #include "io/rendering/render.h"
 #include "io/scene_files/obj.h"
 #include "io/textures/texture_files.h"

@@ -2,7 +2,6 @@
 
 #include "io/files/atomic_file.h"
 #include "io/files/little_endian.h"
-#include "io/pictures/zlib.h"
 
 #include <algorithm>
 #include <bit>

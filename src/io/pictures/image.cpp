@@ -3,7 +3,6 @@
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/pictures/picture_provenance.h"
-#include "io/pictures/zlib.h"
 
 #include <algorithm>
 #include <array>

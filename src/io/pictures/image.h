@@ -60,4 +60,8 @@ void write_png(const std::string& path, const Image& image, const Display& displ
 /// OutputError.
 void write_hdr(const std::string& path, const Image& image, const Provenance& from = {});
 
+/// The bytes as a zlib stream (RFC 1950), as a PNG and an EXR file have them. Throws
+/// std::bad_alloc.
+[[nodiscard]] std::string zlib_compressed(std::vector<unsigned char> bytes);
+
 } // namespace hemilux
