@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace hemilux {
 namespace {
@@ -41,58 +43,45 @@ Nearest nearest_on(const std::array<Corner, 3>& triangle, const Vec2& at) {
     return std::min({nearest_on(a, b, at), nearest_on(b, c, at), nearest_on(c, a, at)}, nearer);
 }
 
-/// The picture under way, and how far each texel is from what it shows.
-class Painter {
-  public:
-    explicit Painter(int size)
-        : image_(size, size), distance_(image_.pixels.size(), std::numeric_limits<float>::max()) {}
-
-    /// Paints the texels of the chart that are at most the gutter away from the triangle, and not
-    /// nearer to another one.
-    void paint(const LightmapChart& chart, const std::array<Corner, 3>& triangle) {
-        const auto& [a, b, c] = triangle;
-        const Vec2 low = glm::min(a.place, glm::min(b.place, c.place)) - double(gutter);
-        const Vec2 high = glm::max(a.place, glm::max(b.place, c.place)) + double(gutter);
-        const auto range = [](double from, double to, int first, int count) {
-            return std::pair(std::max(first - gutter, static_cast<int>(std::floor(from))),
-                             std::min(first + count + gutter, static_cast<int>(std::ceil(to))));
-        };
-        const auto [left, right] = range(low.x, high.x, chart.column, chart.columns);
-        const auto [top, bottom] = range(low.y, high.y, chart.row, chart.rows);
-        for (int y = top; y < bottom; ++y)
-            for (int x = left; x < right; ++x)
-                offer(x, y, nearest_on(triangle, {x + 0.5, y + 0.5}));
-    }
-
-    [[nodiscard]] Image take() { return std::move(image_); }
-
-  private:
-    void offer(int x, int y, const Nearest& nearest) {
-        float& distance = distance_[image_.index(x, y)];
-        if (!(static_cast<float>(nearest.distance) < distance))
-            return;
-        distance = static_cast<float>(nearest.distance);
-        image_.at(x, y) = glm::vec3(nearest.light);
-    }
-
-    Image image_;
-    std::vector<float> distance_;
-};
+/// Paints the texels of the chart that are at most the gutter away from the triangle, and not
+/// nearer to another one. `distance` of each texel to what it shows is squared [texels^2].
+void paint(const LightmapChart& chart, const std::array<Corner, 3>& triangle, Image& image,
+           std::vector<float>& distance) {
+    const auto& [a, b, c] = triangle;
+    const Vec2 low = glm::min(a.place, glm::min(b.place, c.place)) - double(gutter);
+    const Vec2 high = glm::max(a.place, glm::max(b.place, c.place)) + double(gutter);
+    const auto range = [](double from, double to, int first, int count) {
+        return std::pair(std::max(first - gutter, static_cast<int>(std::floor(from))),
+                         std::min(first + count + gutter, static_cast<int>(std::ceil(to))));
+    };
+    const auto [left, right] = range(low.x, high.x, chart.column, chart.columns);
+    const auto [top, bottom] = range(low.y, high.y, chart.row, chart.rows);
+    for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x) {
+            const Nearest nearest = nearest_on(triangle, {x + 0.5, y + 0.5});
+            float& least = distance[image.index(x, y)];
+            if (!(static_cast<float>(nearest.distance) < least))
+                continue;
+            least = static_cast<float>(nearest.distance);
+            image.at(x, y) = glm::vec3(nearest.light);
+        }
+}
 
 } // namespace
 
 Image lightmap(const std::vector<LightmapChart>& charts, const ChartCorners& corners,
                std::span<const Vec3> light, int size) {
-    Painter painter(size);
+    Image image(size, size);
+    std::vector<float> distance(image.pixels.size(), std::numeric_limits<float>::max());
     for (const LightmapChart& chart : charts)
         for (const std::uint32_t i : chart.patches) {
             const auto corner = [&](std::uint32_t k) { return Corner{corners.place[k], light[k]}; };
             for_each_triangle(corners.classes, i,
                               [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-                                  painter.paint(chart, {corner(a), corner(b), corner(c)});
+                                  paint(chart, {corner(a), corner(b), corner(c)}, image, distance);
                               });
         }
-    return painter.take();
+    return image;
 }
 
 } // namespace hemilux
