@@ -176,7 +176,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
                                  solution.standard_error, Workers(results.statistics.threads),
                                  solution.slope, solution.weight);
     case OutputKind::json:
-        return write_statistics(output.path, results.statistics);
+        return write_atomically(output.path, to_json(results.statistics));
     }
 }
 
@@ -272,7 +272,7 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
         report.add(of_output);
     if (!settings.statistics.empty())
         report.attempt(settings.statistics,
-                       [&] { write_statistics(settings.statistics, results.statistics); });
+                       [&] { write_atomically(settings.statistics, to_json(results.statistics)); });
     if (!settings.steps_log.empty())
         report.attempt(settings.steps_log,
                        [&] { write_steps_log(settings.steps_log, results.steps); });

@@ -1,28 +1,16 @@
 #include "io/results/statistics.h"
 
-#include "io/files/atomic_file.h"
-
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <sys/resource.h>
 
 namespace hemilux {
 namespace {
 
-const char* name_of(ErrorOf what) {
-    switch (what) {
-    case ErrorOf::surfaces:
-        return "surfaces";
-    case ErrorOf::gathered:
-        return "gathered";
-    case ErrorOf::target:
-        return "target";
-    case ErrorOf::patches:
-        break;
-    }
-    return "patches";
-}
+/// In the order of ErrorOf.
+constexpr std::array names_of_errors = {"patches", "surfaces", "gathered", "target"};
 
 using Json = nlohmann::ordered_json;
 
@@ -47,6 +35,7 @@ Json to_object(const Statistics& s) {
     Json left_out = Json::array();
     for (const LeftOut& item : s.left_out)
         left_out.push_back({{"what", item.what}, {"why", item.why}, {"saved", item.saved}});
+    const auto error_of = static_cast<std::size_t>(s.estimated_error_of);
     Json object = {{"patches", s.patches},
                    {"faces", s.faces},
                    {"materials", s.materials},
@@ -72,7 +61,7 @@ Json to_object(const Statistics& s) {
                    {"bytes_peak", s.bytes_peak},
                    {"estimated_error", s.estimated_error},
                    {"estimated_error_uncertainty", s.estimated_error_uncertainty},
-                   {"estimated_error_of", name_of(s.estimated_error_of)},
+                   {"estimated_error_of", names_of_errors.at(error_of)},
                    {"error_sampling", s.error_sampling},
                    {"error_division", s.error_division},
                    {"error_division_uncertainty", s.error_division_uncertainty},
@@ -115,10 +104,6 @@ std::string to_json(const Statistics& statistics) {
     // A name that is not UTF-8 must not cost the user the file; NaN and infinity become null.
     constexpr int indent = 2;
     return to_object(statistics).dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-void write_statistics(const std::string& path, const Statistics& statistics) {
-    write_atomically(path, to_json(statistics));
 }
 
 std::uint64_t peak_memory_bytes() {

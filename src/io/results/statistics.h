@@ -83,8 +83,6 @@ struct Statistics {
 
 /// The object's text, one key a line, in the order of the struct.
 [[nodiscard]] std::string to_json(const Statistics& statistics);
-/// Writes the object to a file. Throws OutputError.
-void write_statistics(const std::string& path, const Statistics& statistics);
 
 /// The most memory that this process has held so far [bytes].
 [[nodiscard]] std::uint64_t peak_memory_bytes();
