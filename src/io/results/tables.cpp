@@ -2,17 +2,14 @@
 
 #include "geometry/frame.h"
 #include "io/files/atomic_file.h"
-#include "io/files/error.h"
 #include "io/results/csv.h"
 #include "radiosity/scene/mesh.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <limits>
 #include <string_view>
 
 namespace hemilux {
@@ -21,10 +18,10 @@ namespace {
 constexpr std::string_view patch_header =
     "patch,face,material,group,area,x,y,z,nx,ny,nz,reflectance_r,reflectance_g,reflectance_b,"
     "emission_r,emission_g,emission_b,radiosity_r,radiosity_g,radiosity_b,stderr_r,stderr_g,"
-    "stderr_b\n";
+    "stderr_b";
 constexpr std::string_view gradient_header =
     ",gradient_r_x,gradient_r_y,gradient_r_z,gradient_g_x,gradient_g_y,gradient_g_z,gradient_b_x,"
-    "gradient_b_y,gradient_b_z\n";
+    "gradient_b_y,gradient_b_z";
 constexpr std::string_view steps_header =
     "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,true_error_rest,"
     "total_error\n";
@@ -33,11 +30,8 @@ constexpr std::string_view steps_header =
 constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64;
 
 /// Fields that follow a comma.
-void add(std::string& line, double value) {
-    line += ',';
-    csv::append_number(line, value);
-}
-void add(std::string& line, std::uint64_t value) {
+template <class Number>
+void add(std::string& line, Number value) {
     line += ',';
     csv::append_number(line, value);
 }
@@ -113,12 +107,9 @@ void write_patch_table(const std::string& path, const Mesh& mesh, std::span<cons
     assert(standard_error.empty() || standard_error.size() == rows);
     const PatchRows table(mesh, radiosity, standard_error, slope, weight);
     AtomicFile file(path);
-    const auto columns = [](std::string_view header) {
-        return header.substr(0, header.size() - 1);
-    };
-    std::string header(columns(patch_header));
+    std::string header(patch_header);
     if (!slope.empty())
-        header += columns(gradient_header);
+        header += gradient_header;
     if (!weight.empty())
         header += ",target";
     file.write(header + "\n");
