@@ -17,6 +17,24 @@ constexpr double small_text = 14, title_text = 17;
 constexpr Colour grid{222, 222, 222}, faint_grid{240, 240, 240}, grey{130, 130, 130};
 constexpr double band_opacity = 0.18;
 
+/// Of a dashed line below the curves of each panel.
+constexpr double guide_slope = -0.5;
+constexpr const char* guide_name = "slope -1/2";
+
+/// By its place among the names.
+Colour curve_colour(std::size_t index) {
+    // Distinguished with every kind of colour vision (Okabe and Ito 2008), without their yellow.
+    static constexpr std::array<Colour, 8> colours{{{0, 114, 178},
+                                                    {213, 94, 0},
+                                                    {0, 158, 115},
+                                                    {204, 121, 167},
+                                                    {230, 159, 0},
+                                                    {86, 180, 233},
+                                                    {0, 0, 0},
+                                                    {140, 140, 140}}};
+    return colours[index % colours.size()];
+}
+
 /// Where numbers are on one panel.
 struct Frame2 {
     LogAxis x, y;
@@ -28,13 +46,13 @@ struct Frame2 {
     }
 };
 
-/// The least error that a straight line of the slope through any point has at x = 1, for all
-/// points; infinity where there is none.
-double guide_height(const Panel& panel, double slope) {
+/// The least error that a straight line of the guide's slope through any point has at x = 1, for
+/// all points; infinity where there is none.
+double guide_height(const Panel& panel) {
     double height = std::numeric_limits<double>::infinity();
     for (const MeanCurve& curve : panel.curves)
         for (std::size_t i = 0; i < curve.x.size(); ++i)
-            height = std::min(height, curve.low[i] / std::pow(curve.x[i], slope));
+            height = std::min(height, curve.low[i] / std::pow(curve.x[i], guide_slope));
     constexpr double below = 1.3;
     return height / below;
 }
@@ -54,7 +72,7 @@ LogAxis y_axis(const Chart& chart) {
             numbers.insert(numbers.end(), curve.low.begin(), curve.low.end());
             numbers.insert(numbers.end(), curve.high.begin(), curve.high.end());
         }
-    if (!numbers.empty() && chart.guide_slope != 0)
+    if (!numbers.empty())
         numbers.push_back(std::ranges::min(numbers) / 1.5); // for the guide
     return LogAxis(numbers);
 }
@@ -79,12 +97,12 @@ void draw_grid(const Frame2& frame, Canvas& canvas) {
 }
 
 /// The part within the panel of the line error = height x^slope.
-void draw_guide(const Chart& chart, const Panel& panel, const Frame2& frame, Canvas& canvas) {
-    const double height = guide_height(panel, chart.guide_slope);
-    if (chart.guide_slope == 0 || !std::isfinite(height))
+void draw_guide(const Panel& panel, const Frame2& frame, Canvas& canvas) {
+    const double height = guide_height(panel);
+    if (!std::isfinite(height))
         return;
-    const auto x_at = [&](double error) { return std::pow(error / height, 1 / chart.guide_slope); };
-    const auto error_at_x = [&](double x) { return height * std::pow(x, chart.guide_slope); };
+    const auto x_at = [&](double error) { return std::pow(error / height, 1 / guide_slope); };
+    const auto error_at_x = [&](double x) { return height * std::pow(x, guide_slope); };
     const auto [x0, x1] = std::minmax({x_at(frame.y.low()), x_at(frame.y.high())});
     const double from = std::max(x0, frame.x.low()), to = std::min(x1, frame.x.high());
     if (!(from < to))
@@ -92,7 +110,7 @@ void draw_guide(const Chart& chart, const Panel& panel, const Frame2& frame, Can
     canvas.line(std::array{frame.place(from, error_at_x(from)), frame.place(to, error_at_x(to))},
                 {.colour = grey, .width = 1.2, .dash = 6});
     const double x = from * std::pow(to / from, 0.3);
-    canvas.text(frame.place(x, error_at_x(x)) + Vec2(-8, 18), chart.guide_name,
+    canvas.text(frame.place(x, error_at_x(x)) + Vec2(-8, 18), guide_name,
                 {.anchor = Anchor::end, .size = small_text, .colour = grey});
 }
 
@@ -120,7 +138,7 @@ void draw_curve(const MeanCurve& curve, const Frame2& frame, Colour colour, Canv
 
 void draw_panel(const Chart& chart, const Panel& panel, const Frame2& frame, Canvas& canvas) {
     draw_grid(frame, canvas);
-    draw_guide(chart, panel, frame, canvas);
+    draw_guide(panel, frame, canvas);
     for (std::size_t i = 0; i < panel.curves.size(); ++i)
         draw_band(panel.curves[i], frame, curve_colour(i), canvas);
     for (std::size_t i = 0; i < panel.curves.size(); ++i)
@@ -145,19 +163,6 @@ double panel_left(std::size_t index) {
 }
 
 } // namespace
-
-Colour curve_colour(std::size_t index) {
-    // Distinguished with every kind of colour vision (Okabe and Ito 2008), without their yellow.
-    static constexpr std::array<Colour, 8> colours{{{0, 114, 178},
-                                                    {213, 94, 0},
-                                                    {0, 158, 115},
-                                                    {204, 121, 167},
-                                                    {230, 159, 0},
-                                                    {86, 180, 233},
-                                                    {0, 0, 0},
-                                                    {140, 140, 140}}};
-    return colours[index % colours.size()];
-}
 
 std::string chart_svg(const Chart& chart) {
     const double panels_end = panel_left(chart.panels.size()) - between_panels;

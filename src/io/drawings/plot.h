@@ -19,16 +19,10 @@ struct Chart {
     std::string y_label;
     std::vector<std::string> names; ///< of the curves, for the legend
     std::vector<Panel> panels;
-    /// Draw a dashed line of this slope below the curves of each panel; 0: none.
-    double guide_slope = -0.5;
-    std::string guide_name = "slope -1/2";
 };
 
-/// The colour of a curve by its place among the names.
-[[nodiscard]] Colour curve_colour(std::size_t index);
-
 /// The text of an .svg file: curves with the range of their runs as a light band, ticks, labels,
-/// legend.
+/// legend, and below the curves a dashed line of the slope -1/2.
 [[nodiscard]] std::string chart_svg(const Chart& chart);
 
 } // namespace hemilux
