@@ -12,24 +12,14 @@ namespace {
 
 constexpr double text_size = 12;
 
-/// 1, 2 or 5 times a power of ten, so that at most eight steps fit.
-double tick_step(double most) {
-    constexpr double most_ticks = 8;
-    const double least = most / most_ticks;
-    const double decade = std::pow(10.0, std::floor(std::log10(least)));
-    for (const double digit : {1.0, 2.0, 5.0})
-        if (digit * decade >= least)
-            return digit * decade;
-    return 10 * decade;
-}
-
 } // namespace
 
 std::vector<BarMark> round_marks(double most) {
     if (!(most > 0))
         return {{0, tick_text(0)}};
     std::vector<BarMark> marks;
-    const double step = tick_step(most);
+    constexpr double most_steps = 8;
+    const double step = round_up(most / most_steps);
     constexpr double rounding = 1 + 1e-9;
     for (int i = 0; i * step <= most * rounding; ++i)
         marks.push_back({i * step / most, tick_text(i * step)});

@@ -13,7 +13,8 @@ namespace hemilux {
 namespace {
 
 constexpr double within_scale = 0.99;
-constexpr double least_scale = 1e-6; ///< where pictures do not differ
+constexpr double least_scale = 1e-6;  ///< where pictures do not differ
+constexpr double rounding = 1 + 1e-6; ///< of floats
 
 /// One side of the scale, from white outwards.
 using Stops = std::array<glm::vec3, 4>;
@@ -24,16 +25,6 @@ glm::vec3 along(const Stops& stops, double t) {
     const double place = t * double(stops.size() - 1);
     const auto first = std::min(static_cast<std::size_t>(place), stops.size() - 2);
     return glm::mix(stops[first], stops[first + 1], static_cast<float>(place - double(first)));
-}
-
-/// The smallest 1, 2 or 5 times a power of ten that is not below x.
-double round_up(double x) {
-    const double decade = std::pow(10.0, std::floor(std::log10(x)));
-    constexpr double rounding = 1 + 1e-6; // of floats
-    for (const double digit : {1.0, 2.0, 5.0})
-        if (x <= digit * decade * rounding)
-            return digit * decade;
-    return 10 * decade;
 }
 
 /// Almost all of what differs is within it.
@@ -55,7 +46,7 @@ std::vector<double> marks(const DifferenceScale& scale) {
         return {scale.most / 2, scale.most};
     std::vector<double> values{scale.most};
     if (scale.most > 15 * scale.typical)
-        values.push_back(round_up(std::sqrt(scale.most * scale.typical) / 2));
+        values.push_back(round_up(std::sqrt(scale.most * scale.typical) / 2, rounding));
     constexpr double too_near_to_0 = 0.2;
     if (scale.place(scale.typical) > too_near_to_0)
         values.push_back(scale.typical);
@@ -95,7 +86,7 @@ DifferenceScale common_scale(std::span<const std::vector<float>> differences) {
     if (scales.empty())
         return {};
     std::ranges::sort(scales);
-    return {round_up(scales[(scales.size() - 1) / 2]), round_up(scales.back())};
+    return {round_up(scales[(scales.size() - 1) / 2], rounding), round_up(scales.back(), rounding)};
 }
 
 Image false_colour(const std::vector<float>& difference, int width, int height,

@@ -53,6 +53,14 @@ std::vector<LogTick> LogAxis::ticks() const {
     return result;
 }
 
+double round_up(double x, double rounding) {
+    const double decade = std::pow(10.0, std::floor(std::log10(x)));
+    for (const double digit : {1.0, 2.0, 5.0})
+        if (x <= digit * decade * rounding)
+            return digit * decade;
+    return 10 * decade;
+}
+
 std::string tick_text(double value) {
     static constexpr std::array<const char*, 5> units{"", "k", "M", "G", "T"};
     std::size_t unit = 0;

@@ -29,6 +29,10 @@ class LogAxis {
     double low_ = 1, high_ = 10;
 };
 
+/// The smallest 1, 2 or 5 times a power of ten that, times `rounding`, is not below x, which is
+/// above 0.
+[[nodiscard]] double round_up(double x, double rounding = 1);
+
 /// A label such as 0.05, 20, 500, 2k, 10M or 1e-07.
 [[nodiscard]] std::string tick_text(double value);
 
