@@ -38,20 +38,20 @@ Colour heat_colour(double t) {
     return {byte(rgb.r), byte(rgb.g), byte(rgb.b)};
 }
 
-void draw_colour_bar(const ColourBar& bar, Canvas& canvas) {
-    const double width = bar.high.x - bar.low.x;
+void draw_colour_bar(const Vec2& low, const Vec2& high, double most, const std::string& caption,
+                     Canvas& canvas) {
+    const double width = high.x - low.x;
     constexpr int cells = 128;
     for (int i = 0; i < cells; ++i) {
         // Each reaches to the end, under those that follow: so no seams are seen.
-        fill_box(canvas, {bar.low.x + width * i / cells, bar.low.y}, bar.high,
-                 heat_colour((i + 0.5) / cells));
+        fill_box(canvas, {low.x + width * i / cells, low.y}, high, heat_colour((i + 0.5) / cells));
     }
-    for (const BarMark& mark : round_marks(bar.most)) {
-        const double x = bar.low.x + width * mark.place;
-        canvas.line(std::array{Vec2(x, bar.high.y), Vec2(x, bar.high.y + 4)}, {});
-        canvas.text({x, bar.high.y + 16}, mark.text, {.anchor = Anchor::middle, .size = text_size});
+    for (const BarMark& mark : round_marks(most)) {
+        const double x = low.x + width * mark.place;
+        canvas.line(std::array{Vec2(x, high.y), Vec2(x, high.y + 4)}, {});
+        canvas.text({x, high.y + 16}, mark.text, {.anchor = Anchor::middle, .size = text_size});
     }
-    canvas.text({(bar.low.x + bar.high.x) / 2, bar.high.y + 33}, bar.caption,
+    canvas.text({(low.x + high.x) / 2, high.y + 33}, caption,
                 {.anchor = Anchor::middle, .size = text_size});
 }
 

@@ -4,6 +4,7 @@
 #include "io/drawings/canvas.h"
 
 #include <string>
+#include <vector>
 
 namespace hemilux {
 
@@ -20,13 +21,9 @@ struct BarMark {
 /// 0 and its multiples of 1, 2 or 5 times a power of ten up to `most`, the number at the right end.
 [[nodiscard]] std::vector<BarMark> round_marks(double most);
 
-struct ColourBar {
-    Vec2 low, high; ///< corners: top left, bottom right
-    double most;    ///< the number at the right end; 0 is at the left
-    std::string caption;
-};
-
-/// The bar with round numbers and the caption below it, in 40 pixels.
-void draw_colour_bar(const ColourBar& bar, Canvas& canvas);
+/// The bar with round numbers and the caption below it, in 40 pixels. `low` and `high` are its
+/// corners, top left and bottom right; 0 is at its left end, `most` at the right one.
+void draw_colour_bar(const Vec2& low, const Vec2& high, double most, const std::string& caption,
+                     Canvas& canvas);
 
 } // namespace hemilux

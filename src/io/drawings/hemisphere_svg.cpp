@@ -219,7 +219,7 @@ void draw(const HemisphereDrawing& drawing, Canvas& canvas) {
     } else {
         draw_parts(drawing.parts, side, most, canvas);
     }
-    draw_colour_bar({{440, 732}, {840, 746}, most, "density, " + drawing.unit}, canvas);
+    draw_colour_bar({440, 732}, {840, 746}, most, "density, " + drawing.unit, canvas);
 }
 
 std::string hemisphere_svg(const HemisphereDrawing& drawing) {
