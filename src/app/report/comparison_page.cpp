@@ -11,7 +11,7 @@ namespace {
 void write_halves(PageFile& page, const std::string& id, std::span<const std::uint16_t> halves) {
     page.array(id, halves.size() / 3, [&](std::size_t i, std::string& bytes) {
         for (const std::uint16_t half : halves.subspan(3 * i, 3))
-            append_bits(bytes, half);
+            append_number(bytes, half);
     });
 }
 

@@ -13,15 +13,12 @@ namespace hemilux {
 
 class Mesh;
 
-inline void append(std::string& bytes, std::uint32_t word) { append_bits(bytes, word); }
+inline void append(std::string& bytes, std::uint32_t word) { append_number(bytes, word); }
 /// In single precision.
 inline void append(std::string& bytes, double value) {
     append_number(bytes, static_cast<float>(value));
 }
-inline void append(std::string& bytes, const Vec3& v) {
-    for (int i = 0; i < 3; ++i)
-        append(bytes, v[i]);
-}
+inline void append(std::string& bytes, const Vec3& v) { append_numbers(bytes, glm::vec3(v)); }
 
 /// Writes the element `id` with a number or a Vec3, `value_of(i)`, for each i below `count`.
 template <class Value>

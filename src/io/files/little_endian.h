@@ -1,6 +1,8 @@
 #pragma once
 // Numbers as bytes of a file, lowest byte first, whatever the machine's order is.
 
+#include <glm/glm.hpp>
+
 #include <bit>
 #include <concepts>
 #include <cstdint>
@@ -9,16 +11,22 @@
 
 namespace hemilux {
 
-template <std::unsigned_integral Bits>
-void append_bits(std::string& bytes, Bits bits) {
-    for (std::size_t i = 0; i < sizeof bits; ++i)
-        bytes += static_cast<char>(static_cast<unsigned char>(bits >> (8 * i)));
+template <std::unsigned_integral Whole>
+void append_number(std::string& bytes, Whole value) {
+    for (std::size_t i = 0; i < sizeof value; ++i)
+        bytes += static_cast<char>(static_cast<unsigned char>(value >> (8 * i)));
 }
 inline void append_number(std::string& bytes, double value) {
-    append_bits(bytes, std::bit_cast<std::uint64_t>(value));
+    append_number(bytes, std::bit_cast<std::uint64_t>(value));
 }
 inline void append_number(std::string& bytes, float value) {
-    append_bits(bytes, std::bit_cast<std::uint32_t>(value));
+    append_number(bytes, std::bit_cast<std::uint32_t>(value));
+}
+/// Those of a vector, one after the other.
+template <class Number>
+void append_numbers(std::string& bytes, const glm::vec<3, Number>& vector) {
+    for (int axis = 0; axis < 3; ++axis)
+        append_number(bytes, vector[axis]);
 }
 
 /// The four bytes from this place on.

@@ -57,11 +57,6 @@ std::vector<Part> parts_of(const Mesh& mesh, const CornerClasses& classes) {
     return parts;
 }
 
-void append(std::string& bytes, const glm::vec3& vector) {
-    for (int axis = 0; axis < 3; ++axis)
-        append_number(bytes, vector[axis]);
-}
-
 /// The JSON and the buffer of a file: all vertices, then all indices.
 class Document {
   public:
@@ -139,9 +134,9 @@ class Document {
             const glm::vec3 light(light_.of_class[vertex]);
             low = glm::min(low, position);
             high = glm::max(high, position);
-            append(vertices_, position);
-            append(vertices_, light_.display(light));
-            append(vertices_, light);
+            append_numbers(vertices_, position);
+            append_numbers(vertices_, light_.display(light));
+            append_numbers(vertices_, light);
             if (texcoords_.empty())
                 continue;
             append_number(vertices_, static_cast<float>(texcoords_[vertex].x));
@@ -175,7 +170,7 @@ class Document {
                               {"count", part.indices.size()},
                               {"type", "SCALAR"}});
         for (const std::uint32_t index : part.indices)
-            append_bits(indices_, index);
+            append_number(indices_, index);
     }
 
     const Mesh& mesh_;
@@ -190,7 +185,7 @@ class Document {
 /// A chunk of a binary file without its bytes.
 std::string chunk_header(std::size_t bytes, std::string_view type) {
     std::string header;
-    append_bits(header, static_cast<std::uint32_t>(bytes));
+    append_number(header, static_cast<std::uint32_t>(bytes));
     return header + std::string(type);
 }
 
@@ -210,8 +205,8 @@ void write_glb(const std::string& path, const Mesh& mesh, const CornerClasses& c
     if (length > std::numeric_limits<std::uint32_t>::max())
         throw OutputError(path, "would be longer than the 4 GiB of a .glb file");
     std::string header("glTF");
-    append_bits(header, std::uint32_t{2});
-    append_bits(header, static_cast<std::uint32_t>(length));
+    append_number(header, std::uint32_t{2});
+    append_number(header, static_cast<std::uint32_t>(length));
     AtomicFile file(path);
     file.write(header + chunk_header(json.size(), "JSON"));
     file.write(json);

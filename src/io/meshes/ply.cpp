@@ -41,11 +41,10 @@ void append_colour(std::string& record, const Vec3& light, const Display& displa
     if (colours == PlyColours::shown) {
         const glm::vec3 shown = display(linear);
         for (int channel = 0; channel < 3; ++channel)
-            append_bits(record, srgb_byte(shown[channel]));
+            append_number(record, srgb_byte(shown[channel]));
         append_number(record, luminance(linear));
     }
-    for (int channel = 0; channel < 3; ++channel)
-        append_number(record, linear[channel]);
+    append_numbers(record, linear);
 }
 
 } // namespace
@@ -60,16 +59,14 @@ void write_ply(const std::string& path, const Mesh& mesh, const CornerClasses& c
     std::string record;
     for (std::size_t k = 0; k < classes.position.size(); ++k) {
         record.clear();
-        const Vec3 position = mesh.frame().to_world(classes.position[k]);
-        for (int axis = 0; axis < 3; ++axis)
-            append_number(record, position[axis]);
+        append_numbers(record, mesh.frame().to_world(classes.position[k]));
         append_colour(record, light.of_class[k], light.display, colours);
         file.write(record);
     }
     const auto append_face = [&](std::span<const std::uint32_t> vertices) {
         record += static_cast<char>(vertices.size());
         for (const std::uint32_t vertex : vertices)
-            append_bits(record, vertex);
+            append_number(record, vertex);
     };
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
         record.clear();

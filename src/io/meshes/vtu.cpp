@@ -19,9 +19,9 @@ class Grid {
         xml_ += "<DataArray type=\"" + type_of(Number{}) + "\" Name=\"" + name +
                 "\" NumberOfComponents=\"" + std::to_string(components) +
                 "\" format=\"appended\" offset=\"" + std::to_string(bytes_.size()) + "\"/>\n";
-        append_bits(bytes_, std::uint64_t{numbers.size() * sizeof(Number)});
+        append_number(bytes_, std::uint64_t{numbers.size() * sizeof(Number)});
         for (const Number number : numbers)
-            append(number);
+            append_number(bytes_, number);
     }
 
     void add(const std::string& name, const std::vector<Vec3>& vectors) {
@@ -59,11 +59,6 @@ class Grid {
     static std::string type_of(std::uint8_t) { return "UInt8"; }
     static std::string type_of(std::uint32_t) { return "UInt32"; }
     static std::string type_of(std::uint64_t) { return "UInt64"; }
-    void append(double number) { append_number(bytes_, number); }
-    template <std::unsigned_integral Bits>
-    void append(Bits bits) {
-        append_bits(bytes_, bits);
-    }
 
     std::string xml_, bytes_;
 };

@@ -14,7 +14,7 @@ constexpr std::size_t pixel_bytes = 4;
 
 std::string whole(int value) {
     std::string bytes;
-    append_bits(bytes, static_cast<std::uint32_t>(value));
+    append_number(bytes, static_cast<std::uint32_t>(value));
     return bytes;
 }
 
@@ -92,9 +92,9 @@ void write_exr(const std::string& path, int width, int height, std::vector<ExrCh
         for (std::size_t y = std::size_t(first); y < std::size_t(end); ++y)
             for (const ExrChannel& channel : channels)
                 for (std::size_t x = 0; x < columns; ++x)
-                    append_bits(rows, channel.bits[y * columns + x]);
+                    append_number(rows, channel.bits[y * columns + x]);
         const std::string packed = compressed(rows);
-        append_bits(offsets, std::uint64_t{begin + chunks.size()});
+        append_number(offsets, std::uint64_t{begin + chunks.size()});
         chunks += whole(first) + whole(static_cast<int>(packed.size())) + packed;
     }
     AtomicFile file(path);
