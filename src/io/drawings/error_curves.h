@@ -23,8 +23,6 @@ void append(ErrorCurve& curve, CurvePoint point);
 /// Several runs at common x: geometric mean, least and greatest error.
 struct MeanCurve {
     std::vector<double> x, mean, low, high;
-
-    [[nodiscard]] bool empty() const { return x.empty(); }
 };
 
 /// The error at x, interpolated; empty where the curve does not reach.

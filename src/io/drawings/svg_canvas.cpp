@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 namespace hemilux {
 
@@ -21,13 +22,10 @@ std::string number(double x) {
 }
 
 std::string hexadecimal(Colour colour) {
-    constexpr std::string_view digits = "0123456789abcdef";
-    std::string text = "#";
-    for (const std::uint8_t channel : {colour.r, colour.g, colour.b}) {
-        text += digits[channel / 16u];
-        text += digits[channel % 16u];
-    }
-    return text;
+    std::array<char, 8> text{};
+    std::snprintf(text.data(), text.size(), "#%02x%02x%02x", unsigned{colour.r}, unsigned{colour.g},
+                  unsigned{colour.b});
+    return text.data();
 }
 
 std::string point_list(std::span<const Vec2> points) {

@@ -15,6 +15,9 @@
 namespace hemilux {
 namespace {
 
+/// Surfaces that meet at a larger angle [degrees] are shaded apart. A column of twelve sides is
+/// still smooth.
+constexpr double crease_angle = 31;
 const double crease_cosine = std::cos(crease_angle * std::numbers::pi / 180);
 
 /// Classes among the corners of one point. Nearly equal normals share one delegate, so that the

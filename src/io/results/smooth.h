@@ -44,10 +44,6 @@ struct CornerClasses {
     std::vector<Outline> outlines;       ///< in the order of patches
 };
 
-/// Surfaces that meet at a larger angle [degrees] are shaded apart. A column of twelve sides is
-/// still smooth.
-inline constexpr double crease_angle = 31;
-
 [[nodiscard]] CornerClasses find_corner_classes(const Mesh& mesh);
 
 /// Null where a patch has no vertices but its corners.

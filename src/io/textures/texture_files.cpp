@@ -65,11 +65,12 @@ Size size_of(std::string_view bytes, const std::string& place) {
     return size;
 }
 
-} // namespace
-
+/// Whether the bytes begin like a PNG or a JPEG file.
 bool is_picture_file(std::string_view bytes) {
     return bytes.starts_with(png_signature) || bytes.starts_with("\xff\xd8\xff");
 }
+
+} // namespace
 
 Texture decode_texture(std::string_view bytes, const std::string& place) {
     Size size = size_of(bytes, place);

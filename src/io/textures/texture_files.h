@@ -12,9 +12,6 @@
 
 namespace hemilux {
 
-/// Whether the bytes begin like a PNG or a JPEG file.
-[[nodiscard]] bool is_picture_file(std::string_view bytes);
-
 /// Decodes a picture. `place` says for messages where it stands. Throws InputError.
 [[nodiscard]] Texture decode_texture(std::string_view bytes, const std::string& place);
 
