@@ -57,7 +57,7 @@ class View {
     View(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> reference,
          const char* camera)
         : mesh_(mesh), tracer_(tracer),
-          camera_(camera != nullptr ? parse_camera(camera)
+          camera_(camera != nullptr ? parse_camera(camera).value()
                                     : automatic_camera(mesh, tracer, reference,
                                                        double(size.width) / size.height)) {
         const Image best = render(mesh, tracer, reference, camera_, size);

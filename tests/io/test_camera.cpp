@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 using namespace hemilux;
 using namespace hemilux::test;
@@ -52,37 +51,26 @@ std::vector<Vec3> even_light(const Mesh& mesh) {
 } // namespace
 
 TEST_CASE("a camera is read from its numbers") {
-    const Camera a = parse_camera("1,2,3,4,5,6");
+    const Camera a = parse_camera("1,2,3,4,5,6").value();
     CHECK(a.eye == Vec3(1, 2, 3));
     CHECK(a.target == Vec3(4, 5, 6));
     CHECK(a.vertical_fov_degrees == 45);
-    const Camera b = parse_camera(" -1.5, 2e3 ,0,.25,0,0, 60");
+    const Camera b = parse_camera(" -1.5, 2e3 ,0,.25,0,0, 60").value();
     CHECK(b.eye == Vec3(-1.5, 2000, 0));
     CHECK(b.target == Vec3(0.25, 0, 0));
     CHECK(b.vertical_fov_degrees == 60);
     CHECK(b.up == Vec3(0, 1, 0));
-    CHECK(parse_camera("1,2,3,4,5,6,60,0,0,1").up == Vec3(0, 0, 1));
+    CHECK(parse_camera("1,2,3,4,5,6,60,0,0,1").value().up == Vec3(0, 0, 1));
 }
 
-TEST_CASE("a camera that cannot be is refused with the reason") {
-    struct Case {
-        const char *text, *reason;
-    };
-    const auto bad = GENERATE(values<Case>({{"", "not a finite number"},
-                                            {"1,2,3,4,5", "only 5 numbers"},
-                                            {"1,2,3,4,5,6,7,8", "upwards needs"},
-                                            {"1,2,3,4,5,6,7,0,0,0", "upwards needs"},
-                                            {"1,2,3,4,5,6,7,0,0,1,1", "more than 10"},
-                                            {"1,2,3,4,5,6,", "''"},
-                                            {"1,2,x,4,5,6", "'x'"},
-                                            {"1,2,3 4,5,6,7", "'3 4'"},
-                                            {"1,2,nan,4,5,6", "'nan'"},
-                                            {"1,2,inf,4,5,6", "'inf'"},
-                                            {"1,2,3,1,2,3", "same point"},
-                                            {"1,2,3,4,5,6,0", "between 0 and 180"},
-                                            {"1,2,3,4,5,6,180", "between 0 and 180"}}));
-    CHECK_THROWS_AS(parse_camera(bad.text), std::invalid_argument);
-    CHECK_THROWS_WITH(parse_camera(bad.text), Catch::Contains(bad.reason));
+TEST_CASE("a camera that cannot be is refused") {
+    for (const char* const bad :
+         {"", "1,2,3,4,5", "1,2,3,4,5,6,7,8", "1,2,3,4,5,6,7,8,9", "1,2,3,4,5,6,7,0,0,0",
+          "1,2,3,4,5,6,7,0,0,1,1", "1,2,3,4,5,6,", "1,2,x,4,5,6", "1,2,3 4,5,6,7", "1,2,nan,4,5,6",
+          "1,2,inf,4,5,6", "1,2,3,1,2,3", "1,2,3,4,5,6,0", "1,2,3,4,5,6,180"}) {
+        INFO(bad);
+        CHECK_FALSE(parse_camera(bad));
+    }
 }
 
 TEST_CASE("rays span the angle, right is right and up is up") {

@@ -28,14 +28,9 @@ Option add_override(Command command, const std::string& name, std::vector<Overri
 std::optional<std::optional<Camera>> camera_from(const std::string& text) {
     if (text == "auto")
         return std::optional<Camera>();
-    try {
-        const Camera camera = parse_camera(text);
-        if (camera.eye != camera.target)
-            return std::optional(camera);
-        return std::nullopt;
-    } catch (const std::invalid_argument&) {
-        return std::nullopt;
-    }
+    if (const std::optional<Camera> camera = parse_camera(text))
+        return camera;
+    return std::nullopt;
 }
 
 void choose_sides(SceneSettings& scene, Sides sides) {

@@ -4,59 +4,37 @@
 #include "io/files/text_words.h"
 #include "radiosity/scene/mesh.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
-#include <string>
+#include <system_error>
+#include <vector>
 
 namespace hemilux {
-namespace {
 
-[[noreturn]] void refuse(std::string_view text, const std::string& reason) {
-    throw std::invalid_argument(
-        "expected ex,ey,ez,tx,ty,tz[,fov[,ux,uy,uz]] (eye, target, vertical "
-        "angle in degrees, direction upwards), got '" +
-        std::string(text) + "': " + reason);
-}
-
-/// Numbers between commas; blanks around them are allowed. Returns how many there are.
-std::size_t parse_numbers(std::string_view text, std::array<double, 10>& numbers) {
-    std::size_t count = 0;
+std::optional<Camera> parse_camera(std::string_view text) {
+    std::vector<double> n;
     for (const std::string_view part : parts_of(text, ',')) {
         const std::string_view word = trimmed(part);
-        if (count == numbers.size())
-            refuse(text, "there are more than 10 numbers");
-        const char* end = word.data() + word.size();
-        const auto [rest, error] = std::from_chars(word.data(), end, numbers[count++]);
-        if (error != std::errc() || rest != end || !std::isfinite(numbers[count - 1]))
-            refuse(text, "'" + std::string(word) + "' is not a finite number");
+        const char* const end = word.data() + word.size();
+        double number = 0;
+        const auto [rest, error] = std::from_chars(word.data(), end, number);
+        if (error != std::errc() || rest != end || !std::isfinite(number))
+            return std::nullopt;
+        n.push_back(number);
     }
-    return count;
-}
-
-} // namespace
-
-Camera parse_camera(std::string_view text) {
-    std::array<double, 10> n{};
-    const std::size_t count = parse_numbers(text, n);
-    if (count < 6)
-        refuse(text, (count == 1 ? "there is only " : "there are only ") + std::to_string(count) +
-                         (count == 1 ? " number" : " numbers"));
+    if (n.size() != 6 && n.size() != 7 && n.size() != 10)
+        return std::nullopt;
     Camera camera{.eye = {n[0], n[1], n[2]}, .target = {n[3], n[4], n[5]}};
-    if (camera.eye == camera.target)
-        refuse(text, "eye and target are the same point");
-    if (count > 6)
+    if (n.size() > 6)
         camera.vertical_fov_degrees = n[6];
-    if (count > 7) {
+    if (n.size() > 7)
         camera.up = {n[7], n[8], n[9]};
-        if (count < 10 || camera.up == Vec3(0.0))
-            refuse(text, "the direction upwards needs three numbers that are not all 0");
-    }
-    if (!(camera.vertical_fov_degrees > 0 && camera.vertical_fov_degrees < 180))
-        refuse(text, "the angle must lie between 0 and 180 degrees");
-    return camera;
+    const bool can_be = camera.eye != camera.target && camera.up != Vec3(0.0) &&
+                        camera.vertical_fov_degrees > 0 && camera.vertical_fov_degrees < 180;
+    return can_be ? std::optional(camera) : std::nullopt;
 }
 
 CameraRays::CameraRays(const Camera& camera, const Mesh& mesh, double aspect)

@@ -12,9 +12,11 @@ namespace hemilux {
 
 class Mesh;
 
-/// Reads "ex,ey,ez,tx,ty,tz", to which ",fov" or ",fov,ux,uy,uz" may be added. Throws
-/// std::invalid_argument, whose text says what was expected.
-[[nodiscard]] Camera parse_camera(std::string_view text);
+/// Reads eye and target "ex,ey,ez,tx,ty,tz", to which the vertical angle ",fov" in degrees, or it
+/// and the direction upwards ",fov,ux,uy,uz", may be added, with blanks around the numbers. Empty
+/// for any other text, and where eye and target are one point, the angle is not between 0 and 180
+/// or the direction is 0.
+[[nodiscard]] std::optional<Camera> parse_camera(std::string_view text);
 
 /// The rays of a camera, in the local frame of a mesh.
 class CameraRays {
