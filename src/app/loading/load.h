@@ -49,8 +49,8 @@ struct LoadedMesh {
     std::vector<std::string> warnings; ///< that were logged
 };
 
-/// Does all of this, with what there is to report. Throws MemoryError if the methods side by side,
-/// or `before` alone, would need more memory than they may.
+/// Does all of this, with what there is to report. Throws std::runtime_error if the methods side
+/// by side, or `before` alone, would need more memory than they may.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                                    const SolveOptions& options,
                                    std::span<const Method* const> methods, Verbosity verbosity,

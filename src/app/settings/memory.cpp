@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <stdexcept>
 #include <system_error>
 
 namespace hemilux {
@@ -167,39 +168,30 @@ double bytes_of_compared_pictures(PixelSize size) {
     return bytes_per_compared_pixel * static_cast<double>(size.width) * size.height;
 }
 
-namespace {
-
-/// Reading takes more than it may.
-MemoryError too_large_to_read(const std::string& path, double need, std::uint64_t limit) {
-    return MemoryError(path + ": needs " + rounded(need) + " to be read alone, and --memory is " +
-                       rounded(static_cast<double>(limit)));
-}
-
-} // namespace
-
 std::function<void(double bytes)> memory_guard(const std::string& path,
                                                std::optional<std::uint64_t> limit) {
     if (!limit)
         return {};
-    return [path, limit](double bytes) {
-        if (const double need = bytes_of_program + bytes; need > static_cast<double>(*limit))
-            throw too_large_to_read(path, need, *limit);
+    return [path, most = static_cast<double>(*limit)](double bytes) {
+        if (const double need = bytes_of_program + bytes; need > most)
+            throw std::runtime_error(path + ": needs " + rounded(need) +
+                                     " to be read alone, and --memory is " + rounded(most));
     };
 }
 
 void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit) {
+    if (!limit)
+        return;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
-    const double need = bytes_of_program + (error ? 0 : static_cast<double>(size));
-    if (limit && need > static_cast<double>(*limit))
-        throw too_large_to_read(path, need, *limit);
+    memory_guard(path, limit)(error ? 0 : static_cast<double>(size));
 }
 
 void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
                   const std::string& path) {
     if (!limit || need.all() <= static_cast<double>(*limit))
         return;
-    throw MemoryError(
+    throw std::runtime_error(
         path + ": needs about " + rounded(need.all()) + " (scene " + rounded(need.scene) +
         ", patches " + rounded(need.mesh) + ", tree " + rounded(need.tree) + ", method " +
         rounded(need.method) + ", pictures " + rounded(need.pictures) + "), and --memory is " +

@@ -1,5 +1,6 @@
 #pragma once
-// --memory: what a scene will need is estimated before it is allocated.
+// --memory: what a scene will need is estimated before it is allocated. The program ends with exit
+// code 3 where that is too much.
 
 #include "app/settings/settings.h"
 #include "radiosity/scene/scene.h"
@@ -9,7 +10,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -46,10 +46,6 @@ struct MemoryNeed {
 [[nodiscard]] SolveOptions with_memory(SolveOptions options, const SceneSettings& scene,
                                        std::size_t solvers = 1);
 
-/// Thrown for a scene that is too large; the program ends with exit code 3.
-struct MemoryError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 /// The bytes at the peak of writing a picture of so many pixels, or for `compare` all of its
 /// pictures.
 [[nodiscard]] double bytes_of_picture(PixelSize size, bool gathered);
@@ -59,12 +55,13 @@ struct MemoryError : std::runtime_error {
 /// The bytes of so many points of --points, while their light is gathered and written.
 [[nodiscard]] double bytes_of_points(std::size_t points, unsigned gather);
 
-/// A check while the file is read, which throws MemoryError once that takes more.
+/// A check while the file is read, which throws std::runtime_error once that takes more.
 [[nodiscard]] std::function<void(double bytes)> memory_guard(const std::string& path,
                                                              std::optional<std::uint64_t> limit);
-/// A check before the file is read, by its size.
+/// The same check before the file is read, by its size.
 void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit);
-/// A check before the faces are divided. Throws MemoryError, which says what is needed for what.
+/// A check before the faces are divided. Throws std::runtime_error, which says what is needed for
+/// what.
 void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
                   const std::string& path);
 
