@@ -4,6 +4,7 @@
 #include "app/settings/outputs.h"
 #include "app/settings/overrides.h"
 #include "app/settings/text.h"
+#include "io/files/text_words.h"
 #include "support/catch.h"
 
 #include <limits>

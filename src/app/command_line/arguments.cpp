@@ -2,6 +2,7 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
+#include "io/files/text_words.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

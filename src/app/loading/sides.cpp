@@ -1,10 +1,10 @@
 #include "app/loading/sides.h"
 
 #include "app/loading/load.h"
-#include "app/settings/names.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
 #include "geometry/polygon.h"
+#include "io/files/text_words.h"
 #include "io/scene_files/inspect.h"
 
 #include <algorithm>

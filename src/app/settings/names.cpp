@@ -1,5 +1,7 @@
 #include "app/settings/names.h"
 
+#include "io/files/text_words.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -33,15 +35,6 @@ std::string nearest_name(std::string_view word, std::span<const std::string> kno
         }
     }
     return nearest ? *nearest : std::string();
-}
-
-std::string list_names(std::span<const std::string> names, std::size_t most) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-        text += (i ? ", " : "") + names[i];
-    if (names.size() > most)
-        text += " and " + std::to_string(names.size() - most) + " more";
-    return text;
 }
 
 std::string unknown_name(std::string_view kind, std::string_view word,

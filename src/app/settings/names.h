@@ -36,9 +36,6 @@ template <class Words>
     return joined(words, between, between);
 }
 
-/// A list such as "a, b, c and 5 more".
-[[nodiscard]] std::string list_names(std::span<const std::string> names, std::size_t most = 8);
-
 /// "unknown material 'lihgt'; did you mean 'light'?" or, where none is near, the list of all.
 [[nodiscard]] std::string unknown_name(std::string_view kind, std::string_view word,
                                        std::span<const std::string> known);

@@ -1,7 +1,10 @@
 #pragma once
-// Words, names and numbers of a line of text. Nothing here depends on the locale.
+// Words, names and numbers of a line of text, and lists of names. Nothing here depends on the
+// locale.
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +25,9 @@ std::string_view take_word(std::string_view& text);
 /// All of the text up to a comment. Names may have a # in them: a comment begins with a # after a
 /// blank, and a digit does not follow ("Material #25" is a name).
 [[nodiscard]] std::string_view name_in(std::string_view text);
+
+/// A list such as "a, b, c and 5 more".
+[[nodiscard]] std::string list_names(std::span<const std::string> names, std::size_t most = 8);
 
 /// Reads a decimal number with a point; one too small for a double is 0. Empty for anything else,
 /// such as nan, inf, hexadecimal or a number beyond `largest_number`.

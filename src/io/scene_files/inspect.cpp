@@ -1,6 +1,7 @@
 #include "io/scene_files/inspect.h"
 
 #include "geometry/polygon.h"
+#include "io/files/text_words.h"
 #include "io/scene_files/emitter_shapes.h"
 #include "radiosity/scene/coplanar_layers.h"
 #include "radiosity/scene/mesh.h"
@@ -24,15 +25,6 @@ std::string text_of(double x) {
 std::string text_of(std::size_t n) { return std::to_string(n); }
 std::string text_of(const Vec3& v) {
     return text_of(v.x) + ' ' + text_of(v.y) + ' ' + text_of(v.z);
-}
-std::string text_of(const std::vector<std::string>& items) {
-    constexpr std::size_t longest_list = 8;
-    std::string text;
-    for (std::size_t i = 0; i < std::min(items.size(), longest_list); ++i)
-        text += (i == 0 ? "" : ", ") + items[i];
-    if (items.size() > longest_list)
-        text += " and " + text_of(items.size() - longest_list) + " more";
-    return text;
 }
 
 std::string counted(std::size_t n, const char* one, const char* many) {
@@ -142,7 +134,7 @@ std::string describe(const SceneInfo& info) {
     text += info_line("total area", text_of(info.total_area));
     text += info_line("emitted power", text_of(info.emitted_power) + " (red, green, blue)");
     text +=
-        info_line("emitting materials", info.emitters.empty() ? "none" : text_of(info.emitters));
+        info_line("emitting materials", info.emitters.empty() ? "none" : list_names(info.emitters));
     add_doubt(text, "without area", info.degenerate_faces, "face", "left out");
     add_doubt(text, "not planar", info.nonplanar_faces, "face", "divided into triangles");
     add_doubt(text, "concave", info.concave_faces, "face", "divided into triangles");
