@@ -1,6 +1,7 @@
 #include "app/report/run_data.h"
 
 #include "app/terminal/machine.h"
+#include "io/files/text_words.h"
 #include "radiosity/scene/mesh.h"
 
 #include <nlohmann/json.hpp>
@@ -103,16 +104,7 @@ std::string comparison_json(const ComparisonContent& content) {
     run["methods"] = methods_json(content.methods);
     run["summary"] = content.summary;
     run["facts"] = content.facts;
-    run["columns"] = {"method",
-                      "run",
-                      "step",
-                      "rays",
-                      "seconds",
-                      "estimated_error",
-                      "true_error",
-                      "true_error_detail",
-                      "true_error_rest",
-                      "total_error"};
+    run["columns"] = parts_of(steps_columns, ',');
     run["rows"] = Json::array();
     for (const StepRow& row : content.rows)
         run["rows"].push_back(row_json(row));

@@ -22,9 +22,6 @@ constexpr std::string_view patch_header =
 constexpr std::string_view gradient_header =
     ",gradient_r_x,gradient_r_y,gradient_r_z,gradient_g_x,gradient_g_y,gradient_g_z,gradient_b_x,"
     "gradient_b_y,gradient_b_z";
-constexpr std::string_view steps_header =
-    "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,true_error_rest,"
-    "total_error\n";
 
 /// Some rows are written to the file while others are put into words: so many at once, about 4 MB.
 constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64;
@@ -131,7 +128,8 @@ void write_patch_table(const std::string& path, const Mesh& mesh, std::span<cons
 }
 
 void write_steps_log(const std::string& path, std::span<const StepRow> rows) {
-    std::string text(steps_header);
+    std::string text(steps_columns);
+    text += '\n';
     for (const StepRow& row : rows) {
         csv::append_text(text, row.method);
         add(text, std::uint64_t{row.run});

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hemilux {
@@ -47,6 +48,10 @@ struct StepRow {
     std::optional<double> total_error{}; ///< against the light itself (known_light.h), if asked for
 };
 
+/// The names of a row's columns, with commas between them.
+inline constexpr std::string_view steps_columns =
+    "method,run,step,rays,seconds,estimated_error,true_error,true_error_detail,true_error_rest,"
+    "total_error";
 /// Writes the log. A number that is absent or NaN stays an empty field. Throws OutputError.
 void write_steps_log(const std::string& path, std::span<const StepRow> rows);
 
