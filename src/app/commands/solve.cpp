@@ -26,6 +26,7 @@
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
 #include "app/terminal/unused_options.h"
+#include "io/results/points.h"
 #include "parallel/workers.h"
 #include "radiosity/scene/needs.h"
 #include "radiosity/solving/left_out.h"
@@ -131,7 +132,8 @@ void SolveRun::read_scene() {
     warn_of_unused(settings_);
     Workers(settings_.options.threads).start();
     resumed_ = read_resumed(settings_);
-    points_ = points_of(settings_);
+    if (!settings_.points.path.empty())
+        points_ = read_points(settings_.points.path);
     target_points_ = points_of_target(settings_.target);
     loaded_ = load_mesh(settings_.scene, files, settings_.options, methods, settings_.verbosity,
                         bytes_of_outputs());

@@ -10,11 +10,6 @@
 
 namespace hemilux {
 
-std::vector<NamedPoint> points_of(const SolveSettings& settings) {
-    return settings.points.path.empty() ? std::vector<NamedPoint>()
-                                        : read_points(settings.points.path);
-}
-
 void check_distances(const SolveSettings& settings, std::span<const NamedPoint> points,
                      const Mesh& mesh) {
     constexpr double most = 1e6; // half the size of the scene is 1

@@ -4,12 +4,8 @@
 #include "app/running/results.h"
 
 #include <span>
-#include <vector>
 
 namespace hemilux {
-
-/// Reads the points of --points; none if it is not given. Throws InputError.
-[[nodiscard]] std::vector<NamedPoint> points_of(const SolveSettings& settings);
 
 /// Throws InputError for a point so far from the scene that its coordinates could not tell rays to
 /// it apart.
