@@ -57,15 +57,6 @@ StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
     return stop;
 }
 
-std::unique_ptr<Solver> make_solver(const SolveSettings& settings, const SolverInput& input,
-                                    std::span<const std::uint32_t> face_lines) {
-    try {
-        return settings.plain ? settings.method->plain(input) : settings.method->make(input);
-    } catch (const SolveError& error) {
-        throw as_input_error(error, settings.scene.path, face_lines);
-    }
-}
-
 /// A run of the program from its options to its last words, step by step.
 class SolveRun {
   public:
@@ -173,9 +164,15 @@ std::unique_ptr<Solver> SolveRun::begin() {
     options_.rays =
         rays_of_step(settings_.options.rays, settings_.stop.seconds, *settings_.method, patches);
     options_.stop = stop;
-    std::unique_ptr<Solver> solver = make_solver(settings_, *input_, loaded_->face_lines);
-    leave_memory_to_steps();
-    return solver;
+    try {
+        const Method& method = *settings_.method;
+        std::unique_ptr<Solver> solver =
+            settings_.plain ? method.plain(*input_) : method.make(*input_);
+        leave_memory_to_steps();
+        return solver;
+    } catch (const SolveError& error) {
+        throw as_input_error(error);
+    }
 }
 
 void SolveRun::mesh_changed() {
