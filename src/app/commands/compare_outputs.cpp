@@ -58,13 +58,6 @@ Chart chart_of(const Comparison& comparison, std::span<const MethodSummary> summ
     return chart;
 }
 
-void write_chart(const Comparison& comparison, std::span<const MethodSummary> summaries,
-                 WriteReport& report) {
-    const std::string path = path_in(comparison, "error.svg");
-    report.attempt(path,
-                   [&] { write_atomically(path, chart_svg(chart_of(comparison, summaries))); });
-}
-
 Camera camera_of(const Comparison& comparison) {
     return camera_of(comparison.settings.view, comparison.mesh, comparison.tracer,
                      comparison.reference.radiosity, comparison.settings.options.threads);
@@ -176,11 +169,13 @@ WriteReport write_comparison(const Comparison& comparison, std::span<const Metho
                              std::span<const std::string> warnings) {
     WriteReport report;
     const std::string log = path_in(comparison, "error.csv");
+    const std::string chart = path_in(comparison, "error.svg");
     const std::vector<StepRow> rows = all_rows(results);
     report.attempt(log, [&] { write_steps_log(log, rows); });
     if (const std::string& page = comparison.settings.report; !page.empty())
         report.attempt(page, [&] { write_page(comparison, results, summaries, rows, warnings); });
-    write_chart(comparison, summaries, report);
+    report.attempt(chart,
+                   [&] { write_atomically(chart, chart_svg(chart_of(comparison, summaries))); });
     try {
         write_pictures(comparison, results, report);
     } catch (const Interrupted&) {
