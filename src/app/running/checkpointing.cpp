@@ -2,9 +2,9 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/method_options.h"
+#include "app/settings/numbers.h"
 #include "app/terminal/log.h"
 #include "io/files/error.h"
-#include "io/results/csv.h"
 #include "radiosity/saving/state.h"
 
 #include <algorithm>
@@ -15,12 +15,6 @@ namespace {
 
 using Options = std::vector<std::pair<std::string, std::string>>;
 
-std::string exact_text(double value) {
-    std::string text;
-    csv::append_number(text, value);
-    return text;
-}
-
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 /// All but what decides when to stop, where to write and how many threads work. What changes the
@@ -29,9 +23,9 @@ Options options_of(const SolveSettings& settings) {
     const SolveOptions& o = settings.options;
     Options options = {{"hemilux", HEMILUX_VERSION},
                        {"--method", std::string(settings.method->name)},
-                       {"--rays", exact_text(o.rays)},
+                       {"--rays", shortest_text(o.rays)},
                        {"--depth", std::to_string(o.depth)},
-                       {"--threshold", exact_text(o.threshold)},
+                       {"--threshold", shortest_text(o.threshold)},
                        {"--seed", std::to_string(o.seed)},
                        {"--literal", yes_or_no(o.literal)},
                        {"--keep-all", yes_or_no(o.keep_all)}};

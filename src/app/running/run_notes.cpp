@@ -5,14 +5,9 @@
 #include <cmath>
 
 namespace hemilux {
-namespace {
-
-/// An estimate that rises by this factor had missed something.
-constexpr double jump = 3;
-
-} // namespace
 
 void RunNotes::step_done(const StepRecord& record) {
+    constexpr double jump = 3; // an estimate that rises by this factor had missed something
     const double error = record.estimated_error;
     rays_ = record.rays;
     ++steps_;

@@ -24,21 +24,21 @@ std::optional<T> parse(std::string_view text) {
     return value;
 }
 
-std::string shortest(double x) {
+} // namespace
+
+std::string shortest_text(double x) {
     std::array<char, 32> buffer;
     const auto end = std::to_chars(buffer.begin(), buffer.end(), x).ptr;
     return {buffer.begin(), end};
 }
 
-} // namespace
-
 std::string NumberRange::text() const {
-    std::string above = (low_included ? "at least " : "above ") + shortest(low);
+    std::string above = (low_included ? "at least " : "above ") + shortest_text(low);
     if (high == no_limit)
         return above;
     if (low_included && high_included)
-        return "from " + shortest(low) + " to " + shortest(high);
-    return above + (high_included ? " and at most " : " and below ") + shortest(high);
+        return "from " + shortest_text(low) + " to " + shortest_text(high);
+    return above + (high_included ? " and at most " : " and below ") + shortest_text(high);
 }
 
 std::optional<double> parse_number(std::string_view text) {

@@ -28,6 +28,8 @@ inline constexpr double no_limit = 1.7976931348623157e308; ///< the largest doub
 inline constexpr NumberRange positive{.low = 0, .high = no_limit, .low_included = false};
 inline constexpr NumberRange non_negative{.low = 0, .high = no_limit};
 
+/// The shortest text that gives back the same double.
+[[nodiscard]] std::string shortest_text(double x);
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 /// Between separators; empty where one of them is no number.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text,

@@ -53,16 +53,13 @@ void apply_overrides(Scene& scene, Vec3 Material::*quantity,
                 remove_texture(scene.textures.of_material[m], quantity);
             found = true;
         }
-        if (!found)
-            throw UsageError(unknown_name("material", name, material_names(scene)));
+        if (found)
+            continue;
+        std::vector<std::string> known;
+        for (const Material& material : scene.materials)
+            known.push_back(material.name);
+        throw UsageError(unknown_name("material", name, known));
     }
-}
-
-std::vector<std::string> material_names(const Scene& scene) {
-    std::vector<std::string> names;
-    for (const Material& material : scene.materials)
-        names.push_back(material.name);
-    return names;
 }
 
 } // namespace hemilux

@@ -30,6 +30,4 @@ inline constexpr NumberRange reflectance_range{.low = 0, .high = 1};
 void apply_overrides(Scene& scene, Vec3 Material::*quantity,
                      const std::vector<Override>& overrides);
 
-[[nodiscard]] std::vector<std::string> material_names(const Scene& scene);
-
 } // namespace hemilux

@@ -11,12 +11,6 @@
 
 namespace hemilux {
 
-namespace {
-
-constexpr std::size_t most_warnings = 10;
-
-} // namespace
-
 bool can_log() {
     static std::atomic<bool> gave_up{false};
     if (!gave_up && !wait_until_writable(STDERR_FILENO))
@@ -39,6 +33,7 @@ void log_path(Verbosity wanted, Verbosity least, const std::string& verb, const 
 }
 
 void log_warnings(Verbosity wanted, const std::vector<std::string>& warnings) {
+    constexpr std::size_t most_warnings = 10;
     const bool all = wanted == Verbosity::verbose || warnings.size() <= most_warnings;
     const std::size_t shown = all ? warnings.size() : most_warnings;
     for (std::size_t i = 0; i < shown; ++i)
