@@ -275,7 +275,8 @@ Run run_once(const Truth& truth, const Settings& settings, double error, std::ui
          .error = divided.sampling.value_or(*options.stop.error),
          .rays = 2'000'000'000},
         {}, divided.before());
-    Solution solution = with_slopes(solver->solution(), divided);
+    Solution solution = solver->solution();
+    solution.slope = divided.slope;
     statistics.estimated_error = estimated_error(mesh, solution);
     solve.divide_auto = true;
     add_division_error(statistics, solve, mesh, *made.tracer, solution, divided,

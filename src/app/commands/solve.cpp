@@ -265,8 +265,11 @@ void SolveRun::estimate_errors() {
     // Where a signal or the time left no step, there is the light by which patches were divided.
     const bool has_step = solver_->solution().steps > 0 || divided_.rough.steps == 0;
     solution_ = has_step ? &solver_->solution() : &divided_.rough;
-    if (divided_.linear)
-        solution_ = &linear_.emplace(with_slopes(*solution_, divided_));
+    if (divided_.linear) {
+        linear_ = *solution_;
+        linear_->slope = divided_.slope;
+        solution_ = &*linear_;
+    }
     fill(statistics_, settings_, mesh(), *solution_, seconds_solver_);
     // Without an estimate of sampling the error of the division would be taken for the whole.
     if (!settings_.work().estimates_error || !shows_statistics(settings_))

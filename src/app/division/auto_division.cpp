@@ -311,9 +311,4 @@ Divided divide_as_asked(const SolveSettings& settings, Mesh& mesh, const SolverI
     return AutoDivision(settings, mesh, input, begin, mesh_changed, statistics).divide();
 }
 
-Solution with_slopes(Solution solution, const Divided& divided) {
-    solution.slope = divided.slope;
-    return solution;
-}
-
 } // namespace hemilux

@@ -53,7 +53,4 @@ using MeshChanged = std::function<void()>;
                                       const SolverInput& input, const BeginSolver& begin,
                                       const MeshChanged& mesh_changed, Statistics& statistics);
 
-/// The solution that is given out, with the slopes of its patches.
-[[nodiscard]] Solution with_slopes(Solution solution, const Divided& divided);
-
 } // namespace hemilux
