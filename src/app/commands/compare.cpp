@@ -155,9 +155,7 @@ int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
                  results.empty()
                      ? "interrupted before the first step of a method was done"
                      : "interrupted; the results are those of the steps that were done");
-    if (!report.failed.empty())
-        return exit_output;
-    return comparison.monitor.interrupted ? exit_code_of_signal() : exit_done;
+    return report.exit_code(comparison.monitor.interrupted);
 }
 
 /// Fills in the lines of the faces as soon as they are known.
