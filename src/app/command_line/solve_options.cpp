@@ -204,7 +204,7 @@ void add_divide_option(Command command, Option max_edge, SolveSettings& settings
         "none]",
         "auto, none or a length above 0", division_from,
         [&settings](const DivisionChoice& choice) {
-            settings.divide = choice.by_light ? Divide::automatic : Divide::as_given;
+            settings.divide_given = true;
             settings.divide_auto = choice.by_light;
             settings.scene.mesh.max_edge = choice.max_edge;
         })

@@ -17,7 +17,7 @@ constexpr std::size_t most_patches_of_large_models = 200'000;
 } // namespace
 
 bool is_large_by_default(const SolveSettings& settings, std::size_t patches) {
-    return settings.divide == Divide::by_default && patches >= most_patches_by_default;
+    return !settings.divide_given && patches >= most_patches_by_default;
 }
 
 AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches) {
@@ -27,7 +27,7 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
     if (is_large_by_default(settings, patches))
         division.most_patches =
             patches + (patches < most_patches_of_large_models ? most_patches_by_default : 0);
-    else if (settings.divide == Divide::by_default)
+    else if (!settings.divide_given)
         division.most_patches = most_patches_by_default;
     if (settings.scene.memory) {
         division.memory = *settings.scene.memory / 2;
@@ -39,7 +39,7 @@ AdaptiveDivision division_of(const SolveSettings& settings, std::size_t patches)
 }
 
 bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
-    return settings.divide == Divide::by_default &&
+    return !settings.divide_given &&
            (patches < most_patches_by_default || gives_gathered_light(settings)) &&
            settings.method == &method_of(Role::standard) && !settings.plain &&
            settings.scene.mesh.max_edge == 0 && settings.target.names().empty() &&

@@ -120,8 +120,7 @@ std::string whole_error_note(const SolveSettings& settings, const Statistics& st
     if (!settings.divide_auto || !is_asked || statistics.estimated_error <= whole_error(settings) ||
         !std::isfinite(statistics.error_division))
         return "";
-    const std::string options =
-        settings.divide == Divide::by_default ? "--divide auto" : "--memory, --time";
+    const std::string options = settings.divide_given ? "--memory, --time" : "--divide auto";
     if (statistics.estimated_error_of == ErrorOf::gathered)
         return "the run ended before the error of " + percent(whole_error(settings)) +
                " of gathered light was reached, which more patches (" + options +

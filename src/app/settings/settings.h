@@ -84,19 +84,14 @@ struct CheckpointSettings {
     static constexpr double default_every = 60;
 };
 
-/// --divide: by default patches are divided where a plain solve gains by it.
-enum class Divide { by_default, automatic, as_given };
-
 struct SolveSettings {
     SceneSettings scene;
     const Method* method = nullptr;
     bool plain = false; ///< the method's page (Method::plain) instead of the engine
     SolveOptions options;
-    Divide divide = Divide::by_default;
-    /// Patches are divided where the light changes within them; by default as divides_by_default()
-    /// says.
-    bool divide_auto = false;
-    StopRule stop; ///< as given; the method's own rule stands in for an empty one
+    bool divide_given = false; ///< --divide was; else divides_by_default() decides
+    bool divide_auto = false;  ///< patches are divided where the light changes within them
+    StopRule stop;             ///< as given; the method's own rule stands in for an empty one
     ViewSettings view;
     std::vector<Output> outputs;
     Bake bake = Bake::radiosity;                 ///< what mesh files hold
