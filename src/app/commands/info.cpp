@@ -56,7 +56,7 @@ int info(const InfoSettings& settings) {
         }
         report.left_out = left_out(find_needs(mesh));
         if (report.info.bad_reflectances.empty())
-            report.error_division = error_within_patches(mesh, *made.tracer, 0);
+            report.error_division = error_within_patches(mesh, *made.tracer);
     }
     std::cout << (settings.json ? to_json(report)
                                 : message_for(STDOUT_FILENO, describe(report, read.scene, asked),

@@ -10,19 +10,17 @@
 
 namespace hemilux {
 
-std::optional<double> error_within_patches(const Mesh& mesh, const Tracer& tracer,
-                                           unsigned threads) {
+std::optional<double> error_within_patches(const Mesh& mesh, const Tracer& tracer) {
     if (mesh.patches().empty() || mesh.patches().size() > most_patches_by_default)
         return {};
     try {
         Monitor monitor;
-        const Solution rough =
-            rough_solution(mesh, tracer, {.error = .05, .threads = threads}, monitor);
+        const Solution rough = rough_solution(mesh, tracer, {.error = .05}, monitor);
         if (rough.steps == 0)
             return {};
         constexpr double resolved = .01;
         const DivisionError found = division_error(mesh, tracer, rough, {.negligible = resolved},
-                                                   Workers(threads), monitor.interrupted);
+                                                   Workers(0), monitor.interrupted);
         return std::isfinite(found.error) ? std::optional(found.error) : std::nullopt;
     } catch (const SolveError&) {
         return {};

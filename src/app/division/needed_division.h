@@ -10,8 +10,7 @@ class Tracer;
 
 /// How far the light is off within the patches of a mesh, relative to it, from a rough solution;
 /// empty where nothing is lit or cannot be solved, and where there are more patches than a plain
-/// run divides. `threads`: 0: one per core.
-[[nodiscard]] std::optional<double> error_within_patches(const Mesh& mesh, const Tracer& tracer,
-                                                         unsigned threads);
+/// run divides. All cores work at it.
+[[nodiscard]] std::optional<double> error_within_patches(const Mesh& mesh, const Tracer& tracer);
 
 } // namespace hemilux
