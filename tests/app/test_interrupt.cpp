@@ -23,7 +23,8 @@ TEST_CASE("the first interrupt sets the flag, the second ends the program with 1
     const pid_t child = fork();
     if (child == 0) {
         std::atomic<bool> flag{false};
-        const hemilux::InterruptGuard guard(flag);
+        hemilux::InterruptGuard guard;
+        guard.watch(flag);
         raise(SIGINT);
         if (!flag)
             _exit(1);

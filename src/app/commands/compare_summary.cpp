@@ -136,9 +136,8 @@ std::vector<std::size_t> known_columns(const Rows& rows) {
     return known;
 }
 
-} // namespace
-
-std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+/// Lines of text: columns two blanks apart, the first flush left, the others flush right.
+std::string aligned(const Rows& rows) {
     std::vector<std::size_t> widths(rows.front().size());
     for (const auto& row : rows)
         for (std::size_t c = 0; c < row.size(); ++c)
@@ -153,6 +152,8 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     }
     return text;
 }
+
+} // namespace
 
 std::string aligned_for(std::size_t columns, const std::vector<std::vector<std::string>>& rows) {
     const auto fits = [&](const std::string& table) { return table.find('\n') <= columns; };

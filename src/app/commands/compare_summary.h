@@ -41,11 +41,9 @@ struct MethodSummary {
 [[nodiscard]] std::vector<std::vector<std::string>>
 summary_rows(std::span<const MethodSummary> summaries);
 
-/// Lines of text: columns two blanks apart, the first flush left, the others flush right.
-[[nodiscard]] std::string aligned(const std::vector<std::vector<std::string>>& rows);
-
-/// The same for a terminal of so many `columns`, 0: none. Where the lines would be longer, columns
-/// in which nothing is known are left out, and those that do not fit stand in a table below.
+/// Lines of text for a terminal of so many `columns`, 0: none. Fields stand two blanks apart, the
+/// first flush left, the others flush right. Where the lines would be longer, columns in which
+/// nothing is known are left out, and those that do not fit stand in a table below.
 [[nodiscard]] std::string aligned_for(std::size_t columns,
                                       const std::vector<std::vector<std::string>>& rows);
 

@@ -55,6 +55,33 @@ std::string no_light_text(const Scene& scene, const std::vector<std::string>& ma
            (lamps.empty() ? "" : "; by their names these may be lamps: " + list_names(lamps));
 }
 
+/// Throws InputError for what no method can solve.
+void check_solvable(const ReadResult& read, const std::string& path) {
+    if (read.scene.facets.empty())
+        throw InputError(path, "there is no face with an area");
+    check_reflectances(read, path);
+    const std::vector<bool> used = materials_in_use(read.scene);
+    bool emits = false;
+    std::vector<std::string> names;
+    for (std::size_t m = 0; m < used.size(); ++m) {
+        if (!used[m])
+            continue;
+        check_emission(read.scene.materials[m], path);
+        emits = emits || read.scene.materials[m].emission != Vec3(0.0);
+        names.push_back(read.scene.materials[m].name);
+    }
+    if (!emits)
+        throw InputError(path, no_light_text(read.scene, names));
+}
+
+/// A camera is held level; z is upwards where it is level only so, as where Blender exported
+/// without its option +Y Up.
+bool is_level_by_z(const Camera& camera) {
+    const Vec3 right = glm::normalize(glm::cross(camera.target - camera.eye, camera.up));
+    constexpr double level = 1e-3, tilted = .1;
+    return std::abs(right.z) < level && std::abs(right.y) > tilted;
+}
+
 void warn(LoadedMesh& loaded, const std::string& text, Verbosity verbosity) {
     loaded.warnings.push_back(text);
     log_line(verbosity, Verbosity::normal, "warning: " + text);
@@ -76,24 +103,6 @@ ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
     return read;
 }
 
-void check_solvable(const ReadResult& read, const std::string& path) {
-    if (read.scene.facets.empty())
-        throw InputError(path, "there is no face with an area");
-    check_reflectances(read, path);
-    const std::vector<bool> used = materials_in_use(read.scene);
-    bool emits = false;
-    std::vector<std::string> names;
-    for (std::size_t m = 0; m < used.size(); ++m) {
-        if (!used[m])
-            continue;
-        check_emission(read.scene.materials[m], path);
-        emits = emits || read.scene.materials[m].emission != Vec3(0.0);
-        names.push_back(read.scene.materials[m].name);
-    }
-    if (!emits)
-        throw InputError(path, no_light_text(read.scene, names));
-}
-
 InputError as_input_error(const SolveError& error, const std::string& path,
                           std::span<const std::uint32_t> face_lines) {
     return error.face < face_lines.size() ? InputError(path, face_lines[error.face], error.what())
@@ -110,14 +119,6 @@ Mesh divide_scene(Scene scene, const SceneSettings& settings, unsigned threads) 
             throw UsageError(std::string("--max-edge: ") + error.what());
         throw InputError(settings.path, error.what());
     }
-}
-
-/// A camera is held level; z is upwards where it is level only so, as where Blender exported
-/// without its option +Y Up.
-bool is_level_by_z(const Camera& camera) {
-    const Vec3 right = glm::normalize(glm::cross(camera.target - camera.eye, camera.up));
-    constexpr double level = 1e-3, tilted = .1;
-    return std::abs(right.z) < level && std::abs(right.y) > tilted;
 }
 
 FileView view_of_file(const std::string& path, const ReadResult& read) {

@@ -19,10 +19,6 @@ namespace hemilux {
 /// an output of the run.
 [[nodiscard]] ReadResult load_scene(const SceneSettings& settings, const RunFiles& files);
 
-/// Throws InputError for what no method can solve: no faces, a material in use that reflects
-/// more than all light, negative emission, or a scene in which nothing emits.
-void check_solvable(const ReadResult& read, const std::string& path);
-
 /// What cannot be solved, as an error of the file with the line of the face.
 [[nodiscard]] InputError as_input_error(const SolveError& error, const std::string& path,
                                         std::span<const std::uint32_t> face_lines);
@@ -49,8 +45,10 @@ struct LoadedMesh {
     std::vector<std::string> warnings; ///< that were logged
 };
 
-/// Does all of this, with what there is to report. Throws std::runtime_error if the methods side
-/// by side, or `before` alone, would need more memory than they may.
+/// Does all of this, with what there is to report. Throws InputError for what no method can solve:
+/// no faces, a material in use that reflects more than all light, negative emission, or a scene in
+/// which nothing emits; std::runtime_error if the methods side by side, or `before` alone, would
+/// need more memory than they may.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                                    const SolveOptions& options,
                                    std::span<const Method* const> methods, Verbosity verbosity,

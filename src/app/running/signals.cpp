@@ -49,8 +49,6 @@ InterruptGuard::InterruptGuard() {
     sigaction(SIGTERM, &action, nullptr);
 }
 
-InterruptGuard::InterruptGuard(std::atomic<bool>& flag) : InterruptGuard() { watch(flag); }
-
 InterruptGuard::~InterruptGuard() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);

@@ -11,8 +11,6 @@ class InterruptGuard {
   public:
     /// As long as there is nothing to save, a signal ends the program at once.
     InterruptGuard();
-    /// A signal sets the flag.
-    explicit InterruptGuard(std::atomic<bool>& flag);
     ~InterruptGuard();
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;

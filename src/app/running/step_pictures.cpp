@@ -9,12 +9,16 @@
 
 namespace hemilux {
 
+namespace {
+
 std::string step_path(const std::string& path, std::uint32_t step) {
     const std::filesystem::path whole(path);
     const std::string name =
         whole.stem().string() + formatted("-%04u", step) + whole.extension().string();
     return (whole.parent_path() / name).string();
 }
+
+} // namespace
 
 void StepPictures::write(std::span<const Vec3> radiosity, std::uint32_t step) {
     const PictureTime time(interrupted_);

@@ -12,11 +12,9 @@
 
 namespace hemilux {
 
-/// The path of a step's picture: room-0012.png for room.png and step 12.
-[[nodiscard]] std::string step_path(const std::string& path, std::uint32_t step);
-
 /// One camera for all steps, chosen by the first that has light to show; and one exposure, so that
-/// one sees the light grow. Refers to the arguments.
+/// one sees the light grow. The picture of step 12 for room.png is room-0012.png. Refers to the
+/// arguments.
 class StepPictures {
   public:
     StepPictures(const SolveSettings& settings, const Mesh& mesh, const Tracer& tracer,

@@ -38,7 +38,7 @@ void check_writable(const std::string& path);
 class RunFiles {
   public:
     void write(const std::string& role, const std::string& path);
-    /// The pictures of steps that exist, as step_path() names them.
+    /// The pictures of steps that exist, as StepPictures names them.
     void write_steps(const std::string& path);
     /// A file that is read, after all that are written.
     void read(const std::string& role, const std::string& path) const;
