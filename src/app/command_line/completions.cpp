@@ -1,6 +1,7 @@
 #include "app/command_line/generated_texts.h"
 
 #include "app/settings/names.h"
+#include "io/files/text_words.h"
 
 #include <algorithm>
 #include <array>
@@ -16,14 +17,12 @@ std::vector<std::string> choices_of(const std::string& type,
     if (type.starts_with("METHOD"))
         return methods;
     std::vector<std::string> words;
-    for (std::size_t begin = 0; begin <= type.size() && type.find('|') != std::string::npos;) {
-        const std::size_t end = std::min(type.find('|', begin), type.size());
-        const std::string word = type.substr(begin, end - begin);
+    if (type.find('|') == std::string::npos)
+        return words;
+    for (const std::string_view word : parts_of(type, '|'))
         if (std::ranges::none_of(
                 word, [](unsigned char c) { return std::isupper(c) != 0 || c == '[' || c == '%'; }))
-            words.push_back(word);
-        begin = end + 1;
-    }
+            words.emplace_back(word);
     return words;
 }
 

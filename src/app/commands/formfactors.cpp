@@ -79,20 +79,19 @@ std::optional<Factors> by_rays(const FormFactorSettings& settings, const Mesh& m
     if (monitor.interrupted)
         return std::nullopt;
     log_rays(settings.verbosity, mesh.patches().size(), traced);
-    if (settings.options.own.of<FactorOptions>().kind == FactorKind::rays) {
-        SparseMatrix matrix = samples.matrix();
+    const auto assessed = [&](SparseMatrix matrix) {
         const MatrixQuality quality = assess_matrix(matrix, mesh, samples.lost());
         return Factors{std::move(matrix), quality};
-    }
+    };
+    if (settings.options.own.of<FactorOptions>().kind == FactorKind::rays)
+        return assessed(samples.matrix());
     const ExactFormFactors exact(mesh, workers, monitor);
     if (monitor.interrupted)
         return std::nullopt;
     log_line(settings.verbosity, Verbosity::normal,
              counted(exact.exact_pairs(), "pair", "pairs") + " by contour integration, " +
                  grouped(exact.sampled_pairs()) + " by rays");
-    SparseMatrix matrix = exact.matrix(samples);
-    const MatrixQuality quality = assess_matrix(matrix, mesh, samples.lost());
-    return Factors{std::move(matrix), quality};
+    return assessed(exact.matrix(samples));
 }
 
 } // namespace

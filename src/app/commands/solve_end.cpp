@@ -122,8 +122,7 @@ int finish(const SolveSettings& settings, Results results, const WriteReport& of
     WriteReport report = write_results(settings, results, started);
     report.add(of_steps);
     log_line(settings.verbosity, Verbosity::normal, run_text(results.statistics));
-    for (const std::string& warning : warnings)
-        log_line(settings.verbosity, Verbosity::normal, "warning: " + warning);
+    log_warnings(settings.verbosity, warnings);
     if (no_step)
         log_line(settings.verbosity, Verbosity::quiet, std::string("warning: ") + no_step_warning);
     log_line(settings.verbosity, Verbosity::verbose, memory_text(results.statistics));

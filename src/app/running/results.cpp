@@ -50,7 +50,7 @@ class SharedClasses {
 class Picture {
   public:
     Picture(const SolveSettings& settings, const Results& results, SharedClasses& classes)
-        : settings_(settings), view_(settings.view), from_(settings.from),
+        : settings_(settings), view_(settings.view),
           gather_(settings.gather_pictures ? settings.gather : 0), results_(results),
           classes_(classes), time_(results.monitor.interrupted) {}
 
@@ -64,9 +64,9 @@ class Picture {
             throw Interrupted();
         if (output.kind == OutputKind::exr)
             write_exr(output.path, image_->width, image_->height,
-                      picture_layers(settings_, results_, *image_, camera_), from_);
+                      picture_layers(settings_, results_, *image_, camera_), settings_.from);
         else
-            write_picture(output, *image_, view_, from_);
+            write_picture(output, *image_, view_, settings_.from);
     }
 
   private:
@@ -90,7 +90,6 @@ class Picture {
 
     const SolveSettings& settings_;
     ViewSettings view_;
-    const Provenance& from_;
     unsigned gather_; ///< rays at a point; 0: pictures interpolate
     const Results& results_;
     SharedClasses& classes_;

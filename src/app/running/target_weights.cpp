@@ -101,12 +101,9 @@ std::vector<double> target_weights(const SolveSettings& settings,
         add_weights(weights, weights_of_groups(settings, mesh));
     for (const TargetPoints& of_file : points)
         add_weights(weights, weights_of_points(of_file, mesh, tracer));
-    const auto counts = [&](std::size_t i) {
-        return weights[i] > 0 && mesh.material(std::uint32_t(i)).reflectance != Vec3(0.0);
-    };
     bool any = weights.empty();
-    for (std::size_t i = 0; i < weights.size() && !any; ++i)
-        any = counts(i);
+    for (std::uint32_t i = 0; i < weights.size() && !any; ++i)
+        any = weights[i] > 0 && mesh.material(i).reflectance != Vec3(0.0);
     if (!any)
         throw InputError(settings.scene.path, "nothing that --for names reflects light, so there "
                                               "is no error to solve it to");

@@ -21,7 +21,7 @@ void log_line(Verbosity wanted, Verbosity least, const std::string& line);
 /// The same for what was done with a file: the path, which may have spaces, is not broken.
 void log_path(Verbosity wanted, Verbosity least, const std::string& verb, const std::string& path);
 
-/// Warnings of a reader: the first few, or all with -v.
+/// Warnings: the first few, or all with -v.
 void log_warnings(Verbosity wanted, const std::vector<std::string>& warnings);
 
 } // namespace hemilux

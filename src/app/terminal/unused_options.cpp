@@ -4,6 +4,7 @@
 #include "app/terminal/log.h"
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 namespace hemilux {
@@ -11,19 +12,17 @@ namespace {
 
 bool keeps_hemispheres(const Method& method) { return &method == &method_of(Role::paper); }
 
-bool takes_depth(const Method& method) { return method.has_depth; }
-
-bool takes_literal(const Method& method) { return method.has_literal; }
-
 /// `layers`: there are pictures with a layer of densities.
 std::vector<OptionUse> uses_of_methods(std::span<const Method* const> chosen, bool layers) {
-    const auto use = [&](std::string_view name, bool (*takes)(const Method&), bool other) {
+    const auto use = [&](std::string_view name, const std::function<bool(const Method&)>& takes,
+                         bool other) {
         return OptionUse{
             name,
             other || std::ranges::any_of(chosen, [&](const Method* one) { return takes(*one); }),
             "--method " + names_of_methods(takes, " or ")};
     };
-    return {use("--literal", takes_literal, false), use("--depth", takes_depth, layers),
+    return {use("--literal", &Method::has_literal, false),
+            use("--depth", &Method::has_depth, layers),
             use("--threshold", keeps_hemispheres, layers)};
 }
 
