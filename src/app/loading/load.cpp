@@ -1,7 +1,6 @@
 #include "app/loading/load.h"
 
 #include "app/loading/lights.h"
-#include "app/loading/read_scene.h"
 #include "app/loading/sides.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
@@ -14,7 +13,10 @@
 #include "geometry/polygon.h"
 #include "io/files/error.h"
 #include "io/files/text_words.h"
+#include "io/gltf/gltf.h"
 #include "io/scene_files/inspect.h"
+#include "io/scene_files/obj.h"
+#include "io/scene_files/stl.h"
 #include "parallel/workers.h"
 #include "radiosity/scene/convex_enclosure.h"
 
@@ -55,6 +57,18 @@ std::string no_light_text(const Scene& scene, const std::vector<std::string>& ma
            (lamps.empty() ? "" : "; by their names these may be lamps: " + list_names(lamps));
 }
 
+ReadResult read_by_extension(const std::string& path, const ReadGuard& guard, bool textures) {
+    const std::string extension = extension_of(path);
+    if (extension == ".obj")
+        return read_obj(path, guard, textures);
+    if (extension == ".gltf" || extension == ".glb")
+        return read_gltf(path, guard, textures);
+    if (extension == ".stl")
+        return read_stl(path, guard);
+    throw InputError(path,
+                     "expected a scene of a kind that can be read: .obj, .gltf, .glb or .stl");
+}
+
 /// Throws InputError for what no method can solve.
 void check_solvable(const ReadResult& read, const std::string& path) {
     if (read.scene.facets.empty())
@@ -90,8 +104,8 @@ void warn(LoadedMesh& loaded, const std::string& text, Verbosity verbosity) {
 } // namespace
 
 ReadResult load_scene(const SceneSettings& settings, const RunFiles& files) {
-    ReadResult read = read_scene_file(settings.path, memory_guard(settings.path, settings.memory),
-                                      settings.textures);
+    ReadResult read = read_by_extension(settings.path, memory_guard(settings.path, settings.memory),
+                                        settings.textures);
     for (const std::string& library : read.libraries)
         files.read("file of the scene", library);
     for (const std::string& texture : read.textures)
