@@ -4,8 +4,6 @@
 #include "app/command_line/generated_texts.h"
 #include "app/command_line/options.h"
 #include "app/commands/commands.h"
-#include "app/commands/density.h"
-#include "app/commands/formfactors.h"
 #include "app/ranks/started_ranks.h"
 #include "app/running/signals.h"
 #include "app/settings/exit_code.h"

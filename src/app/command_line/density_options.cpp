@@ -1,7 +1,6 @@
 #include "app/command_line/option_groups.h"
 #include "app/command_line/option_kinds.h"
 #include "app/command_line/options.h"
-#include "app/commands/density.h"
 #include "app/settings/names.h"
 #include "radiosity/guiding/guide.h"
 

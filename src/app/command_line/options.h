@@ -2,8 +2,6 @@
 // The command line: which options there are, what they accept, and the text of --help.
 
 #include "app/command_line/arguments.h"
-#include "app/commands/density.h"
-#include "app/commands/formfactors.h"
 #include "app/settings/settings.h"
 
 namespace hemilux {

@@ -7,6 +7,8 @@ namespace hemilux {
 
 int solve(const SolveSettings& settings);
 int compare(const CompareSettings& settings);
+int density(DensitySettings settings);
+int formfactors(const FormFactorSettings& settings);
 int info(const InfoSettings& settings);
 
 } // namespace hemilux

@@ -1,5 +1,6 @@
-#include "app/commands/density.h"
+// hemilux density: what preprocessing found (paper section 5a, or 4), as drawings.
 
+#include "app/commands/commands.h"
 #include "app/commands/divided_hemispheres.h"
 #include "app/loading/load.h"
 #include "app/loading/load_geometry.h"

@@ -1,7 +1,7 @@
 #pragma once
 // The divided hemispheres of all patches, by the rules of either method that divides them.
 
-#include "app/commands/density.h"
+#include "app/settings/settings.h"
 #include "io/drawings/hemisphere_svg.h"
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-#include "app/commands/formfactors.h"
+// hemilux formfactors: the matrix that the method `matrix` solves with.
 
+#include "app/commands/commands.h"
 #include "app/loading/load_geometry.h"
 #include "app/running/run_notes.h"
 #include "app/running/signals.h"

@@ -155,6 +155,31 @@ struct CompareSettings {
     const Ranks* ranks = &one_rank(); ///< that work at it together
 };
 
+struct DensitySettings {
+    SceneSettings scene;
+    const Method* method = &method_of(Role::paper); ///< whose hemispheres; or the forerunner's
+    SolveOptions options;                           ///< how they are divided, seed, threads
+    std::optional<std::uint32_t> patch;             ///< whose hemisphere; empty: the largest spread
+    std::uint32_t part = 0;                         ///< of the patch: whose is shown from above
+    std::uint32_t rays = 0;                         ///< energy rays to show in it
+    bool plane = false;                             ///< a cross-section instead (figure 1)
+    ViewSettings view;
+    std::vector<std::string> outputs; ///< .svg: a hemisphere; .png: mean densities
+    std::vector<GivenOption> given;   ///< options and their values
+    Verbosity verbosity = Verbosity::normal;
+};
+
+struct FormFactorSettings {
+    SceneSettings scene;
+    SolveOptions options;      ///< seed, threads, factors
+    std::uint32_t rays = 4096; ///< per patch; a power of two
+    std::vector<std::string> outputs;
+    std::vector<GivenOption> given; ///< options and their values
+    Verbosity verbosity = Verbosity::normal;
+
+    static constexpr std::size_t most_dense = 20'000; ///< patches
+};
+
 struct InfoSettings {
     SceneSettings scene;
     bool json = false; ///< one object instead of lines of text
