@@ -1,18 +1,10 @@
 #include "bvh/tracer.h"
 
 namespace hemilux {
-namespace {
-
-FacetHit hit_record_of(const Tracer& tracer, const Ray& ray) {
-    const auto hit = tracer.closest(ray);
-    return hit ? FacetHit{hit->facet, hit->front} : FacetHit{};
-}
-
-} // namespace
 
 void Tracer::closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const {
     for (std::size_t k = 0; k < rays.size(); ++k)
-        out[k] = hit_record_of(*this, rays[k]);
+        out[k] = facet_hit(closest(rays[k]));
 }
 
 void Tracer::occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,

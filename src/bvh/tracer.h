@@ -48,6 +48,11 @@ struct FacetHit {
     bool front = false;
 };
 
+/// As much of a hit, if there is one.
+[[nodiscard]] inline FacetHit facet_hit(const std::optional<Hit>& hit) {
+    return hit ? FacetHit{hit->facet, hit->front} : FacetHit{};
+}
+
 class Tracer {
   public:
     virtual ~Tracer() = default;

@@ -200,14 +200,9 @@ void WideBvh::closest_stream(std::span<const Ray> rays, std::span<FacetHit> out)
         Query query{soup_, now, block.scaled};
         kernels_->closest_stream(tree(), block.scaled.data(), static_cast<unsigned>(now.size()),
                                  block.nearest.data(), exact(query));
-        for (std::size_t k = 0; k < now.size(); ++k) {
-            if (block.fit[k] != Fit::too_far)
-                out[k] = hit_record(block.nearest[k]);
-            else if (const auto hit = closest(now[k]))
-                out[k] = {hit->facet, hit->front};
-            else
-                out[k] = {};
-        }
+        for (std::size_t k = 0; k < now.size(); ++k)
+            out[k] = block.fit[k] == Fit::too_far ? facet_hit(closest(now[k]))
+                                                  : hit_record(block.nearest[k]);
         out = out.subspan(now.size());
     }
 }
