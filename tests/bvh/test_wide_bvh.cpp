@@ -234,7 +234,13 @@ TEST_CASE("The wide tree over nothing, and over bad coordinates") {
     CHECK_FALSE(empty.closest(up));
     CHECK(empty.count(up) == 0);
     CHECK_FALSE(empty.occluded(up));
-    CHECK(empty.quality().bytes == 0);
+    FacetHit nearest{7, true};
+    empty.closest_stream({&up, 1}, {&nearest, 1});
+    CHECK(nearest.facet == none);
+    std::uint8_t blocked = 1;
+    empty.occluded_stream({&up, 1}, {&none, 1}, {&blocked, 1});
+    CHECK(blocked == 0);
+    CHECK(empty.triangles_around(Vec3(0.0)) == 0);
 
     const double nan = std::numeric_limits<double>::quiet_NaN();
     Soup soup{{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, {nan, 0, 0}}, {{0, 1, 3, 3}}};

@@ -15,7 +15,7 @@ namespace hemilux::wide {
 
 struct Built {
     HugeArray<Node> nodes;    ///< none: the only leaf is the root
-    HugeArray<Leaf> leaves;   ///< none: nothing to hit
+    HugeArray<Leaf> leaves;   ///< at least one, without triangles where there is nothing to hit
     Vec3 low{0.0}, high{0.0}; ///< of all facets, in the soup's units
     BvhQuality quality;
 };
@@ -24,8 +24,8 @@ struct Built {
 [[nodiscard]] double size_of(const Vec3& low, const Vec3& high);
 
 /// Builds the tree with so many `threads`, 0 being one per core. Facets with coordinates that are
-/// not finite are left out. Without `hierarchy` up to eight triangles are one leaf with no node
-/// above it.
+/// not finite are left out. Nothing is one leaf with no node above it, and so are up to eight
+/// triangles without `hierarchy`.
 [[nodiscard]] Built build(const FacetSoup& soup, unsigned threads, bool hierarchy = true);
 
 } // namespace hemilux::wide
