@@ -21,8 +21,8 @@ bool enter_box(const Ray& ray, const Space& space, double& enter) {
     double leave = infinity;
     for (int i = 0; i < 3; ++i) {
         const double d = ray.direction[i];
-        const double a = (space.low[i] - widen - ray.origin[i]) / d;
-        const double b = (space.high[i] + widen - ray.origin[i]) / d;
+        const double a = (space.bounds.low[i] - widen - ray.origin[i]) / d;
+        const double b = (space.bounds.high[i] + widen - ray.origin[i]) / d;
         if (std::isnan(a) || std::isnan(b))
             continue; // within a plane, or parallel on it
         enter = std::max(enter, std::min(a, b));

@@ -3,6 +3,7 @@
 
 #include "bvh/tracer.h"
 #include "bvh/wide/wide_layout.h"
+#include "geometry/box.h"
 
 #include <cmath>
 #include <limits>
@@ -11,7 +12,7 @@ namespace hemilux::wide {
 
 /// The box of the scene and the number its coordinates are divided by.
 struct Space {
-    Vec3 low, high;
+    Box bounds;
     double size = 1;
     double shrink = 1; ///< 1 / size, which is exact
 };

@@ -61,18 +61,14 @@ class Builder {
     };
 
     void find_bounds(Built& built) {
-        Vec3 low(std::numeric_limits<double>::infinity()), high = -low;
+        Box bounds;
         for (const FacetCorners& corners : soup_.facets)
             if (finite(corners))
-                for (const std::uint32_t v : corners) {
-                    low = glm::min(low, soup_.vertices[v]);
-                    high = glm::max(high, soup_.vertices[v]);
-                }
-        if (!(low.x <= high.x))
-            return;
-        built.low = low;
-        built.high = high;
-        shrink_ = 1 / size_of(low, high);
+                for (const std::uint32_t v : corners)
+                    bounds.include(soup_.vertices[v]);
+        if (!bounds.empty())
+            built.bounds = bounds;
+        shrink_ = 1 / size_of(built.bounds);
     }
 
     [[nodiscard]] bool finite(const FacetCorners& corners) const {
@@ -310,8 +306,8 @@ class Builder {
 
 } // namespace
 
-double size_of(const Vec3& low, const Vec3& high) {
-    const Vec3 reach = glm::max(glm::abs(low), glm::abs(high));
+double size_of(const Box& bounds) {
+    const Vec3 reach = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
     int exponent = 0;
     std::frexp(std::max({reach.x, reach.y, reach.z}), &exponent);
     return std::ldexp(1.0, std::clamp(exponent, -1000, 1000));

@@ -10,18 +10,19 @@
 #include "bvh/quality.h"
 #include "bvh/wide/huge_array.h"
 #include "bvh/wide/wide_layout.h"
+#include "geometry/box.h"
 
 namespace hemilux::wide {
 
 struct Built {
-    HugeArray<Node> nodes;    ///< none: the only leaf is the root
-    HugeArray<Leaf> leaves;   ///< at least one, without triangles where there is nothing to hit
-    Vec3 low{0.0}, high{0.0}; ///< of all facets, in the soup's units
+    HugeArray<Node> nodes;  ///< none: the only leaf is the root
+    HugeArray<Leaf> leaves; ///< at least one, without triangles where there is nothing to hit
+    Box bounds{Vec3(0.0), Vec3(0.0)}; ///< of all facets, in the soup's units
     BvhQuality quality;
 };
 
 /// The power of two by which the soup's coordinates are divided; no coordinate is larger.
-[[nodiscard]] double size_of(const Vec3& low, const Vec3& high);
+[[nodiscard]] double size_of(const Box& bounds);
 
 /// Builds the tree with so many `threads`, 0 being one per core. Facets with coordinates that are
 /// not finite are left out. Nothing is one leaf with no node above it, and so are up to eight

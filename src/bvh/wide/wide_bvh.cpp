@@ -74,9 +74,8 @@ wide::ExactTest exact(Query& query) { return {&query, closer, hits, counts}; }
 
 WideBvh::WideBvh(const FacetSoup& soup, const WideBvhOptions& options)
     : soup_(soup), kernels_(&wide::kernels_of(options.kernels)),
-      built_(wide::build(soup, options.threads, options.hierarchy)), space_{built_.low,
-                                                                            built_.high} {
-    space_.size = wide::size_of(built_.low, built_.high);
+      built_(wide::build(soup, options.threads, options.hierarchy)), space_{built_.bounds} {
+    space_.size = wide::size_of(built_.bounds);
     space_.shrink = 1 / space_.size;
 }
 
