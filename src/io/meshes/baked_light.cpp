@@ -1,6 +1,6 @@
 #include "io/meshes/baked_light.h"
 
-#include "geometry/vector_ratio.h"
+#include "geometry/numeric.h"
 #include "io/pictures/image.h"
 #include "radiosity/scene/mesh.h"
 

@@ -1,6 +1,6 @@
 #include "io/rendering/render.h"
 
-#include "geometry/vector_ratio.h"
+#include "geometry/numeric.h"
 #include "io/files/error.h"
 #include "io/rendering/gathered_picture.h"
 #include "io/rendering/picture_gather.h"

@@ -1,6 +1,6 @@
 #include "radiosity/linear/conjugate_gradients.h"
 
-#include "geometry/vector_ratio.h"
+#include "geometry/numeric.h"
 #include "parallel/gathered_vector.h"
 
 #include <algorithm>

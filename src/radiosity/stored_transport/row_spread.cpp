@@ -1,6 +1,6 @@
 #include "radiosity/stored_transport/row_spread.h"
 
-#include "geometry/vector_ratio.h"
+#include "geometry/numeric.h"
 #include "radiosity/form_factors/exchange_matrix.h"
 
 namespace hemilux {

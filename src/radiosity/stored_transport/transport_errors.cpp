@@ -1,6 +1,6 @@
 #include "radiosity/stored_transport/transport_errors.h"
 
-#include "geometry/vector_ratio.h"
+#include "geometry/numeric.h"
 #include "radiosity/emitters/direct_light.h"
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/scene/alike_neighbours.h"
