@@ -1,7 +1,6 @@
 #include "io/results/csv.h"
 
 #include "io/files/error.h"
-#include "io/files/text_reader.h"
 
 #include <algorithm>
 #include <charconv>
@@ -53,10 +52,7 @@ void append_text(std::string& line, std::string_view name) {
     line += '"';
 }
 
-Reader::Reader(const std::string& file, std::string_view content) : file_(file), left_(content) {
-    if (left_.starts_with(byte_order_mark))
-        left_.remove_prefix(byte_order_mark.size());
-}
+Reader::Reader(const std::string& file, std::string_view content) : file_(file), left_(content) {}
 
 bool Reader::next(std::vector<std::string>& fields) {
     while (!left_.empty() && at_line_end())

@@ -21,7 +21,7 @@ void append_fields(std::string& line, const Vec3& v);
 /// are written by append_number, which adds none.
 void append_text(std::string& line, std::string_view text);
 
-/// Reads records one after the other. Accepts a byte order mark, CRLF and a missing final newline.
+/// Reads records one after the other. Accepts CRLF and a missing final newline.
 class Reader {
   public:
     /// `file` is for messages. Both must outlive the reader.
