@@ -46,8 +46,6 @@ bool cross(const Edge& a, const Edge& b, double rounding) {
 
 std::optional<bool> crosses_itself(std::span<const Vec2> corners, double rounding,
                                    std::uint64_t& work) {
-    if (corners.size() < 4)
-        return false;
     const std::vector<Edge> edges = edges_by_low_x(corners);
     for (std::size_t i = 0; i < edges.size(); ++i)
         for (std::size_t j = i + 1; j < edges.size() && edges[j].low.x <= edges[i].high.x; ++j) {

@@ -9,9 +9,10 @@
 
 namespace hemilux {
 
-/// Edges that only touch do not cross. Coordinates may be wrong by `rounding`. The edges are sorted
-/// along the axis on which they are shorter, so the usual time is far below the O(n^2) of the worst
-/// case. Pairs that are looked at are taken from `work`; empty where it does not suffice.
+/// Of four corners or more. Edges that only touch do not cross. Coordinates may be wrong by
+/// `rounding`. The edges are sorted along the axis on which they are shorter, so the usual time is
+/// far below the O(n^2) of the worst case. Pairs that are looked at are taken from `work`; empty
+/// where it does not suffice.
 [[nodiscard]] std::optional<bool> crosses_itself(std::span<const Vec2> corners, double rounding,
                                                  std::uint64_t& work);
 
