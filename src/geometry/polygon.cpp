@@ -2,9 +2,6 @@
 
 #include "geometry/polygon_sampler.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace hemilux {
 namespace {
 

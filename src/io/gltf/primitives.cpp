@@ -1,7 +1,6 @@
 #include "io/gltf/primitives.h"
 
 #include "io/files/error.h"
-#include "io/files/text_words.h"
 
 #include <cmath>
 #include <numeric>
