@@ -29,12 +29,18 @@ void append_numbers(std::string& bytes, const glm::vec<3, Number>& vector) {
         append_number(bytes, vector[axis]);
 }
 
+/// The number whose bytes begin here.
+template <std::unsigned_integral Bits>
+[[nodiscard]] Bits bits_at(const char* bytes) {
+    Bits value = 0;
+    for (std::size_t i = 0; i < sizeof value; ++i)
+        value = static_cast<Bits>(value | static_cast<Bits>(static_cast<unsigned char>(bytes[i]))
+                                              << (8 * i));
+    return value;
+}
 /// The four bytes from this place on.
 [[nodiscard]] inline std::uint32_t word_at(std::string_view bytes, std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        value |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
-    return value;
+    return bits_at<std::uint32_t>(bytes.data() + at);
 }
 
 } // namespace hemilux

@@ -2,6 +2,7 @@
 
 #include "io/files/error.h"
 #include "io/files/input_file.h"
+#include "io/files/little_endian.h"
 #include "io/gltf/document/uri.h"
 
 #include <algorithm>
@@ -10,16 +11,6 @@
 
 namespace hemilux::gltf {
 namespace {
-
-/// Little-endian, whatever the machine is.
-template <class Bits>
-Bits bits_at(const char* bytes) {
-    Bits value = 0;
-    for (std::size_t i = 0; i < sizeof(Bits); ++i)
-        value = static_cast<Bits>(value | static_cast<Bits>(static_cast<unsigned char>(bytes[i]))
-                                              << (8 * i));
-    return value;
-}
 
 template <class Whole>
 double whole_number(const char* bytes, bool normalized) {
