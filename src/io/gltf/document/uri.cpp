@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdint>
 #include <filesystem>
 
@@ -42,26 +43,19 @@ std::optional<std::string> decode_base64(std::string_view text) {
     return count < 6 ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-int hex_digit(char c) {
-    constexpr std::string_view all = "0123456789abcdef";
-    const char small = c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c;
-    const std::size_t at = all.find(small);
-    return at == std::string_view::npos ? -1 : static_cast<int>(at);
-}
-
 /// %20 and the like. What is no such code stays.
 std::string without_percents(std::string_view uri) {
     std::string path;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool coded = uri[i] == '%' && i + 2 < uri.size();
-        const int high = coded ? hex_digit(uri[i + 1]) : -1,
-                  low = coded ? hex_digit(uri[i + 2]) : -1;
-        if (high < 0 || low < 0) {
+        const char* const code = uri.data() + i + 1;
+        unsigned char byte = 0;
+        if (uri[i] == '%' && i + 2 < uri.size() &&
+            std::from_chars(code, code + 2, byte, 16).ptr == code + 2) {
+            path += static_cast<char>(byte);
+            i += 2;
+        } else {
             path += uri[i];
-            continue;
         }
-        path += static_cast<char>(16 * high + low);
-        i += 2;
     }
     return path;
 }
