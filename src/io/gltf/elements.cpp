@@ -63,22 +63,16 @@ std::string_view Buffers::content(std::size_t buffer) {
 }
 
 std::string Buffers::read(std::size_t buffer, const std::string& uri) {
-    const std::string place = "/buffers/" + std::to_string(buffer) + "/uri: ";
+    const std::string place = "/buffers/" + std::to_string(buffer) + "/uri";
     if (uri.empty())
-        throw InputError(path_, place + "expected a URI, as the file has no binary chunk for it");
+        throw InputError(path_, place + ": expected a URI, as the file has no binary chunk for it");
     if (guard_)
         guard_(static_cast<double>(uri.size() + container_.content.size()));
-    if (is_data_uri(uri)) {
-        std::optional<std::string> bytes = decode_data_uri(uri);
-        if (!bytes)
-            throw InputError(path_, place + "expected data in base 64");
+    auto [bytes, file] = content_of_uri(uri, path_, place);
+    if (bytes)
         return std::move(*bytes);
-    }
-    const std::optional<std::string> file = path_of_uri(uri, path_);
-    if (!file)
-        throw InputError(path_, place + "expected a data URI or a path relative to this file");
-    files_.push_back(*file);
-    return read_input(*file, InputKind::regular, [&](std::string_view content) {
+    files_.push_back(file);
+    return read_input(file, InputKind::regular, [&](std::string_view content) {
         if (guard_)
             guard_(static_cast<double>(content.size() + container_.content.size()));
     });

@@ -18,18 +18,15 @@ void TextureMaps::read(std::size_t material, Scene& scene) {
             scene);
 }
 
-void TextureMaps::fail(const std::string& place, const std::string& message) const {
-    throw InputError(buffers_.path(), place + ": " + message);
-}
-
 /// The transform of KHR_texture_transform: scale, then rotation, then offset.
 void TextureMaps::add(const TextureInfo& info, std::size_t material, Vec3 Material::*colour,
                       TextureMap MaterialTextures::*map, Scene& scene) {
     const Document& document = buffers_.document();
     const TextureSource& source = document.textures[info.texture];
     if (!source.image || *source.image >= document.images.size())
-        fail("/textures/" + std::to_string(info.texture) + "/source",
-             "expected an image below " + std::to_string(document.images.size()));
+        throw InputError(buffers_.path(), "/textures/" + std::to_string(info.texture) +
+                                              "/source: expected an image below " +
+                                              std::to_string(document.images.size()));
     std::shared_ptr<const Texture> texture = read_image(*source.image);
     if (!texture) {
         ++missing_;
@@ -65,17 +62,11 @@ std::shared_ptr<const Texture> TextureMaps::read_image(std::size_t image) {
         return *texture;
     if (info.view)
         return files_.decode(buffers_.view(*info.view), key);
-    if (is_data_uri(info.uri)) {
-        const std::optional<std::string> bytes = decode_data_uri(info.uri);
-        if (!bytes)
-            fail(place + "/uri", "expected data in base 64");
+    const auto [bytes, file] = content_of_uri(info.uri, buffers_.path(), place + "/uri");
+    if (bytes)
         return files_.decode(*bytes, key);
-    }
-    const std::optional<std::string> file = path_of_uri(info.uri, buffers_.path());
-    if (!file)
-        fail(place + "/uri", "expected a data URI or a path relative to this file");
-    paths_.push_back(*file);
-    return files_.read(*file);
+    paths_.push_back(file);
+    return files_.read(file);
 }
 
 } // namespace hemilux::gltf

@@ -30,7 +30,6 @@ class TextureMaps {
     void add(const TextureInfo& info, std::size_t material, Vec3 Material::*colour,
              TextureMap MaterialTextures::*map, Scene& scene);
     [[nodiscard]] std::shared_ptr<const Texture> read_image(std::size_t image);
-    [[noreturn]] void fail(const std::string& place, const std::string& message) const;
 
     Buffers& buffers_;
     TextureFiles files_;

@@ -1,10 +1,13 @@
 #include "io/gltf/document/uri.h"
 
+#include "io/files/error.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
+#include <utility>
 
 namespace hemilux::gltf {
 namespace {
@@ -60,19 +63,17 @@ std::string without_percents(std::string_view uri) {
     return path;
 }
 
-} // namespace
-
-bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
-
+/// Empty for what is no base 64.
 std::optional<std::string> decode_data_uri(std::string_view uri) {
     constexpr std::string_view base64 = ";base64";
     const std::size_t comma = uri.find(',');
-    if (!is_data_uri(uri) || comma == std::string_view::npos ||
-        !uri.substr(0, comma).ends_with(base64))
+    if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(base64))
         return std::nullopt;
     return decode_base64(uri.substr(comma + 1));
 }
 
+/// Seen from the folder of the scene. Empty for other schemes and absolute paths, which glTF does
+/// not allow.
 std::optional<std::string> path_of_uri(std::string_view uri, const std::string& scene) {
     namespace fs = std::filesystem;
     const std::string name = without_percents(uri);
@@ -82,6 +83,22 @@ std::optional<std::string> path_of_uri(std::string_view uri, const std::string& 
         relative.is_absolute())
         return std::nullopt;
     return (fs::path(scene).parent_path() / relative).string();
+}
+
+} // namespace
+
+UriContent content_of_uri(std::string_view uri, const std::string& scene,
+                          const std::string& place) {
+    if (uri.starts_with("data:")) {
+        std::optional<std::string> bytes = decode_data_uri(uri);
+        if (!bytes)
+            throw InputError(scene, place + ": expected data in base 64");
+        return {std::move(bytes), ""};
+    }
+    std::optional<std::string> file = path_of_uri(uri, scene);
+    if (!file)
+        throw InputError(scene, place + ": expected a data URI or a path relative to this file");
+    return {{}, std::move(*file)};
 }
 
 } // namespace hemilux::gltf
