@@ -1,11 +1,11 @@
 #include "app/loading/lights.h"
 
 #include "geometry/numeric.h"
+#include "io/files/text_words.h"
 #include "io/scene_files/emitter_shapes.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
 
 namespace hemilux {
@@ -45,8 +45,7 @@ std::vector<std::string> likely_lamps(const Scene& scene) {
     const std::vector<bool> used = materials_in_use(scene);
     std::vector<std::string> names;
     for (std::size_t m = 0; m < used.size(); ++m) {
-        std::string name = scene.materials[m].name;
-        std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+        const std::string name = small_letters(scene.materials[m].name);
         if (used[m] && std::ranges::any_of(words, [&](std::string_view word) {
                 return name.find(word) != std::string::npos;
             }))

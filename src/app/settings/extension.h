@@ -1,8 +1,8 @@
 #pragma once
 // What a path's extension says about the kind of file.
 
-#include <algorithm>
-#include <cctype>
+#include "io/files/text_words.h"
+
 #include <filesystem>
 #include <string>
 
@@ -10,10 +10,7 @@ namespace hemilux {
 
 /// The extension of a path with its dot, in small letters.
 [[nodiscard]] inline std::string extension_of(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
+    return small_letters(std::filesystem::path(path).extension().string());
 }
 
 } // namespace hemilux

@@ -1,7 +1,10 @@
 #include "io/files/other_format.h"
 
+#include "io/files/text_words.h"
+
 #include <algorithm>
 #include <array>
+#include <string>
 
 namespace hemilux {
 namespace {
@@ -60,12 +63,11 @@ std::string_view other_format(std::string_view content) {
     if (content.starts_with("\xef\xbb\xbf"))
         content.remove_prefix(3);
     content.remove_prefix(std::min(content.find_first_not_of(" \t\r\n"), content.size()));
-    for (const auto& [text, meaning] : of_text) {
-        const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; };
-        if (content.size() >= text.size() && std::equal(text.begin(), text.end(), content.begin(),
-                                                        [&](char b, char a) { return same(a, b); }))
+    constexpr std::size_t enough = 16; // for the longest beginning
+    const std::string begin = small_letters(content.substr(0, enough));
+    for (const auto& [text, meaning] : of_text)
+        if (begin.starts_with(text))
             return meaning;
-    }
     constexpr std::size_t first_lines = 1000;
     if (content.starts_with("solid") &&
         content.substr(0, first_lines).find("facet normal") != std::string_view::npos)

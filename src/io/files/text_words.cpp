@@ -70,9 +70,16 @@ std::string_view take_word(std::string_view& text) {
     return word;
 }
 
+std::string small_letters(std::string_view text) {
+    std::string small(text);
+    for (char& c : small)
+        if (c >= 'A' && c <= 'Z')
+            c = static_cast<char>(c - 'A' + 'a');
+    return small;
+}
+
 bool differ_in_case(std::string_view a, std::string_view b) {
-    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-    return a != b && std::ranges::equal(a, b, {}, small, small);
+    return a != b && small_letters(a) == small_letters(b);
 }
 
 std::string_view name_in(std::string_view text) {

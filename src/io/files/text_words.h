@@ -20,6 +20,8 @@ inline constexpr double largest_number = 1e100;
 [[nodiscard]] std::vector<std::string_view> parts_of(std::string_view text, char separator);
 /// Takes the next word from the front of the text; empty at the end of the line or at a comment.
 std::string_view take_word(std::string_view& text);
+/// The text with the letters A to Z made small.
+[[nodiscard]] std::string small_letters(std::string_view text);
 /// Whether both are the same but for capitals, and not the same.
 [[nodiscard]] bool differ_in_case(std::string_view a, std::string_view b);
 /// All of the text up to a comment. Names may have a # in them: a comment begins with a # after a

@@ -17,14 +17,6 @@ namespace {
 
 constexpr std::size_t header = 80, count_bytes = 4, record = 50;
 
-std::string small_letters(std::string_view word) {
-    std::string small(word);
-    for (char& c : small)
-        if (c >= 'A' && c <= 'Z')
-            c = static_cast<char>(c - 'A' + 'a');
-    return small;
-}
-
 /// Many binary files begin with "solid" too: their length decides, and a text has no zero byte.
 bool is_binary(std::string_view content) {
     constexpr std::string_view first_word = "solid";
