@@ -117,15 +117,19 @@ std::optional<double> parse_decimal(std::string_view word) {
     return value;
 }
 
+std::string shortened(std::string_view text, std::size_t longest) {
+    return std::string(text.substr(0, longest)) + (text.size() > longest ? "..." : "");
+}
+
 std::string found_instead(std::string_view word) {
     if (word.empty())
         return "found the end of the line";
     constexpr std::size_t longest = 40;
-    std::string text(word.substr(0, longest));
+    std::string text = shortened(word, longest);
     for (char& c : text)
         if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
             c = '?';
-    return "found \"" + text + (word.size() > longest ? "...\"" : "\"");
+    return "found \"" + text + '"';
 }
 
 std::string found_instead_of_number(std::string_view word) {

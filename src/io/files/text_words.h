@@ -34,6 +34,8 @@ std::string_view take_word(std::string_view& text);
 /// Reads a decimal number with a point; one too small for a double is 0. Empty for anything else,
 /// such as nan, inf, hexadecimal or a number beyond `largest_number`.
 [[nodiscard]] std::optional<double> parse_decimal(std::string_view word);
+/// For messages: at most `longest` bytes of the text, and "..." where it is longer.
+[[nodiscard]] std::string shortened(std::string_view text, std::size_t longest);
 /// Words for error messages: `found "x"`, shortened and printable, or `found the end of the line`.
 [[nodiscard]] std::string found_instead(std::string_view word);
 /// The same with a hint about usual mistakes in numbers.

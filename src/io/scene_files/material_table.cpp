@@ -10,13 +10,9 @@
 namespace hemilux {
 namespace {
 
-/// For messages.
-std::string shortened(const std::string& text) {
-    constexpr std::size_t longest = 100;
-    return text.size() <= longest ? text : text.substr(0, longest) + "...";
-}
+constexpr std::size_t longest_name = 100; ///< bytes, in messages
 
-std::string in_quotes(std::string_view name) { return '"' + shortened(std::string(name)) + '"'; }
+std::string in_quotes(std::string_view name) { return '"' + shortened(name, longest_name) + '"'; }
 
 std::string counted_materials(std::size_t count) {
     return std::to_string(count) + (count == 1 ? " material" : " materials");
@@ -88,9 +84,9 @@ void MaterialTable::read_libraries(std::string_view names, std::size_t line) {
         missing = in_quotes(whole);
     for (const std::string& file : found)
         read_library(file, where);
-    if (!missing.empty() && libraries_missed_.insert(shortened(missing)).second)
-        warnings.push_back(where + "material library " + shortened(missing) +
-                           " not found or no regular file");
+    missing = shortened(missing, longest_name);
+    if (!missing.empty() && libraries_missed_.insert(missing).second)
+        warnings.push_back(where + "material library " + missing + " not found or no regular file");
 }
 
 void MaterialTable::read_library(const std::string& file, const std::string& where) {

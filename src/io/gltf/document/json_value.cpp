@@ -11,17 +11,14 @@
 namespace hemilux::gltf {
 namespace {
 
-constexpr double largest_whole = 9007199254740992; // 2^53: doubles distinguish whole numbers
-
-/// Of a value in a message.
-std::string shortened(const nlohmann::json& node) {
+/// A value in a message.
+std::string text_of(const nlohmann::json& node) {
     constexpr std::size_t longest = 40;
     if (node.is_object())
         return "an object";
     if (node.is_array())
         return "an array of " + std::to_string(node.size());
-    const std::string text = node.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-    return text.size() <= longest ? text : text.substr(0, longest) + "...";
+    return shortened(node.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace), longest);
 }
 
 } // namespace
@@ -31,7 +28,7 @@ void JsonValue::fail(const std::string& message) const {
 }
 
 void JsonValue::fail_kind(const char* expected) const {
-    fail(std::string("expected ") + expected + ", found " + shortened(*node_));
+    fail(std::string("expected ") + expected + ", found " + text_of(*node_));
 }
 
 JsonValue JsonValue::child(const nlohmann::json& node, std::string_view name) const {
@@ -85,12 +82,11 @@ double JsonValue::number() const {
 
 std::size_t JsonValue::whole(std::size_t low, std::size_t high) const {
     const double value = node_->is_number() ? node_->get<double>() : -1;
-    const bool is_whole = value >= 0 && value <= largest_whole && std::floor(value) == value;
+    const bool is_whole = value >= 0 && value <= double(no_limit) && std::floor(value) == value;
     if (!is_whole || value < double(low) || value > double(high))
         fail_kind(("a whole number " +
-                   (double(high) < largest_whole
-                        ? "from " + std::to_string(low) + " to " + std::to_string(high)
-                        : "of at least " + std::to_string(low)))
+                   (high < no_limit ? "from " + std::to_string(low) + " to " + std::to_string(high)
+                                    : "of at least " + std::to_string(low)))
                       .c_str());
     return static_cast<std::size_t>(value);
 }
@@ -98,7 +94,7 @@ std::size_t JsonValue::whole(std::size_t low, std::size_t high) const {
 std::size_t JsonValue::index(std::size_t count, const char* of) const {
     if (count == 0)
         fail(std::string("expected no index, as there are no ") + of + ", found " +
-             shortened(*node_));
+             text_of(*node_));
     return whole(0, count - 1);
 }
 
