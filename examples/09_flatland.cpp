@@ -32,8 +32,6 @@ struct Segment {
     [[nodiscard]] Vec2 normal() const { return {-tangent().y, tangent().x}; }
 };
 
-double cross(const Vec2& u, const Vec2& v) { return u.x * v.y - u.y * v.x; }
-
 /// Adds the sides of a closed line, each as several segments.
 void add_outline(std::vector<Segment>& scene, const std::vector<Vec2>& corners, int pieces,
                  double reflectance) {

@@ -5,8 +5,6 @@
 namespace hemilux {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
-
 /// Whether the whole of `b` lies right of an edge of `a`, or on it.
 bool lies_beside_an_edge(const FlatPolygon& b, const FlatPolygon& a, double distance) {
     for (std::size_t i = 0; i < a.size; ++i) {

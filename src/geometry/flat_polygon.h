@@ -13,8 +13,7 @@ struct Line {
 
     /// Positive on the left side; in units of the length of `along`.
     [[nodiscard]] double left_distance(const Vec2& point) const {
-        const Vec2 to = point - from;
-        return along.x * to.y - along.y * to.x;
+        return cross(along, point - from);
     }
     [[nodiscard]] Line reversed() const { return {from, -along}; }
 };

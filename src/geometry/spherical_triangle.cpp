@@ -57,10 +57,10 @@ void SphericalTriangle::set_hull() {
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec2 &n = outward[(i + 2) % 3], &m = outward[i];
         const double h = height[(i + 2) % 3], k = height[i];
-        corner[i] = Vec2(h * m.y - k * n.y, k * n.x - h * m.x) / (n.x * m.y - n.y * m.x);
+        corner[i] = Vec2(h * m.y - k * n.y, k * n.x - h * m.x) / cross(n, m);
     }
     const Vec2 first = corner[1] - corner[0], second = corner[2] - corner[0];
-    const double area = 0.5 * (first.x * second.y - first.y * second.x);
+    const double area = 0.5 * cross(first, second);
     if (area > 0 && area < extent.x * extent.y) {
         hull_.corner = corner[0];
         hull_.edge = {first, second};

@@ -8,6 +8,9 @@ namespace hemilux {
 using Vec2 = glm::dvec2;
 using Vec3 = glm::dvec3;
 
+/// Twice the area of the triangle from the origin to a and b; positive where b is left of a.
+[[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+
 /// The axis along which a vector is longest.
 [[nodiscard]] inline int largest_axis(const Vec3& v) {
     const Vec3 size = glm::abs(v);

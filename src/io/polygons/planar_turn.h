@@ -11,10 +11,10 @@ namespace hemilux {
 /// far as is known when coordinates may be wrong by `rounding`.
 [[nodiscard]] inline int turn_at(const Vec2& a, const Vec2& b, const Vec2& c, double rounding) {
     const Vec2 d = b - a, e = c - b;
-    const double cross = d.x * e.y - d.y * e.x;
+    const double turn = cross(d, e);
     const double tolerance =
         4 * rounding * (std::abs(d.x) + std::abs(d.y) + std::abs(e.x) + std::abs(e.y));
-    return cross > tolerance ? 1 : cross < -tolerance ? -1 : 0;
+    return turn > tolerance ? 1 : turn < -tolerance ? -1 : 0;
 }
 
 } // namespace hemilux

@@ -48,10 +48,8 @@ std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, int axis) {
 
 double area_of(const std::vector<Vec2>& polygon) {
     double area = 0;
-    for (std::size_t k = 2; k < polygon.size(); ++k) {
-        const Vec2 a = polygon[k - 1] - polygon[0], b = polygon[k] - polygon[0];
-        area += .5 * (a.x * b.y - a.y * b.x);
-    }
+    for (std::size_t k = 2; k < polygon.size(); ++k)
+        area += .5 * cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
     return std::abs(area);
 }
 

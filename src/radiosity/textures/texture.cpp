@@ -56,8 +56,6 @@ class Crossings {
     double begin_, way_, step_, left_, at_;
 };
 
-double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
-
 } // namespace
 
 Texture::Texture(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgb,
