@@ -3,14 +3,9 @@
 #include "geometry/polar_warp.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace hemilux {
 namespace {
-
-/// How far beyond an edge a direction still belongs to the triangle: the rounding error of points
-/// computed to lie on the edge.
-constexpr double edge_tolerance = 4 * std::numeric_limits<double>::epsilon();
 
 /// Unit normal of the plane of an edge; a x (b - a) stays accurate for short edges. Zero for an
 /// edge without length.
@@ -86,12 +81,6 @@ double SphericalTriangle::projected_solid_angle() const {
         sum += angle * normal_[i].z;
     }
     return 0.5 * sum;
-}
-
-bool SphericalTriangle::contains(const Vec3& direction) const {
-    return std::all_of(normal_.begin(), normal_.end(), [&](const Vec3& normal) {
-        return glm::dot(normal, direction) >= -edge_tolerance;
-    });
 }
 
 Vec3 SphericalTriangle::sample_sliver(Vec2 u) const {

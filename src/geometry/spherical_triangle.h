@@ -21,8 +21,6 @@ class SphericalTriangle {
     [[nodiscard]] double solid_angle() const;
     /// The integral of cos(theta) over the triangle [sr], by Lambert's closed form.
     [[nodiscard]] double projected_solid_angle() const;
-    /// Whether a direction of the upper hemisphere lies inside; the edges belong to it.
-    [[nodiscard]] bool contains(const Vec3& direction) const;
 
     /// The unit normals of the planes of the sides, inwards.
     [[nodiscard]] const std::array<Vec3, 3>& planes() const { return normal_; }

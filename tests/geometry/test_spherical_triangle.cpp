@@ -106,12 +106,12 @@ TEST_CASE("edges and vertices belong to the triangle, points beyond do not") {
         const SphericalTriangle t = random_triangle(rng);
         const auto& v = t.vertices();
         const Vec3 centre = glm::normalize(v[0] + v[1] + v[2]);
-        REQUIRE(t.contains(centre));
+        REQUIRE(contains(t, centre));
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 edge = glm::normalize(glm::mix(v[k], v[(k + 1) % 3], rng.uniform()));
-            REQUIRE(t.contains(v[k]));
-            REQUIRE(t.contains(edge));
-            REQUIRE_FALSE(t.contains(glm::normalize(edge + 1e-6 * (edge - centre))));
+            REQUIRE(contains(t, v[k]));
+            REQUIRE(contains(t, edge));
+            REQUIRE_FALSE(contains(t, glm::normalize(edge + 1e-6 * (edge - centre))));
         }
     }
 }
@@ -193,7 +193,7 @@ TEST_CASE("a wrong density fails the test that the right one passes") {
     const auto draw_uniform_in_solid_angle = [&] {
         for (;;) {
             const Vec3 d = random_upper_direction(rng);
-            if (octant.contains(d))
+            if (contains(octant, d))
                 return histogram.cell(d);
         }
     };

@@ -123,7 +123,7 @@ TEST_CASE("directions uniform in solid angle fail in every triangle of levels 0 
         const auto draw = [&] {
             for (;;) {
                 const Vec3 d = random_upper_direction(rng);
-                if (cell.shape.contains(d))
+                if (contains(cell.shape, d))
                     return histogram.cell(d);
             }
         };
@@ -141,10 +141,10 @@ TEST_CASE("The leaf at a direction holds it") {
             const double r = std::sqrt(1 - z * z);
             const Vec3 direction(r * std::cos(phi), r * std::sin(phi), z);
             const auto& cell = hemisphere.cells()[hemisphere.leaf_at(direction)];
-            all_held = all_held && cell.level == depth && cell.shape.contains(direction);
+            all_held = all_held && cell.level == depth && contains(cell.shape, direction);
         }
         CHECK(all_held);
         for (const Vec3& vertex : hemisphere.vertices())
-            CHECK(hemisphere.cells()[hemisphere.leaf_at(vertex)].shape.contains(vertex));
+            CHECK(contains(hemisphere.cells()[hemisphere.leaf_at(vertex)].shape, vertex));
     }
 }

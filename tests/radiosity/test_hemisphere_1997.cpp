@@ -279,7 +279,7 @@ bool is_on(const Polygon& part, const Vec3& point) {
 std::size_t rays_into(const std::vector<Ray>& rays, const Frame& frame, const PrivateCell& cell) {
     return static_cast<std::size_t>(std::ranges::count_if(rays, [&](const Ray& ray) {
         return is_on(cell.origins, ray.origin) &&
-               cell.shape.contains(frame.to_local(ray.direction));
+               test::contains(cell.shape, frame.to_local(ray.direction));
     }));
 }
 

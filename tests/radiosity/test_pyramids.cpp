@@ -164,7 +164,7 @@ TEST_CASE("What stands between three empty corners is found") {
         std::vector<DensityLeaf> leaves;
         map.leaves(0, leaves);
         for (const DensityLeaf& leaf : leaves)
-            if (hemisphere.cells()[leaf.cell].shape.contains(middle))
+            if (test::contains(hemisphere.cells()[leaf.cell].shape, middle))
                 return leaf;
         return DensityLeaf{};
     };
@@ -192,7 +192,7 @@ TEST_CASE("What stands between three empty corners is found") {
         AllocatedCells memory;
         const Allocation allocation = strategy->allocate(0, memory);
         for (std::size_t k = 0; k < allocation.cells.size(); ++k)
-            if (hemisphere.cells()[allocation.cells[k]].shape.contains(middle))
+            if (test::contains(hemisphere.cells()[allocation.cells[k]].shape, middle))
                 return allocation.rays(k) / hemisphere.cells()[allocation.cells[k]].solid_angle;
         return 0.0;
     };

@@ -4,6 +4,7 @@
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/hemisphere.h"
 #include "support/catch.h"
+#include "support/directions.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "support/step_rays.h"
@@ -45,7 +46,7 @@ std::map<std::uint16_t, double> count(const Hemisphere& hemisphere, const Frame&
     for (const Ray& ray : rays) {
         const Vec3 direction = frame.to_local(ray.direction);
         const auto found = std::ranges::find_if(cells, [&](const auto& cell) {
-            return hemisphere.cells()[cell.first].shape.contains(direction);
+            return contains(hemisphere.cells()[cell.first].shape, direction);
         });
         if (found != cells.end())
             ++counts[found->first];

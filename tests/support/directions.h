@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,15 @@ namespace hemilux::test {
     }
 }
 
+/// Whether a direction of the upper hemisphere lies inside; so do points computed to lie on an
+/// edge, whatever their rounding errors.
+[[nodiscard]] inline bool contains(const SphericalTriangle& triangle, const Vec3& direction) {
+    constexpr double edge_tolerance = 4 * std::numeric_limits<double>::epsilon();
+    return std::ranges::all_of(triangle.planes(), [&](const Vec3& normal) {
+        return glm::dot(normal, direction) >= -edge_tolerance;
+    });
+}
+
 /// All triangles after `levels` more divisions of one at its edge midpoints.
 [[nodiscard]] inline std::vector<SphericalTriangle> divided(const SphericalTriangle& triangle,
                                                             int levels) {
@@ -83,7 +93,7 @@ struct Histogram {
     /// The part that a direction lies in, or one past the last.
     [[nodiscard]] std::size_t cell(const Vec3& d) const {
         std::size_t i = 0;
-        while (i < parts.size() && !parts[i].contains(d))
+        while (i < parts.size() && !contains(parts[i], d))
             ++i;
         return i;
     }
