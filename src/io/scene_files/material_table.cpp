@@ -126,23 +126,19 @@ void MaterialTable::warn_of_outside(const std::string& file, const std::string& 
 void MaterialTable::define(const std::string& file, const MtlMaterial& material) {
     const std::string where = file + ":" + std::to_string(material.line);
     const std::uint32_t index = index_of(material.name);
-    if (entries_[index].defined) {
-        if (std::exchange(entries_[index].redefined_in, file) == file)
+    Entry& entry = entries_[index];
+    if (entry.definition) {
+        if (std::exchange(entry.redefined_in, file) == file)
             return;
         warnings.push_back(where + ": material " + in_quotes(material.name) + " is defined in \"" +
                            sources[index] + "\" already, which is taken");
         return;
     }
-    entries_[index].defined = true;
     sources[index] = where;
     materials[index].reflectance = material.reflectance.value_or(Material().reflectance);
     materials[index].emission = material.emission.value_or(Material().emission);
-    Entry& entry = entries_[index];
     entry.folder = std::filesystem::path(file).parent_path().string();
-    entry.reflectance_map = material.reflectance_map;
-    entry.emission_map = material.emission_map;
-    entry.has_reflectance = material.reflectance.has_value();
-    entry.has_emission = material.emission.has_value();
+    entry.definition = material;
 }
 
 void MaterialTable::finish() {
@@ -151,12 +147,13 @@ void MaterialTable::finish() {
         return;
     for (std::size_t m = 0; m < entries_.size(); ++m) {
         const Entry& entry = entries_[m];
-        if (!entry.used)
+        if (!entry.used || !entry.definition)
             continue;
-        add_texture(m, entry.reflectance_map, &Material::reflectance,
-                    &MaterialTextures::reflectance, entry.has_reflectance);
-        add_texture(m, entry.emission_map, &Material::emission, &MaterialTextures::emission,
-                    entry.has_emission);
+        const MtlMaterial& of = *entry.definition;
+        add_texture(m, of.reflectance_map, &Material::reflectance, &MaterialTextures::reflectance,
+                    of.reflectance);
+        add_texture(m, of.emission_map, &Material::emission, &MaterialTextures::emission,
+                    of.emission);
     }
     warn_of_textures();
 }
@@ -166,7 +163,7 @@ void MaterialTable::finish() {
 /// looked for too.
 void MaterialTable::add_texture(std::size_t material, const std::optional<MtlTexture>& texture,
                                 Vec3 Material::*colour, TextureMap MaterialTextures::*map,
-                                bool has_factor) {
+                                const std::optional<Vec3>& factor) {
     if (!texture)
         return;
     namespace fs = std::filesystem;
@@ -182,7 +179,7 @@ void MaterialTable::add_texture(std::size_t material, const std::optional<MtlTex
     maps.resize(materials.size());
     TextureMap& to = maps[material].*map;
     to.texture = read;
-    to.factor = has_factor ? materials[material].*colour : Vec3(1.0);
+    to.factor = factor.value_or(Vec3(1.0));
     if (texture->clamp)
         to.wraps = {Wrap::clamp, Wrap::clamp};
     to.origin = {texture->offset.x, 1 - texture->offset.y};
@@ -196,7 +193,7 @@ void MaterialTable::warn_of_undefined() {
     std::size_t count = 0;
     std::string names, where;
     for (std::size_t i = 0; i < entries_.size(); ++i) {
-        if (entries_[i].defined || entries_[i].first_use == 0)
+        if (entries_[i].definition || entries_[i].first_use == 0)
             continue;
         if (count == 0)
             where = path_ + ":" + std::to_string(entries_[i].first_use) + ": ";

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -48,11 +49,10 @@ class MaterialTable {
   private:
     struct Entry {
         std::size_t first_use = 0; ///< line of the OBJ file
-        bool used = false, defined = false;
-        std::string redefined_in; ///< file, which was said
-        std::string folder;       ///< of its library
-        std::optional<MtlTexture> reflectance_map, emission_map;
-        bool has_reflectance = false, has_emission = false;
+        bool used = false;
+        std::string redefined_in;              ///< file, which was said
+        std::string folder;                    ///< of its library
+        std::optional<MtlMaterial> definition; ///< the first
     };
     [[nodiscard]] std::uint32_t index_of(const std::string& name);
     [[nodiscard]] std::string find_library(std::string_view name) const;
@@ -61,7 +61,8 @@ class MaterialTable {
     void define(const std::string& file, const MtlMaterial& material);
     void warn_of_undefined();
     void add_texture(std::size_t material, const std::optional<MtlTexture>& texture,
-                     Vec3 Material::*colour, TextureMap MaterialTextures::*map, bool has_factor);
+                     Vec3 Material::*colour, TextureMap MaterialTextures::*map,
+                     const std::optional<Vec3>& factor);
     void warn_of_textures();
 
     std::string path_;
