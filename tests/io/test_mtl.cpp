@@ -66,29 +66,31 @@ TEST_CASE("the first of several definitions is taken", "[mtl]") {
     const TemporaryFolder folder;
     const std::string a = folder.write("a.mtl", "newmtl m\nKd .25\nnewmtl m\nKd .75\n");
     const std::string b = folder.write("b.mtl", "newmtl m\nKe 1\n");
-    MaterialTable table(folder.path("scene.obj"));
+    ReadResult result;
+    MaterialTable table(folder.path("scene.obj"), result);
     const std::uint32_t m = table.use("m", 7);
     table.read_libraries("a.mtl b.mtl", 1);
     table.finish();
-    CHECK(table.materials[m].reflectance == Vec3(.25));
-    CHECK(table.materials[m].emission == Vec3(0.0));
-    CHECK(table.sources[m] == a + ":1");
-    REQUIRE(table.warnings.size() == 2);
-    CHECK(table.warnings[0].find(a + ":3: material \"m\"") == 0);
-    CHECK(table.warnings[1].find(b + ":1: material \"m\"") == 0);
+    CHECK(result.scene.materials[m].reflectance == Vec3(.25));
+    CHECK(result.scene.materials[m].emission == Vec3(0.0));
+    CHECK(result.material_source[m] == a + ":1");
+    REQUIRE(result.warnings.size() == 2);
+    CHECK(result.warnings[0].find(a + ":3: material \"m\"") == 0);
+    CHECK(result.warnings[1].find(b + ":1: material \"m\"") == 0);
 }
 
 TEST_CASE("textures that are missing are one warning", "[mtl]") {
     const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl a\nmap_Kd x.png\nnewmtl b\nKd .1\nmap_Kd y.png\nnewmtl c\n");
-    MaterialTable table(folder.path("scene.obj"));
+    ReadResult result;
+    MaterialTable table(folder.path("scene.obj"), result);
     table.read_libraries("a.mtl", 1);
     (void)table.use("a", 2);
     (void)table.use("b", 3);
     table.finish();
-    REQUIRE(table.warnings.size() == 1);
-    CHECK(table.warnings[0].find("2 textures are not found") != std::string::npos);
-    CHECK(table.maps.empty());
-    CHECK(table.materials[0].reflectance == Vec3(0.5));
-    CHECK(table.materials[1].reflectance == Vec3(0.1));
+    REQUIRE(result.warnings.size() == 1);
+    CHECK(result.warnings[0].find("2 textures are not found") != std::string::npos);
+    CHECK(result.scene.textures.of_material.empty());
+    CHECK(result.scene.materials[0].reflectance == Vec3(0.5));
+    CHECK(result.scene.materials[1].reflectance == Vec3(0.1));
 }

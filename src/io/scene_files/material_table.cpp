@@ -27,11 +27,11 @@ std::string without_quotes(std::string_view name) {
 } // namespace
 
 std::uint32_t MaterialTable::index_of(const std::string& name) {
-    const auto next = static_cast<std::uint32_t>(materials.size());
+    const auto next = static_cast<std::uint32_t>(result_.scene.materials.size());
     const auto [found, is_new] = index_.try_emplace(name, next);
     if (is_new) {
-        materials.emplace_back().name = name;
-        sources.emplace_back();
+        result_.scene.materials.emplace_back().name = name;
+        result_.material_source.emplace_back();
         entries_.emplace_back();
     }
     return found->second;
@@ -65,7 +65,7 @@ void MaterialTable::read_libraries(std::string_view names, std::size_t line) {
     const std::string_view whole = name_in(names);
     if (whole.empty()) {
         if (libraries_missed_.insert("").second)
-            warnings.push_back(where + "no file name after mtllib");
+            result_.warnings.push_back(where + "no file name after mtllib");
         return;
     }
     if (const std::string file = find_library(whole); !file.empty()) {
@@ -86,7 +86,8 @@ void MaterialTable::read_libraries(std::string_view names, std::size_t line) {
         read_library(file, where);
     missing = shortened(missing, longest_name);
     if (!missing.empty() && libraries_missed_.insert(missing).second)
-        warnings.push_back(where + "material library " + missing + " not found or no regular file");
+        result_.warnings.push_back(where + "material library " + missing +
+                                   " not found or no regular file");
 }
 
 void MaterialTable::read_library(const std::string& file, const std::string& where) {
@@ -100,13 +101,13 @@ void MaterialTable::read_library(const std::string& file, const std::string& whe
     if (const std::uintmax_t size = std::filesystem::file_size(file, error);
         before_library_ && !error)
         before_library_(bytes_per_character * static_cast<double>(size));
-    libraries.push_back(file);
+    result_.libraries.push_back(file);
     MtlFile read = read_mtl(file);
     for (const MtlMaterial& material : read.materials)
         define(file, material);
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
     for (const std::string& texture : read.textures)
-        textures.push_back((folder / texture).string());
+        result_.textures.push_back((folder / texture).string());
 }
 
 /// Links are followed. The scene's author chose the file, and the reader of a scene from elsewhere
@@ -119,8 +120,9 @@ void MaterialTable::warn_of_outside(const std::string& file, const std::string& 
     const fs::path inside = fs::canonical(file, error).lexically_relative(folder);
     if (error || (!inside.empty() && *inside.begin() != "..") || std::exchange(outside_, true))
         return;
-    warnings.push_back(where + "material library " + in_quotes(file) +
-                       " lies outside the scene's folder; further ones that do are not named");
+    result_.warnings.push_back(
+        where + "material library " + in_quotes(file) +
+        " lies outside the scene's folder; further ones that do are not named");
 }
 
 void MaterialTable::define(const std::string& file, const MtlMaterial& material) {
@@ -130,13 +132,15 @@ void MaterialTable::define(const std::string& file, const MtlMaterial& material)
     if (entry.definition) {
         if (std::exchange(entry.redefined_in, file) == file)
             return;
-        warnings.push_back(where + ": material " + in_quotes(material.name) + " is defined in \"" +
-                           sources[index] + "\" already, which is taken");
+        result_.warnings.push_back(where + ": material " + in_quotes(material.name) +
+                                   " is defined in \"" + result_.material_source[index] +
+                                   "\" already, which is taken");
         return;
     }
-    sources[index] = where;
-    materials[index].reflectance = material.reflectance.value_or(Material().reflectance);
-    materials[index].emission = material.emission.value_or(Material().emission);
+    result_.material_source[index] = where;
+    Material& to = result_.scene.materials[index];
+    to.reflectance = material.reflectance.value_or(to.reflectance);
+    to.emission = material.emission.value_or(to.emission);
     entry.folder = std::filesystem::path(file).parent_path().string();
     entry.definition = material;
 }
@@ -176,8 +180,8 @@ void MaterialTable::add_texture(std::size_t material, const std::optional<MtlTex
             first_missing_ = texture->name;
         return;
     }
-    maps.resize(materials.size());
-    TextureMap& to = maps[material].*map;
+    result_.scene.textures.of_material.resize(result_.scene.materials.size());
+    TextureMap& to = result_.scene.textures.of_material[material].*map;
     to.texture = read;
     to.factor = factor.value_or(Vec3(1.0));
     if (texture->clamp)
@@ -185,7 +189,7 @@ void MaterialTable::add_texture(std::size_t material, const std::optional<MtlTex
     to.origin = {texture->offset.x, 1 - texture->offset.y};
     to.x = {texture->scale.x, 0};
     to.y = {0, -texture->scale.y};
-    materials[material].*colour = to.factor * read->mean();
+    result_.scene.materials[material].*colour = to.factor * read->mean();
 }
 
 void MaterialTable::warn_of_undefined() {
@@ -198,18 +202,18 @@ void MaterialTable::warn_of_undefined() {
         if (count == 0)
             where = path_ + ":" + std::to_string(entries_[i].first_use) + ": ";
         if (count++ < longest_list)
-            names += (names.empty() ? "" : ", ") + in_quotes(materials[i].name);
+            names += (names.empty() ? "" : ", ") + in_quotes(result_.scene.materials[i].name);
     }
     if (count > longest_list)
         names += " and " + std::to_string(count - longest_list) + " more";
     if (count > 0)
-        warnings.push_back(where + counted_materials(count) + " used but not defined (" + names +
-                           "): reflectance 0.5, no emission");
+        result_.warnings.push_back(where + counted_materials(count) + " used but not defined (" +
+                                   names + "): reflectance 0.5, no emission");
 }
 
 void MaterialTable::warn_of_textures() {
     if (missing_ > 0)
-        warnings.push_back(
+        result_.warnings.push_back(
             path_ + ": " + std::to_string(missing_) +
             (missing_ == 1 ? " texture is" : " textures are") +
             " not found, or neither PNG nor JPEG; colours are Kd and Ke alone there (" +

@@ -4,8 +4,8 @@
 
 #include "io/files/file_identity.h"
 #include "io/scene_files/mtl.h"
+#include "io/scene_files/read_result.h"
 #include "io/textures/texture_files.h"
-#include "radiosity/scene/scene.h"
 
 #include <cstdint>
 #include <functional>
@@ -21,14 +21,14 @@ namespace hemilux {
 
 class MaterialTable {
   public:
-    /// `path` of the OBJ file; libraries are looked for in its folder.
+    /// `path` of the OBJ file; libraries are looked for in its folder. `result`, which must outlive
+    /// the table, gets materials and where they stand, textures, warnings and what was read.
     /// Before a library is read `before_library` is called with about the bytes that it will take;
     /// what that throws ends the reading. Without `read_textures` colours are Kd and Ke alone.
-    explicit MaterialTable(const std::string& path,
-                           std::function<void(double bytes)> before_library = {},
-                           bool read_textures = true)
-        : path_(path), before_library_(std::move(before_library)), texture_files_(before_library_),
-          read_textures_(read_textures) {}
+    MaterialTable(const std::string& path, ReadResult& result,
+                  std::function<void(double bytes)> before_library = {}, bool read_textures = true)
+        : path_(path), result_(result), before_library_(std::move(before_library)),
+          texture_files_(before_library_), read_textures_(read_textures) {}
 
     /// The material's index. `line` of the OBJ file is for messages.
     [[nodiscard]] std::uint32_t use(const std::string& name, std::size_t line);
@@ -38,13 +38,6 @@ class MaterialTable {
     /// Reads the textures of materials in use, and adds to the warnings what is only known at the
     /// end.
     void finish();
-
-    std::vector<Material> materials;
-    std::vector<std::string> sources; ///< "file:line" of each definition; "" where there is none
-    std::vector<std::string> warnings;
-    std::vector<std::string> libraries; ///< paths of those that were read
-    std::vector<std::string> textures;  ///< where those that they name may lie
-    std::vector<MaterialTextures> maps; ///< by material; empty where no texture was read
 
   private:
     struct Entry {
@@ -66,6 +59,7 @@ class MaterialTable {
     void warn_of_textures();
 
     std::string path_;
+    ReadResult& result_;
     std::function<void(double bytes)> before_library_;
     std::set<FileIdentity> libraries_read_;
     bool outside_ = false;                   ///< a library outside the scene's folder was reported

@@ -21,7 +21,7 @@ class ObjReader {
   public:
     ObjReader(const std::string& path, const ReadGuard& guard, bool textures)
         : path_(path), guard_(guard), textures_(textures), materials_(
-                                                               path,
+                                                               path, result_,
                                                                [this](double bytes) {
                                                                    libraries_ += bytes;
                                                                    check_memory();
@@ -48,10 +48,10 @@ class ObjReader {
     bool textures_;
     double text_ = 0, libraries_ = 0; ///< bytes
     std::size_t statements_ = 0;
+    ReadResult result_;
     MaterialTable materials_;
     ObjContents contents_;
     std::vector<std::size_t> corners_of_facets_; ///< four each, in the corners of the contents
-    ReadResult result_;
 
     PolygonDivision division_;
     std::vector<Vec3> shape_;
@@ -87,10 +87,8 @@ ReadResult ObjReader::read() {
 /// Of all facets, once it is known that some carry a texture.
 void ObjReader::add_texcoords() {
     Scene& scene = result_.scene;
-    if (materials_.maps.empty())
+    if (scene.textures.of_material.empty())
         return;
-    scene.textures.of_material = std::move(materials_.maps);
-    scene.textures.of_material.resize(scene.materials.size());
     std::vector<Texcoords>& of_facets = scene.textures.texcoords.emplace_back();
     std::size_t missing = 0;
     for (std::size_t f = 0; f < scene.facets.size(); ++f) {
@@ -183,7 +181,7 @@ void ObjReader::check_memory() const {
            bytes(contents_.faces) + bytes(contents_.vertices) + bytes(result_.scene.vertices) +
            bytes(result_.scene.facets) +
            per_group * static_cast<double>(contents_.groups.size() + result_.scene.groups.size() +
-                                           materials_.materials.size()));
+                                           result_.scene.materials.size()));
 }
 
 /// What there is to say where doubles hardly distinguish the scene's places from each other,
@@ -209,11 +207,6 @@ std::string ObjReader::rounding_of_places() const {
 
 void ObjReader::collect_warnings() {
     materials_.finish();
-    result_.scene.materials = std::move(materials_.materials);
-    result_.material_source = std::move(materials_.sources);
-    result_.warnings = std::move(materials_.warnings);
-    result_.libraries = std::move(materials_.libraries);
-    result_.textures = std::move(materials_.textures);
     add_texcoords();
     if (const std::string rounding = rounding_of_places(); !rounding.empty())
         result_.warnings.push_back(path_ + rounding);
