@@ -58,7 +58,7 @@ Aim aim_of(const Model& model, std::span<const double> target, double rays, bool
     const SolverInput input{model.mesh, model.bvh, options, monitor, everything_needed, target};
     StepResult pilot(model.mesh);
     const double ray_power = mean_of_channels(emitted_power(model.mesh)) / rays;
-    return aim_rays(input, {7, 1, ray_power, 0, Workers(2)}, balls, pilot);
+    return aim_rays(input, {7, 1, ray_power, Workers(2)}, balls, pilot);
 }
 
 /// A room, and on its floor a small thing that is the target. Large patches stand near it.

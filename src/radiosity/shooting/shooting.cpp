@@ -23,14 +23,9 @@ ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strat
     mean_.solution.bytes_density = strategy.density_bytes();
 }
 
-void ShootingSolver::make_places(unsigned count) {
-    while (bounces_.size() < count)
-        bounces_.emplace_back(tools_);
-}
-
 /// Where steps are alike the strategy is not called for each.
 bool ShootingSolver::solve_once(const StepTask& task, StepResult& result) {
-    Bounces& bounces = bounces_[task.place];
+    Bounces bounces(tools_);
     Strategy& strategy = *tools_.strategy;
     if (strategy.is_same_in_all_steps())
         return bounces.shoot(task, result);

@@ -13,7 +13,6 @@
 #include "radiosity/solving/method.h"
 
 #include <memory>
-#include <vector>
 
 namespace hemilux {
 
@@ -24,7 +23,6 @@ class ShootingSolver final : public StepwiseSolver {
 
   private:
     bool solve_once(const StepTask& task, StepResult& result) override;
-    void make_places(unsigned count) override;
     [[nodiscard]] bool steps_are_alike() const override {
         return tools_.strategy->is_same_in_all_steps();
     }
@@ -34,7 +32,6 @@ class ShootingSolver final : public StepwiseSolver {
     void load_more(StateReader& state) override;
 
     ShootingTools tools_;
-    std::vector<Bounces> bounces_; ///< for each step that is worked out at the same time
 };
 
 /// Makes the solver of a strategy, for Method::make. With `has_literal` the option --literal

@@ -8,7 +8,6 @@
 #include "radiosity/solution/target.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -33,7 +32,7 @@ bool StepwiseSolver::step() {
     Ahead next = std::move(ahead_.front());
     ahead_.pop_front();
     if (next.failed && !next.failure) // on another rank: here it fails for the same reason
-        solve(next, task_of(0, 0, workers_));
+        solve(next, task_of(0, workers_));
     if (next.failure || !next.done)
         ahead_.clear();
     if (next.failure)
@@ -64,24 +63,20 @@ void StepwiseSolver::work_at(std::size_t first, std::size_t every) {
     if (count == 0)
         return;
     const auto start = std::chrono::steady_clock::now();
-    const auto places = static_cast<unsigned>(std::min<std::size_t>(count, workers_.threads()));
-    make_places(places);
-    std::atomic<unsigned> place{0};
-    const Workers own(workers_.threads() / places);
-    const auto work = [&](unsigned at, std::size_t k, std::size_t) {
+    const auto at_once = static_cast<unsigned>(std::min<std::size_t>(count, workers_.threads()));
+    const Workers own(workers_.threads() / at_once);
+    workers_.for_chunks(count, 1, [&](std::size_t k, std::size_t) {
         const std::size_t ahead = first + k * every;
-        solve(ahead_[ahead], task_of(ahead, at, k + 1 == count ? workers_ : own));
-    };
-    workers_.for_chunks_with(
-        count, 1, [&] { return place++; }, work);
+        solve(ahead_[ahead], task_of(ahead, k + 1 == count ? workers_ : own));
+    });
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    seconds_per_step_ = took.count() * places / static_cast<double>(count);
+    seconds_per_step_ = took.count() * at_once / static_cast<double>(count);
 }
 
 /// Of the next step but so many.
-StepTask StepwiseSolver::task_of(std::size_t ahead, unsigned place, const Workers& workers) const {
+StepTask StepwiseSolver::task_of(std::size_t ahead, const Workers& workers) const {
     const std::uint64_t number = mean_.solution.steps + ahead;
-    return {number, number + 1, mean_.ray_power, place, workers, mean_.aimed, &balls_};
+    return {number, number + 1, mean_.ray_power, workers, mean_.aimed, &balls_};
 }
 
 void StepwiseSolver::solve(Ahead& ahead, const StepTask& task) {
@@ -174,8 +169,7 @@ bool StepwiseSolver::find_ray_power() {
                 pilot.shot += mean_of_channels(pilot.radiosity[i] * input_.mesh.patches()[i].area);
             return true;
         }
-        make_places(1);
-        if (!shoot_pilot({pilot_stream, 1, ray_power, 0, workers_}, pilot))
+        if (!shoot_pilot({pilot_stream, 1, ray_power, workers_}, pilot))
             return false;
         pilot_ = pilot.radiosity;
         return true;

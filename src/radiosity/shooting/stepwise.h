@@ -20,7 +20,6 @@ struct StepTask {
     std::uint64_t stream; ///< of its random numbers
     std::uint64_t number; ///< from 1; the pilot belongs to the first
     double ray_power;     ///< that each ray is to carry on average, mean of channels; or infinite
-    unsigned place;       ///< among those that are worked out at the same time, from 0
     Workers workers;      ///< for this one
     std::span<const double> aimed = {}; ///< MeanOfSteps::aimed
     const TargetBalls* balls = nullptr; ///< that get rays of their own
@@ -53,8 +52,6 @@ class StepwiseSolver : public Solver {
     /// Finds one solution of all bounces. `result` comes with the emission as radiosity and nothing
     /// else. False when interrupted. If steps are alike, it is called for several at the same time.
     virtual bool solve_once(const StepTask& task, StepResult& result) = 0;
-    /// Called before solve_once is called for `count` places at the same time.
-    virtual void make_places(unsigned /*count*/) {}
     /// Whether no step depends on those before.
     [[nodiscard]] virtual bool steps_are_alike() const { return false; }
     /// Whether solve_once shoots to the balls of a task.
@@ -85,7 +82,7 @@ class StepwiseSolver : public Solver {
     };
     void work_ahead();
     void work_at(std::size_t first, std::size_t every);
-    [[nodiscard]] StepTask task_of(std::size_t ahead, unsigned place, const Workers& workers) const;
+    [[nodiscard]] StepTask task_of(std::size_t ahead, const Workers& workers) const;
     void solve(Ahead& ahead, const StepTask& task);
     void gather_ahead();
     [[nodiscard]] unsigned side_by_side() const;

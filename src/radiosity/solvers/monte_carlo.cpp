@@ -181,7 +181,7 @@ class OneShotSolver final : public Solver {
   public:
     explicit OneShotSolver(const SolverInput& input)
         : input_(input), mean_(input, true), start_(mean_.solution),
-          result_(input.mesh), task_{0, 1, 0, 0, Workers(input.options.threads)} {}
+          result_(input.mesh), task_{0, 1, 0, Workers(input.options.threads)} {}
 
     bool step() override {
         if (!shots_ && !begin())
@@ -202,7 +202,7 @@ class OneShotSolver final : public Solver {
     /// The pilot as StepwiseSolver has it.
     bool begin() {
         const bool found = mean_.find_ray_power([&](double ray_power, StepResult& pilot) {
-            return shoot_all(input_, {~std::uint64_t{0}, 1, ray_power, 0, task_.workers}, pilot);
+            return shoot_all(input_, {~std::uint64_t{0}, 1, ray_power, task_.workers}, pilot);
         });
         if (!found)
             return false;
