@@ -2,10 +2,10 @@
 // the target and elsewhere, and what the target saves.
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/form_factors/ray_counts.h"
+#include "radiosity/linear/surfaces.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/saving/state.h"
 #include "radiosity/scene/alike_neighbours.h"
-#include "radiosity/scene/surfaces.h"
 #include "radiosity/shooting/aimed_rays.h"
 #include "radiosity/shooting/stepwise.h"
 #include "radiosity/stored_transport/importance.h"

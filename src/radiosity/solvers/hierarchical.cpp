@@ -26,10 +26,10 @@
 #include "radiosity/hierarchy/links.h"
 #include "radiosity/hierarchy/lost_rays.h"
 #include "radiosity/linear/batch_solutions.h"
+#include "radiosity/linear/surfaces.h"
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
 #include "radiosity/scene/mesh.h"
-#include "radiosity/scene/surfaces.h"
 #include "radiosity/solving/check_input.h"
 #include "radiosity/solving/method.h"
 

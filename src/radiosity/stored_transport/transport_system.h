@@ -6,7 +6,7 @@
 #include "parallel/workers.h"
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/linear/energy_ledger.h"
-#include "radiosity/scene/surfaces.h"
+#include "radiosity/linear/surfaces.h"
 #include "radiosity/solving/stop_flag.h"
 #include "radiosity/stored_transport/batch_light.h"
 
