@@ -4,6 +4,7 @@
 #include "support/catch.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
@@ -241,6 +242,10 @@ bool has_test(const fs::path& folder, const std::string& name) {
         });
 }
 
+/// The pages whose sections are decisions.
+constexpr std::array pages_of_decisions{"docs/decisions.md", "docs/design.md",
+                                        "docs/engineering.md"};
+
 /// The numbers of the sections "### D7. ..." of a page, as they follow each other.
 std::vector<int> decisions_in(const char* page) {
     std::vector<int> numbers;
@@ -337,7 +342,8 @@ TEST_CASE("what a page names exists") {
 }
 
 TEST_CASE("the code that decisions refer to exists") {
-    for (const char* page : {"docs/decisions.md", "docs/engineering.md"}) {
+    for (const char* page : pages_of_decisions) {
+        CAPTURE(page);
         const std::vector<std::string> references = between(text_of(root / page), "Code: ", ".\n");
         CHECK(references.size() == decisions_in(page).size());
         for (const std::string& reference : references)
@@ -346,13 +352,17 @@ TEST_CASE("the code that decisions refer to exists") {
 }
 
 TEST_CASE("decisions stand in their order, each in one place, and all that are referred to exist") {
-    const std::vector<int> decisions = decisions_in("docs/decisions.md"),
-                           engineering = decisions_in("docs/engineering.md");
-    CHECK(std::ranges::is_sorted(decisions));
-    CHECK(std::ranges::is_sorted(engineering));
-    std::set<int> all(decisions.begin(), decisions.end());
-    all.insert(engineering.begin(), engineering.end());
-    CHECK(all.size() == decisions.size() + engineering.size());
+    std::set<int> all;
+    std::size_t sections = 0;
+    for (const char* page : pages_of_decisions) {
+        CAPTURE(page);
+        const std::vector<int> numbers = decisions_in(page);
+        CHECK_FALSE(numbers.empty());
+        CHECK(std::ranges::is_sorted(numbers));
+        sections += numbers.size();
+        all.insert(numbers.begin(), numbers.end());
+    }
+    CHECK(all.size() == sections);
     for (const char* folder : {"src", "tests", "bench", "examples", "docs"})
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
             const fs::path& file = entry.path();

@@ -13,7 +13,7 @@ namespace {
 constexpr double least_share = 1.0 / 8;
 
 /// The least where patches are not of the same importance. With an eighth, patches with many rays
-/// inherit too much of what those with few are off by (docs/decisions.md, D57).
+/// inherit too much of what those with few are off by (docs/design.md, D57).
 constexpr double least_of_expected = 1.0 / 4;
 
 /// The power of two nearest to a number, in logarithms: the largest up to sqrt(2) rays.
