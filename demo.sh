@@ -16,14 +16,14 @@ mkdir -p "$out"
 
 echo
 echo "1. The room by the paper's method, and how far it is from a reference"
-$hemilux solve "$scene" --method matrix --error .002 -q -o "$out/reference.csv"
+$hemilux solve "$scene" --method matrix --error 0.002 -q -o "$out/reference.csv"
 $hemilux solve "$scene" --method hemisphere --steps 32 --reference "$out/reference.csv" \
     -o "$out/paper.csv" -o "$out/paper.png"
 echo
 echo "2. The hemisphere of one patch: surfaces counted in each direction, divided where there are many"
 $hemilux density "$scene" -o "$out/hemisphere.svg"
 echo
-echo "3. Error against rays: the paper's method, random directions, and the default method"
+echo "3. Error against rays and run time: the paper's method, random directions, and the default method"
 $hemilux compare "$scene" --methods hemisphere,progressive-monte-carlo,stored-transport \
     --reference "$out/reference.csv" --budget-rays 500000 -q -o "$out/compare"
 echo

@@ -322,6 +322,9 @@ Settings read_settings(int argc, char** argv) {
                 throw std::runtime_error(word + " needs a value");
             return std::string(argv[i]);
         };
+        if (word == "--help")
+            throw std::runtime_error("arguments are [SCENE.obj ...] [--json FILE] [--rays N] "
+                                     "[--rounds N] [--only TEXT]");
         if (word == "--json")
             settings.json = value();
         else if (word == "--rays")

@@ -3,7 +3,7 @@
 //
 //     useful_pictures SCENE.obj FOLDER [RUNS [STEPS [CAMERA]]]
 //
-// CAMERA is that of --camera; without it the program's own is used. // Progressive Monte Carlo
+// CAMERA is that of --camera; without it the program's own is used. Progressive Monte Carlo
 // beside the hemisphere subdivision, steps of 64 rays a patch. Prints rows of tables in Markdown:
 // the index after 3 and 17 steps, over the whole picture, where it shows groups named detail...,
 // and elsewhere; and the first step after which the mean index of the runs is 0.95, and 0.99, with

@@ -104,9 +104,12 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
         "--print", "man|bash|zsh|fish", "Print the manual page, or the completions of a shell",
         [&program](const std::string& name) { return printed(program, name); });
     program.program().end_help_with("hemilux SUBCOMMAND --help says more.");
-    for (const std::string& subcommand : program.commands())
-        if (!words.empty() && words.front() == subcommand)
+    if (!words.empty()) {
+        if (std::ranges::count(program.commands(), words.front()) > 0)
             advice = "\nhemilux " + words.front() + " --help says what can be asked for.";
+        else if (!words.front().starts_with('-'))
+            words.resize(1); // which is refused, also where help is asked for it
+    }
     const ConfigWords config(std::move(words), program.described());
     if (const std::string text = parsed(program, config); !text.empty()) {
         if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)

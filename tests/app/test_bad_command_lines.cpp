@@ -63,7 +63,7 @@ TEST_CASE("values that are missing, doubled or contradict each other") {
     check_usage(place, "solve room.obj -o a.png.bak", "a file name");
 }
 
-TEST_CASE("empty and odd file names are told, not opened") {
+TEST_CASE("empty and odd file names are refused, not opened") {
     const Workplace place;
     place.write_room();
     for (const char* arguments :

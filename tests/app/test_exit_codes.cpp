@@ -26,6 +26,13 @@ TEST_CASE("help and version go to stdout and end with 0") {
         CHECK(place.hemilux(arguments).out.rfind("hemilux ", 0) == 0);
 }
 
+TEST_CASE("help for a word that is no subcommand is refused") {
+    const Workplace place;
+    CHECK(place.hemilux("help solve").out == place.hemilux("solve --help").out);
+    for (const char* arguments : {"help sovle", "sovle --help"})
+        check_fails(place, 1, arguments, "sovle");
+}
+
 TEST_CASE("wrong usage ends with 1 and says what was expected") {
     const Workplace place;
     place.write_room();

@@ -188,7 +188,7 @@ TEST_CASE("a disk without room for --spill is one message and exit code 3") {
     }
 }
 
-TEST_CASE("folders that cannot be written to or are files are told before any work") {
+TEST_CASE("folders that cannot be written to or are files are refused before any work") {
     const Workplace place;
     place.write("slow.obj", "not even read");
     fs::create_directory(place.path("folder.csv"));

@@ -54,7 +54,7 @@ TEST_CASE("a checkpoint reads back as it was written", "[checkpoint]") {
     CHECK(to_bytes(read) == to_bytes(written));
 }
 
-TEST_CASE("every flipped bit and every truncation is told", "[checkpoint]") {
+TEST_CASE("every flipped bit and every truncation is found", "[checkpoint]") {
     const std::string good = to_bytes(example());
     CHECK_NOTHROW((void)checkpoint_from(good, "saved"));
     for (std::size_t i = 0; i < 8 * good.size(); ++i) {

@@ -302,7 +302,7 @@ TEST_CASE("a spike without width is harmless", "[polygon_division]") {
     }
 }
 
-TEST_CASE("polygons that cross themselves are told and stay finite", "[polygon_division]") {
+TEST_CASE("polygons that cross themselves are reported and stay finite", "[polygon_division]") {
     Flat pentagram;
     for (std::size_t i = 0; i < 5; ++i)
         pentagram.push_back(regular(5)[2 * i % 5]);

@@ -12,7 +12,7 @@
 using namespace hemilux;
 namespace fs = std::filesystem;
 
-TEST_CASE("names of temporary files are told from others", "[atomic]") {
+TEST_CASE("names of temporary files are distinguished from others", "[atomic]") {
     for (const char* name : {".hemilux-1-0.tmp", ".hemilux-4194303-123.tmp"})
         CHECK(is_temporary_name(name));
     for (const char* name :

@@ -295,7 +295,7 @@ TEST_CASE("Slivers whose boxes all overlap make the pairs that each with each ma
     CHECK(wrong == 0);
 }
 
-TEST_CASE("More slivers over each other than can be compared are told of") {
+TEST_CASE("More slivers over each other than can be compared are reported") {
     Scene scene = fan(300, 60);
     const std::vector<Vec3> local = LocalFrame::of(scene).to_local(scene.vertices);
     CHECK(find_overlaps(scene, local).complete);

@@ -174,7 +174,7 @@ TEST_CASE("With a target the result does not depend on threads, nor on an interr
     CHECK_THROWS_AS(stored_transport().make(changed)->load(again), StateError);
 }
 
-TEST_CASE("A room that the target cannot see gets no more rays, and is told", "[slow]") {
+TEST_CASE("A room that the target cannot see gets no more rays, and this is reported", "[slow]") {
     const Model model(two_rooms());
     const std::vector<double> target = first_room(model.mesh);
     const Solution all = solve_to(model, {}, .01, 3), some = solve_to(model, target, .01, 3);

@@ -105,7 +105,7 @@ TEST_CASE("a compensated sum keeps what a plain one loses") {
     CHECK(std::abs(plain - 1e5) > 1e-7);
 }
 
-TEST_CASE("what is missing in a balance is told by the worst channel") {
+TEST_CASE("what is missing in a balance is that of the worst channel") {
     EnergyBalance energy{Vec3(1, 2, 0), Vec3(.5, 1, 0), Vec3(.25, 1, 0), Vec3(.25, 0, 0)};
     CHECK(energy.imbalance() == 0);
     energy.absorbed.y = 1.5;

@@ -89,7 +89,7 @@ void add_reference_options(Command command, CompareSettings& settings) {
                           settings.reference = text == method ? std::string() : text;
                       });
     add_error(command, "--reference-error", settings.reference_error,
-              "estimated relative error of the " + method + " method [.002]");
+              "estimated relative error of the " + method + " method [0.002]");
     command.add_flag("--total", settings.total,
                      "curves and gains by the error of the light itself: also that a patch has one "
                      "value; the table has both errors");

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* info_examples = R"(Examples:
   hemilux info room.obj
-  hemilux info room.obj --max-edge .1
+  hemilux info room.obj --max-edge 0.1
   hemilux info room.obj --json
 )";
 

@@ -54,7 +54,7 @@ Option add_error(Command command, const std::string& name, Target& target,
                              "%; without the sign, 1 is an error of 100 %");
         return value && positive.contains(*value) ? value : std::nullopt;
     };
-    return add_parsed(command, name, "X|PERCENT%", help, "an error above 0 such as 1% or .01",
+    return add_parsed(command, name, "X|PERCENT%", help, "an error above 0 such as 1% or 0.01",
                       parse, [&target](double value) { target = value; });
 }
 

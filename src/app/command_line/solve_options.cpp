@@ -62,7 +62,7 @@ void add_stop_options(Command command, StopRule& stop) {
                              std::numeric_limits<std::uint32_t>::max(), "after N steps");
     add_seconds(command, "--time", stop.seconds, positive,
                 "after a time of solving; 2m and 1h are minutes and hours");
-    add_error(command, "--error", stop.error, "at an estimated relative error, e.g. 1% or .01");
+    add_error(command, "--error", stop.error, "at an estimated relative error, e.g. 1% or 0.01");
     add_whole<std::uint64_t>(
         command, "--max-rays", stop.rays, 1, std::numeric_limits<std::uint64_t>::max(),
         "after N rays, even if the error is not reached [1e8 and 1000 a patch]");
@@ -165,11 +165,11 @@ void add_comparison_options(Command command, SolveSettings& settings) {
 constexpr const char* solve_examples = R"(
 Examples:
   hemilux solve room.obj -o room.png
-  hemilux solve room.obj --divide auto --error .03 -o room.png
-  hemilux solve room.obj --max-edge .1 --error .01 -o room.hdr -o room.csv
+  hemilux solve room.obj --divide auto --error 0.03 -o room.png
+  hemilux solve room.obj --max-edge 0.1 --error 0.01 -o room.hdr -o room.csv
   hemilux solve room.obj --points desks.txt --points-output desks.csv
-  hemilux solve house.obj --for group:kitchen --error .02 -o house.csv
-  hemilux solve map.obj --emission 'Lava=8,2,.3' --reflectance '*=.6' -o map.ply
+  hemilux solve house.obj --for group:kitchen --error 0.02 -o house.csv
+  hemilux solve map.obj --emission 'Lava=8,2,0.3' --reflectance '*=0.6' -o map.ply
   hemilux solve room.obj --method matrix -o reference.csv
   hemilux solve room.obj --reference reference.csv --steps-log steps.csv
   hemilux solve room.obj --steps 999 -o room.csv --checkpoint room.saved
@@ -197,9 +197,9 @@ void add_divide_option(Command command, Option max_edge, SolveSettings& settings
     add_parsed(
         command, "--divide", "auto|none|LENGTH",
         "patches: auto: divided where the light changes within them, and linear light on each, "
-        "until the error of the light itself is that of --error [.05; .02 where all light is "
+        "until the error of the light itself is that of --error [0.05; 0.02 where all light is "
         "gathered, for pictures and --points]; none: the faces; LENGTH: as --max-edge [auto below "
-        "20 000 patches, and below 200 000 where gathered light would be off by .05, for the "
+        "20 000 patches, and below 200 000 where gathered light would be off by 0.05, for the "
         "default method without --steps, --every-step, --reference, --checkpoint and --for; else "
         "none]",
         "auto, none or a length above 0", division_from,

@@ -34,7 +34,8 @@ std::string uncertainty_text(const Statistics& s) {
 
 /// The estimated error, of what, and what the other part of it is.
 std::string errors_text(const Statistics& s) {
-    if (!std::isfinite(s.estimated_error) && std::isfinite(s.error_sampling))
+    if (!std::isfinite(s.estimated_error) && std::isfinite(s.error_sampling) &&
+        s.error_sampling > 0) // else nothing is lit
         return "estimated error unknown: the run ended before that of the division was measured; "
                "sampling " +
                percent(s.error_sampling);

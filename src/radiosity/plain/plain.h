@@ -3,7 +3,9 @@
 //
 // A page is nested loops with the paper's names, one ray at a time: no threads, no vector
 // instructions, nothing kept but what the method is about. To read one, have the scene, the mesh,
-// the tracer, step.h and the random numbers at hand, and for sections 4 and 5 the hemisphere. The
+// the tracer and the random numbers at hand, and step.h, where power is received and reflected; for
+// section 5 also hemisphere.h, for section 4 stored_subdivision.h and edge_division.h, and for
+// stored transport batches.h. The
 // tests compare the engine with these pages by ==, all bits of the radiosity; `stored-transport`,
 // whose page shows the principle alone, within standard errors. Page and engine average their steps
 // by the same code (mean_of_steps.h). On the command line: --plain.
