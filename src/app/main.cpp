@@ -30,8 +30,8 @@
 namespace hemilux {
 namespace {
 
-/// Each step frees arrays of megabytes and takes them again. To give their pages back and ask for
-/// new ones meanwhile costs up to a twentieth of a short run.
+/// Keeps freed memory in the process. Each step frees arrays of megabytes and takes them again. To
+/// give their pages back and ask for new ones costs up to a twentieth of a short run.
 void keep_freed_memory() {
 #if defined(__GLIBC__)
     (void)mallopt(M_MMAP_THRESHOLD, 1 << 25); // the largest that it takes
@@ -39,7 +39,8 @@ void keep_freed_memory() {
 #endif
 }
 
-/// The arguments after the program's name; `help` and `help SUBCOMMAND` are --help in other words.
+/// Returns the arguments after the program's name; `help` and `help SUBCOMMAND` are --help in other
+/// words.
 std::vector<std::string> arguments_of(int argc, const char* const* argv) {
     std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     if (!words.empty() && words.front() == "help") {
@@ -49,8 +50,8 @@ std::vector<std::string> arguments_of(int argc, const char* const* argv) {
     return words;
 }
 
-/// What a result depends on. Where it goes, how many threads work and what is reported meanwhile
-/// would give files of the same result different bytes.
+/// Returns what a result depends on. Where it goes, how many threads work and what is reported
+/// meanwhile would give files of the same result different bytes.
 Provenance provenance(const Command& command, std::uint64_t seed) {
     constexpr auto beside = std::to_array<std::string_view>(
         {"--output", "--stats", "--steps-log", "--error-map", "--points-output", "--report",
@@ -59,7 +60,7 @@ Provenance provenance(const Command& command, std::uint64_t seed) {
     return {"hemilux " HEMILUX_VERSION, "hemilux " + command.text_given(beside), seed};
 }
 
-/// The answer to --print, made from what was declared.
+/// Returns the answer to --print, made from what was declared.
 std::string printed(const Arguments& program, const std::string& name) {
     const std::vector<std::string> names = {"man", "bash", "zsh", "fish"};
     if (std::ranges::find(names, name) == names.end())
@@ -72,7 +73,7 @@ std::string printed(const Arguments& program, const std::string& name) {
     return completions(name, program.described(), method_names);
 }
 
-/// What Arguments::parse returns. Throws InputError where a file of --config is to blame.
+/// Returns what Arguments::parse returns. Throws InputError where a file of --config is to blame.
 std::string parsed(Arguments& program, const ConfigWords& config) {
     try {
         return program.parse(config.words());
@@ -82,7 +83,7 @@ std::string parsed(Arguments& program, const ConfigWords& config) {
     }
 }
 
-/// `advice` names the help of the subcommand, where one is asked for.
+/// Runs the program. `advice` names the help of the subcommand, where one is asked for.
 int run_program(std::vector<std::string> words, const Ranks& ranks, std::string& advice) {
     Arguments program("hemilux",
                       "hemilux " HEMILUX_VERSION
@@ -139,7 +140,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     return info(info_settings);
 }
 
-/// Every error ends here, as one message and an exit code.
+/// Runs the program; every error ends here, as one message and an exit code.
 int guarded_main(int argc, const char* const* argv) {
     std::string advice = "\nhemilux --help says what can be asked for.";
     std::optional<StartedRanks> started;

@@ -1,5 +1,6 @@
 #pragma once
-// Tests every ray against every facet: slow and obviously right, the referee of the BVH.
+// Tests every ray against every facet. This is slow and obviously right, so it is the referee of
+// the BVH.
 
 #include "bvh/intersect.h"
 

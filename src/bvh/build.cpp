@@ -23,7 +23,8 @@ struct Bin {
     std::uint32_t count = 0;
 };
 
-/// Where a range of items is to be divided: those whose bin on `axis` is below `bin` go left.
+/// The place where a range of items is to be divided: items whose bin on `axis` is below `bin` go
+/// left.
 struct Split {
     int axis = -1;
     int bin = 0;
@@ -58,7 +59,7 @@ class Builder {
     }
 
     [[nodiscard]] const std::vector<Item>& items() const { return items_; }
-    /// Of all facets, widened like the nodes' boxes.
+    /// Returns the box of all facets, widened like the nodes' boxes.
     [[nodiscard]] Box bounds() const { return {bounds_.low - widen_, bounds_.high + widen_}; }
 
   private:
@@ -85,7 +86,8 @@ class Builder {
         }
     }
 
-    /// The best division by bins, its cost relative to one facet test in a box of `boxes`' size.
+    /// Returns the best division by bins, its cost relative to one facet test in a box of `boxes`'
+    /// size.
     Split best_split(std::uint32_t begin, std::uint32_t end, const Box& boxes, const Box& centres) {
         Split best;
         for (int axis = 0; axis < 3; ++axis) {
@@ -141,7 +143,7 @@ class Builder {
         return static_cast<std::uint32_t>(middle - items_.begin());
     }
 
-    /// Where to divide [begin, end); end when a leaf is cheaper.
+    /// Returns where to divide [begin, end); end when a leaf is cheaper.
     std::uint32_t choose(std::uint32_t begin, std::uint32_t end, int depth) {
         const std::uint32_t n = end - begin;
         if (n <= 1)
@@ -158,7 +160,7 @@ class Builder {
         return n <= max_leaf ? end : begin + n / 2;
     }
 
-    /// The tree of [begin, end).
+    /// Makes the tree of [begin, end).
     Bvh::Child make(std::uint32_t begin, std::uint32_t end, int depth) {
         const std::uint32_t middle = choose(begin, end, depth);
         if (middle == end)

@@ -1,5 +1,5 @@
 #pragma once
-// Bounding volume hierarchy over triangles and quads: binary, built top-down by the surface area
+// A bounding volume hierarchy over triangles and quads: binary, built top-down by the surface area
 // heuristic over bins (MacDonald and Booth 1990; Wald 2007).
 //
 // Facets keep their double coordinates; only the boxes are float. They are widened so that no
@@ -34,8 +34,9 @@ class Bvh final : public Tracer {
     };
 
   private:
-    /// The one traversal loop. Calls leaf(slot) for each slot of order_ whose box the ray meets
-    /// before t_max, near children first; t_max may shrink meanwhile; leaf returns true to stop.
+    /// Runs the one traversal loop. Calls leaf(slot) for each slot of order_ whose box the ray
+    /// meets before t_max, near children first. t_max may shrink meanwhile; leaf returns true to
+    /// stop.
     template <class Leaf>
     void traverse(const Ray& ray, const double& t_max, Leaf&& leaf) const;
 

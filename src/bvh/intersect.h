@@ -53,8 +53,8 @@ template <EdgeRule rule>
     return true;
 }
 
-/// Whether a hit at t on `facet` comes before the best so far; ties go to the smaller index, so
-/// that the answer does not depend on the order of visits.
+/// Returns whether a hit at t on `facet` comes before the best so far. Ties go to the smaller
+/// index, so that the answer does not depend on the order of visits.
 [[nodiscard]] inline bool comes_before(double t, std::uint32_t facet, const Hit& best) {
     return t < best.t || (t == best.t && facet < best.facet);
 }

@@ -13,8 +13,8 @@ struct BoxRay {
     double skipped = 0; ///< t at which the float ray starts
     bool misses = false;
 
-    /// A direction component of zero would make 0 * inf = NaN on a slab's plane; this is far below
-    /// what the widening of the boxes covers.
+    /// A direction component of zero would make 0 * inf = NaN on a slab's plane. This share of the
+    /// longest component is far below what the widening of the boxes covers.
     static constexpr double tiny = 1e-18;
 
     BoxRay(const Ray& ray, const Box& bounds) {
@@ -33,8 +33,8 @@ struct BoxRay {
         }
     }
 
-    /// Rays from far outside begin at the scene's box: their distance would not fit the float's
-    /// digits.
+    /// Moves the start of rays from far outside to the scene's box, because their distance would
+    /// not fit the float's digits.
     void skip_to(const Box& bounds, const Vec3& from, const Vec3& slope) {
         double enter = 0, leave = std::numeric_limits<double>::infinity();
         for (int i = 0; i < 3; ++i) {
@@ -54,7 +54,7 @@ struct Pending {
     float enter;
 };
 
-/// Deeper than any tree that the builder makes.
+/// This is deeper than any tree that the builder makes.
 constexpr int stack_size = 128;
 
 } // namespace

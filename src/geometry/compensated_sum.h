@@ -1,12 +1,13 @@
 #pragma once
-// Sums of many terms that keep what rounding loses of each (Neumaier 1974, "Rundungsfehleranalyse
-// einiger Verfahren zur Summation endlicher Summen"; the error of an addition as by Knuth): the
-// result is off by about one rounding, however many terms there are. It depends on the order of
-// the terms.
+// Sums of many terms, which keep what rounding loses of each. The result is off by about one
+// rounding, however many terms there are, and it depends on their order. The method is that of
+// Neumaier (1974, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen"), with
+// the error of an addition as by Knuth.
 
 namespace hemilux {
 
-/// T: double or a vector of doubles, summed by component. Both members are needed to go on later.
+/// A sum of T: double, or a vector of doubles that is summed by component. Both members are needed
+/// to continue it later.
 template <class T>
 struct CompensatedSum {
     T sum{0.0}, lost{0.0};

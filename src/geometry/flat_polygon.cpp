@@ -5,7 +5,7 @@
 namespace hemilux {
 namespace {
 
-/// Whether the whole of `b` lies right of an edge of `a`, or on it.
+/// Returns whether the whole of `b` lies right of an edge of `a`, or on it, up to `distance`.
 bool lies_beside_an_edge(const FlatPolygon& b, const FlatPolygon& a, double distance) {
     for (std::size_t i = 0; i < a.size; ++i) {
         const Line edge = a.edge(i);

@@ -10,7 +10,8 @@ namespace hemilux {
 struct Frame {
     Vec3 x, y, z;
 
-    /// The frame of a unit normal (Duff et al. 2017, "Building an orthonormal basis, revisited").
+    /// Returns the frame of a unit normal (Duff et al. 2017, "Building an orthonormal basis,
+    /// revisited").
     [[nodiscard]] static Frame from_normal(const Vec3& n) {
         const double sign = std::copysign(1.0, n.z);
         const double a = -1.0 / (sign + n.z);
@@ -19,11 +20,11 @@ struct Frame {
                 {b, sign + n.y * n.y * a, -n.y},
                 n};
     }
-    /// This frame turned about its normal by an angle [rad].
+    /// Returns this frame turned about its normal by an angle [rad].
     [[nodiscard]] Frame turned(double angle) const {
         return turned(Vec2(std::cos(angle), std::sin(angle)));
     }
-    /// The same by the angle's cosine and sine.
+    /// Does the same by the angle's cosine and sine.
     [[nodiscard]] Frame turned(Vec2 to) const {
         return {to.x * x + to.y * y, to.x * y - to.y * x, z};
     }

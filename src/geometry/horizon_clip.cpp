@@ -7,8 +7,8 @@
 namespace hemilux {
 namespace {
 
-/// Six times the volume between the point and the polygon: positive where its corners run
-/// counter-clockwise seen from outside the sphere, 0 where it is seen edge-on.
+/// Returns six times the volume between the point and the polygon. It is positive where its corners
+/// run counter-clockwise seen from outside the sphere, and 0 where it is seen edge-on.
 double signed_volume(const std::array<Vec3, 4>& c) {
     const Vec3 across = glm::cross(c[2] - c[0], c[3] - c[1]);
     double reach = 0;
@@ -19,8 +19,9 @@ double signed_volume(const std::array<Vec3, 4>& c) {
     return std::abs(volume) > rounding * reach * glm::length(across) ? volume : 0.0;
 }
 
-/// The corner on the horizon itself if it is seen within 1e-6 rad of it. Rounding may have moved it
-/// off, and must not decide which corners are cut off, because samples go by these.
+/// Moves a corner that is seen within 1e-6 rad of the horizon onto the horizon itself. Rounding may
+/// have moved it off. That must not decide which corners are cut off, because samples depend on
+/// these.
 Vec3 off_rounding(const Vec3& corner) {
     constexpr double rounding = 1e-6;
     const bool is_level = std::abs(corner.z) <= rounding * glm::length(corner);

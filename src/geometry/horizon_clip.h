@@ -19,8 +19,9 @@ struct ClippedPolygon {
 /// Clips a polygon, whose `corners` are relative to the point, z being the surface's normal.
 [[nodiscard]] ClippedPolygon clip_to_horizon(const std::array<Vec3, 4>& corners);
 
-/// The angle between a and b [rad] times the z of the unit normal of their plane: an edge's share
-/// of twice the projected solid angle (Lambert 1760). It is 0 for an edge without length.
+/// Returns the angle between a and b [rad] times the z of the unit normal of their plane. This is
+/// an edge's share of twice the projected solid angle (Lambert 1760), and 0 for an edge without
+/// length.
 [[nodiscard]] double edge_term(const Vec3& a, const Vec3& b);
 
 } // namespace hemilux

@@ -13,8 +13,8 @@
 namespace hemilux {
 
 /// Sorts the lower half of the numbers before the upper half, by their centres along the axis on
-/// which these extend most; those that are equal but for rounding by number. Returns how many the
-/// lower half has.
+/// which these extend most. Centres that are equal but for rounding are sorted by number. Returns
+/// how many numbers the lower half has.
 template <class CentreOf>
 std::size_t halve_at_median(std::span<std::uint32_t> numbers, const CentreOf& centre_of) {
     Box centres;

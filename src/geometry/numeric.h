@@ -7,7 +7,7 @@
 
 namespace hemilux {
 
-/// The square root, where a rounding error below zero counts as zero. A NaN stays a NaN.
+/// Returns the square root, where a rounding error below zero counts as zero. A NaN stays a NaN.
 [[nodiscard]] inline double safe_sqrt(double x) { return x < 0 ? 0.0 : std::sqrt(x); }
 
 /// Computes a b - c d with an error below 1.5 ulp and, short of underflow, the right sign
@@ -18,8 +18,8 @@ namespace hemilux {
     return std::fma(a, b, -cd) + error;
 }
 
-/// The unit vector along a vector of any length above 0: the squares of very long and very short
-/// ones are beyond the numbers that there are.
+/// Returns the unit vector along a vector of any length above 0. The squares of very long and very
+/// short vectors would overflow or underflow.
 [[nodiscard]] inline Vec3 direction_of(const Vec3& v) {
     return glm::normalize(v / std::abs(v[largest_axis(v)]));
 }

@@ -8,7 +8,7 @@
 namespace hemilux {
 namespace {
 
-/// What lies within this distance of a line touches it.
+/// The distance from a line, in the polygon's units, within which a point touches it.
 constexpr double rounding = 0x1p-44;
 
 struct Sides {
@@ -27,7 +27,7 @@ Sides sides_of(const FlatPolygon& outline, const Line& line) {
     return sides;
 }
 
-/// How many of about so many pieces are on the side that has more.
+/// Returns how many pieces of a sample are on the side that has more of them.
 std::size_t larger_side(const std::vector<PlanePiece>& pieces, const Line& line) {
     constexpr std::size_t sample = 64;
     const std::size_t step = std::max<std::size_t>(pieces.size() / sample, 1);
@@ -40,7 +40,7 @@ std::size_t larger_side(const std::vector<PlanePiece>& pieces, const Line& line)
     return std::max(left, right);
 }
 
-/// The best of a few edges.
+/// Returns the line along an edge that divides best among a few edges.
 Line choose_line(const std::vector<PlanePiece>& pieces) {
     constexpr int tries = 16;
     Line best;
@@ -58,7 +58,8 @@ Line choose_line(const std::vector<PlanePiece>& pieces) {
     return best;
 }
 
-/// A polygon without room for the corner that a cut may add stays whole.
+/// Returns the part of a piece left of a line. A polygon without room for the corner that a cut may
+/// add stays whole.
 PlanePiece part_of(const PlanePiece& piece, const Line& line) {
     const FlatPolygon& outline = piece.outline;
     return {piece.facet, outline.size < outline.corner.size() ? left_part(outline, line) : outline};

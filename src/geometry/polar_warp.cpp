@@ -11,7 +11,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// z of a x b: positive where the edge runs counter-clockwise about the pole.
+/// Returns the z of a x b, which is positive where the edge runs counter-clockwise about the pole.
 double turn(const Vec3& a, const Vec3& b) { return difference_of_products(a.x, b.y, a.y, b.x); }
 
 double angle_of(Vec2 azimuth) { return std::atan2(azimuth.y, azimuth.x); }
@@ -36,8 +36,8 @@ PolarWarp::PolarWarp(const Vec3& a, const Vec3& b, const Vec3& c) {
         }
         return;
     }
-    // One edge spans the whole range of azimuth: the only backward one is then the inner boundary,
-    // the only forward one the outer boundary.
+    // One edge spans the whole range of azimuth. If only one edge runs backward, it is the inner
+    // boundary; if only one runs forward, it is the outer boundary.
     const auto spans = [&](double t) { return backward == 1 ? t < 0 : !(t < 0); };
     const auto spanning = std::find_if(turns.begin(), turns.end(), spans);
     if (spanning == turns.end())
@@ -72,7 +72,7 @@ PolarWarp::Sector PolarWarp::sector(const Vec3& apex, double side) {
     return result;
 }
 
-/// m = apex x end = apex x (end - apex): the difference keeps short edges accurate.
+/// Finds m = apex x end = apex x (end - apex); the difference keeps short edges accurate.
 PolarWarp::Arc PolarWarp::arc(const Sector& s, const Vec3& apex, const Vec3& end) {
     const Vec3 d = end - apex;
     const double along = glm::dot(s.axis, Vec2(d.x, d.y));
@@ -85,7 +85,7 @@ PolarWarp::Arc PolarWarp::arc(const Sector& s, const Vec3& apex, const Vec3& end
     return result;
 }
 
-/// Length of the arc from the apex to a meridian. It is symmetric in the two ends:
+/// Returns the length of the arc from the apex to a meridian. It is symmetric in the two ends:
 /// tan(Gamma) = m_z |m| sin / ((m_z^2 + h_0^2) cos + h_0 h_1 sin).
 double PolarWarp::Arc::gamma(Vec2 azimuth) const {
     return std::atan2(m_z * length * azimuth.y,
@@ -106,9 +106,9 @@ Vec3 PolarWarp::Sector::direction(Vec2 azimuth, double r, double z) const {
     return {v.x, v.y, z};
 }
 
-/// The difference of r^2 is zero at the apex, where both arcs meet. There h_0 / m_z is the same for
-/// both, so the terms with cos cancel before anything is computed. At the apex of an edge along a
-/// meridian nothing else than the apex is known.
+/// Returns where a meridian crosses both arcs. The difference of r^2 is zero at the apex, where
+/// both arcs meet. There h_0 / m_z is the same for both, so the terms with cos cancel before
+/// anything is computed. At the apex of an edge along a meridian nothing but the apex is known.
 PolarWarp::Crossing PolarWarp::Sector::crossing(Vec2 azimuth) const {
     const double h = first.h_0 * azimuth.x + first.h_1 * azimuth.y;
     const double k = second.h_0 * azimuth.x + second.h_1 * azimuth.y;
@@ -133,7 +133,7 @@ PolarWarp::Sector PolarWarp::fan_sector(const Vec3& from, const Vec3& to) {
     return result;
 }
 
-/// Walks along the arc to the length Gamma whose area is the target, then out from the pole.
+/// Walks along the arc to the length Gamma whose area is the target, and then out from the pole.
 Vec3 PolarWarp::sample_fan(double target, double radial) const {
     std::size_t i = 0;
     while (i < 2 && target >= sector_[i].area)
@@ -169,8 +169,8 @@ double PolarWarp::Sector::area_before(Vec2 azimuth) const {
     return std::abs(first.area(azimuth) - second.area(azimuth));
 }
 
-/// The root of area_before(angle) = target. Near the apex the area grows with the square of the
-/// angle, which gives the first guess; Halley's step is kept inside the bracket.
+/// Finds the root of area_before(angle) = target. Near the apex the area grows with the square of
+/// the angle, which gives the first guess. Halley's step is kept inside the bracket.
 double PolarWarp::Sector::azimuth_at(double target) const {
     constexpr int most_steps = 60;
     double low = 0, high = range;
@@ -182,7 +182,7 @@ double PolarWarp::Sector::azimuth_at(double target) const {
         if (!(std::abs(f) > epsilon * (first_area + second_area)))
             return angle;
         (f < 0 ? low : high) = angle;
-        // f' = |r1^2 - r2^2| / 2, and (r^2)' = -2 m_z^2 h h' / (m_z^2 + h^2)^2.
+        // The derivatives are f' = |r1^2 - r2^2| / 2 and (r^2)' = -2 m_z^2 h h' / (m_z^2 + h^2)^2.
         const Crossing at = crossing(azimuth);
         const auto change = [&](const Arc& m, double r_squared) {
             const double h = m.h_0 * azimuth.x + m.h_1 * azimuth.y;

@@ -9,9 +9,9 @@
 //
 // and the area between the pole and an arc is m_z Gamma / 2, Gamma being the length of the arc and
 // m of unit length (Lambert 1760). So u.x chooses phi by area, and u.y chooses r^2 between the
-// inner and the outer arc. With the pole inside the triangle there is no inner arc and Gamma is
-// given in closed form; otherwise the area is a difference of two such terms, inverted by Halley's
-// iteration.
+// inner and the outer arc. If the pole is inside the triangle, there is no inner arc and Gamma is
+// given in closed form. Otherwise the area is a difference of two such terms, which Halley's
+// iteration inverts.
 
 #include "geometry/vector.h"
 
@@ -22,12 +22,12 @@ namespace hemilux {
 class PolarWarp {
   public:
     PolarWarp() = default;
-    /// Unit vectors with z >= 0, counter-clockwise seen from outside.
+    /// Takes unit vectors with z >= 0, counter-clockwise seen from outside.
     PolarWarp(const Vec3& a, const Vec3& b, const Vec3& c);
 
-    /// The projected solid angle [sr]; 0 for a triangle without area.
+    /// Returns the projected solid angle [sr]; 0 for a triangle without area.
     [[nodiscard]] double area() const { return area_; }
-    /// The direction for u in [0,1]^2. Requires area() > 0.
+    /// Returns the direction for u in [0,1]^2. Requires area() > 0.
     [[nodiscard]] Vec3 sample(Vec2 u) const;
 
   private:
@@ -38,7 +38,7 @@ class PolarWarp {
         [[nodiscard]] double gamma(Vec2 azimuth) const;
         [[nodiscard]] double area(Vec2 azimuth) const;
     };
-    /// Where a meridian crosses two arcs.
+    /// The points where a meridian crosses two arcs.
     struct Crossing {
         Vec2 r_squared, z_squared; ///< of the first and the second arc
         double difference;         ///< r_squared.x - r_squared.y, without cancellation
@@ -67,8 +67,9 @@ class PolarWarp {
     [[nodiscard]] Vec3 sample_fan(double target, double radial) const;
     [[nodiscard]] Vec3 sample_wedge(const Sector& wedge, double target, double radial) const;
 
-    /// Pole inside: one sector below each edge. Else two wedges, from the first and from the last
-    /// vertex in azimuth, which meet at the meridian of the middle one.
+    /// If the pole is inside, there is one sector below each edge. Otherwise there are two wedges,
+    /// from the first and from the last vertex in azimuth, which meet at the meridian of the middle
+    /// one.
     std::array<Sector, 3> sector_{};
     bool fan_ = true;
     double area_ = 0;

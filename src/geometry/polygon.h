@@ -1,5 +1,5 @@
 #pragma once
-// The two shapes of a scene, triangle and planar convex quad, under one type, so that a quad is one
+// The two shapes of a scene, triangle and planar convex quad, under one type. So a quad is one
 // surface everywhere: it is counted once, sampled once and intersected once.
 
 #include "geometry/vector.h"
@@ -18,18 +18,19 @@ struct Polygon {
     [[nodiscard]] bool is_triangle() const { return corner[2] == corner[3]; }
     [[nodiscard]] int size() const { return is_triangle() ? 3 : 4; }
 
-    /// Half the cross product of the diagonals: length = area, direction = front side.
+    /// Returns half the cross product of the diagonals, whose length is the area and whose
+    /// direction is the front side.
     [[nodiscard]] Vec3 area_vector() const {
         return 0.5 * glm::cross(corner[2] - corner[0], corner[3] - corner[1]);
     }
     [[nodiscard]] double area() const { return glm::length(area_vector()); }
-    /// The unit normal of the front side; NaN for a polygon without area.
+    /// Returns the unit normal of the front side; NaN for a polygon without area.
     [[nodiscard]] Vec3 normal() const { return glm::normalize(area_vector()); }
-    /// The centre of mass.
+    /// Returns the centre of mass.
     [[nodiscard]] Vec3 centre() const;
-    /// A point uniform over the area for u uniform in [0,1)^2; keeps stratification of u.
+    /// Returns a point uniform over the area for u uniform in [0,1)^2; keeps stratification of u.
     [[nodiscard]] Vec3 sample(Vec2 u) const;
-    /// The same polygon seen from behind.
+    /// Returns the same polygon seen from behind.
     [[nodiscard]] Polygon flipped() const;
 };
 
@@ -37,11 +38,11 @@ struct Polygon {
 /// that are similar to it, the middle one last.
 [[nodiscard]] std::array<Polygon, 4> quarters_of(const Polygon& polygon);
 
-/// One of 1, 4, 16 or more `parts`, which are quarters of quarters; those of one quarter follow
-/// each other.
+/// Returns one of 1, 4, 16 or more `parts`, which are quarters of quarters. The parts of one
+/// quarter follow each other.
 [[nodiscard]] Polygon part_of(const Polygon& polygon, std::size_t parts, std::size_t index);
 
-/// The polygon of a facet, by the indices of its corners.
+/// Returns the polygon of a facet, by the indices of its corners.
 [[nodiscard]] inline Polygon polygon_of(std::span<const Vec3> vertices,
                                         const std::array<std::uint32_t, 4>& corners) {
     return {

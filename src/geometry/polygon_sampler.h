@@ -3,9 +3,9 @@
 // once.
 //
 // A quad's bilinear map p = a + s e + t f + s t g stretches areas by J0 + s J1 + t J2, if the quad
-// is planar; so s, then t follow linear densities (Shirley, Laine, Hart, Pharr et al. 2019,
-// "Sampling transformations zoo", bilinear patches). A parallelogram is the case J1 = J2 = 0 and no
-// switch: corners moved by a rounding error move the points by no more.
+// is planar. So s, then t follow linear densities (Shirley, Laine, Hart, Pharr et al. 2019,
+// "Sampling transformations zoo", bilinear patches). A parallelogram is the case J1 = J2 = 0 and
+// needs no switch: corners moved by a rounding error move the points by no more.
 
 #include "geometry/polygon.h"
 
@@ -17,7 +17,8 @@ class PolygonSampler {
   public:
     explicit PolygonSampler(const Polygon& polygon);
 
-    /// A point uniform over the polygon for u uniform in [0,1)^2. It keeps stratification of u.
+    /// Returns a point uniform over the polygon for u uniform in [0,1)^2. It keeps stratification
+    /// of u.
     [[nodiscard]] Vec3 sample(Vec2 u) const {
         if (triangle_) // the square root turns equal shares of u.x into strips of equal area
             return corner_ + std::sqrt(u.x) * (first_ + u.y * second_);
@@ -30,7 +31,8 @@ class PolygonSampler {
     }
 
   private:
-    /// Where a density that is a at 0 and b at 1, both >= 0, has the share u behind it.
+    /// Returns the place that has the share u of a linear density below it. The density is a at 0
+    /// and b at 1, both >= 0.
     [[nodiscard]] static double between(double u, double a, double b) {
         const double root = a + std::sqrt(a * a + u * (b * b - a * a));
         return root > 0 ? u * (a + b) / root : u;
@@ -38,7 +40,8 @@ class PolygonSampler {
 
     bool triangle_, even_; ///< even: J1 = J2 = 0
     Vec3 corner_;          ///< corner 0, from which all is measured
-    /// A triangle's edge there and the one across; a quad's edges there: e and f.
+    /// These are a triangle's edge at the corner and the one across, or a quad's two edges there: e
+    /// and f.
     Vec3 first_, second_;
     Vec3 twist_{0.0};            ///< g
     std::array<double, 4> at_{}; ///< J at (0,0), (1,0), (0,1), (1,1)

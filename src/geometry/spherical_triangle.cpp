@@ -7,8 +7,8 @@
 namespace hemilux {
 namespace {
 
-/// Unit normal of the plane of an edge; a x (b - a) stays accurate for short edges. Zero for an
-/// edge without length.
+/// Returns the unit normal of the plane of an edge; a x (b - a) stays accurate for short edges. It
+/// is zero for an edge without length.
 Vec3 edge_normal(const Vec3& a, const Vec3& b) {
     const Vec3 m = glm::cross(a, b - a);
     const double length = glm::length(m);
@@ -22,8 +22,9 @@ SphericalTriangle::SphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c
     set_hull();
 }
 
-/// The greatest height of an edge's projection: at an end, or where the great circle goes farthest
-/// that way if the edge holds that point. Arcs of ellipses may bulge beyond their chords.
+/// Returns the greatest height of an edge's projection in a direction. It lies at an end, or where
+/// the great circle goes farthest that way, if the edge holds that point. Arcs of ellipses may
+/// bulge beyond their chords.
 double SphericalTriangle::reach(std::size_t edge, Vec2 towards) const {
     const Vec3 &a = vertex_[edge], &b = vertex_[(edge + 1) % 3], &normal = normal_[edge];
     const double ends = std::max(glm::dot(towards, Vec2(a)), glm::dot(towards, Vec2(b)));
@@ -63,8 +64,8 @@ void SphericalTriangle::set_hull() {
     }
 }
 
-/// tan(omega / 2) = a . (b x c) / (1 + a.b + b.c + c.a), eq. 8; the triple product is written with
-/// differences to stay accurate for small triangles.
+/// Uses tan(omega / 2) = a . (b x c) / (1 + a.b + b.c + c.a), eq. 8. The triple product is written
+/// with differences to stay accurate for small triangles.
 double SphericalTriangle::solid_angle() const {
     const auto& [a, b, c] = vertex_;
     const double triple = glm::dot(a, glm::cross(b - a, c - a));
@@ -72,7 +73,8 @@ double SphericalTriangle::solid_angle() const {
     return 2.0 * std::atan2(triple, rest);
 }
 
-/// Half the sum of the edges' angles times the z of their planes' unit normals (Lambert 1760).
+/// Returns half the sum of the edges' angles times the z of their planes' unit normals (Lambert
+/// 1760).
 double SphericalTriangle::projected_solid_angle() const {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {

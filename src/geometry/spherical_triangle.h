@@ -1,6 +1,6 @@
 #pragma once
-// A triangle on the unit sphere whose sides are arcs of great circles; here always within the upper
-// hemisphere (z >= 0) of a patch's frame.
+// A triangle on the unit sphere whose sides are arcs of great circles. Here it always lies within
+// the upper hemisphere (z >= 0) of a patch's frame.
 
 #include "geometry/vector.h"
 
@@ -13,16 +13,16 @@ namespace hemilux {
 class SphericalTriangle {
   public:
     SphericalTriangle() = default;
-    /// Unit vectors with z >= 0, counter-clockwise seen from outside.
+    /// Takes unit vectors with z >= 0, counter-clockwise seen from outside.
     SphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c);
 
     [[nodiscard]] const std::array<Vec3, 3>& vertices() const { return vertex_; }
-    /// The solid angle [sr] (Van Oosterom and Strackee 1983).
+    /// Returns the solid angle [sr] (Van Oosterom and Strackee 1983).
     [[nodiscard]] double solid_angle() const;
-    /// The integral of cos(theta) over the triangle [sr], by Lambert's closed form.
+    /// Returns the integral of cos(theta) over the triangle [sr], by Lambert's closed form.
     [[nodiscard]] double projected_solid_angle() const;
 
-    /// The unit normals of the planes of the sides, inwards.
+    /// Returns the unit normals of the planes of the sides, which point inwards.
     [[nodiscard]] const std::array<Vec3, 3>& planes() const { return normal_; }
     /// A parallelogram, or its first half, around the projection to the unit disc.
     struct Hull {
@@ -32,18 +32,19 @@ class SphericalTriangle {
     };
     [[nodiscard]] const Hull& hull() const { return hull_; }
 
-    /// A direction with density cos(theta) / projected_solid_angle [1/sr], by rejection: the
-    /// projection to the unit disc makes cosine-weighted directions uniform (Nusselt's analogy), so
-    /// points uniform in a simple shape around the projection are kept when they lie inside.
-    /// `uniform()` yields doubles uniform in [0,1). Slivers, which fill little of that shape, are
-    /// sampled by a PolarWarp, with the same distribution.
+    /// Returns a direction with density cos(theta) / projected_solid_angle [1/sr], by rejection.
+    /// The projection to the unit disc makes cosine-weighted directions uniform (Nusselt's
+    /// analogy). So points uniform in a simple shape around the projection are kept when they lie
+    /// inside. `uniform()` yields doubles uniform in [0,1). Slivers, which fill little of that
+    /// shape, are sampled by a PolarWarp, with the same distribution.
     template <class Uniform>
     [[nodiscard]] Vec3 sample_rejection(Uniform&& uniform) const;
 
   private:
-    /// The bounding box, or the triangle with sides parallel to the chords if that is smaller.
+    /// Sets the bounding box, or the triangle with sides parallel to the chords if that is smaller.
     void set_hull();
-    /// For u in [0,1)^2; where there is no area, some point between the vertices.
+    /// Returns a direction for u in [0,1)^2; where there is no area, some point between the
+    /// vertices.
     [[nodiscard]] Vec3 sample_sliver(Vec2 u) const;
     [[nodiscard]] double reach(std::size_t edge, Vec2 towards) const;
 
@@ -57,7 +58,8 @@ Vec3 SphericalTriangle::sample_rejection(Uniform&& uniform) const {
     constexpr int most_tries = 64;
     for (int i = 0; i < most_tries; ++i) {
         const double u = uniform(), v = uniform();
-        // The second half is folded onto the first. No branches: they would be guessed wrong.
+        // The second half is folded onto the first, without branches, which the processor would
+        // mispredict.
         const auto fold = static_cast<double>(hull_.is_half & (u + v > 1));
         const Vec2 p =
             hull_.corner + std::abs(fold - u) * hull_.edge[0] + std::abs(fold - v) * hull_.edge[1];

@@ -1,5 +1,5 @@
 #pragma once
-// The vectors of the whole library: double precision. Floats are found in trees of boxes only.
+// The vectors of the whole library have double precision. Floats are found in trees of boxes only.
 
 #include <glm/glm.hpp>
 
@@ -8,10 +8,11 @@ namespace hemilux {
 using Vec2 = glm::dvec2;
 using Vec3 = glm::dvec3;
 
-/// Twice the area of the triangle from the origin to a and b; positive where b is left of a.
+/// Returns twice the area of the triangle from the origin to a and b; positive where b is left of
+/// a.
 [[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
-/// The axis along which a vector is longest.
+/// Returns the axis along which a vector is longest.
 [[nodiscard]] inline int largest_axis(const Vec3& v) {
     const Vec3 size = glm::abs(v);
     return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

@@ -2,10 +2,10 @@
 // Intersects a ray with a triangle without leaks along edges (Woop, Benthin and Wald 2013,
 // "Watertight Ray/Triangle Intersection").
 //
-// The scene is moved and sheared so that the ray is the z axis; whether it passes left or right of
-// an edge then depends on the two transformed end points alone, which neighbours share. Here the
+// The scene is moved and sheared so that the ray is the z axis. Whether it passes left or right of
+// an edge then depends only on the two transformed end points, which neighbours share. Here the
 // edge functions are doubles. Without contraction to FMA, a rounded difference of rounded products
-// never has the wrong sign, it can only be zero instead; zeros are evaluated again exactly.
+// never has the wrong sign. It can only be zero instead; zeros are evaluated again exactly.
 
 #include "geometry/numeric.h"
 #include "geometry/polygon.h"
@@ -15,13 +15,14 @@
 
 namespace hemilux {
 
-/// Where a ray meets a triangle: t along the ray, barycentric coordinates u, v of corners 1 and 2.
+/// The point where a ray meets a triangle: t along the ray, and barycentric coordinates u, v of
+/// corners 1 and 2 [-].
 struct TriangleHit {
     double t, u, v;
     bool front;
 };
 
-/// What happens to a ray exactly on an edge.
+/// This says what happens to a ray exactly on an edge.
 enum class EdgeRule {
     inclusive, ///< both neighbours are hit: nothing leaks
     half_open  ///< of neighbours around an edge or vertex exactly one is hit: nothing is counted
@@ -52,13 +53,13 @@ class ShearedRay {
     int x_, y_, z_;
 };
 
-/// Twice the signed area of (0, a, b) seen along the ray, with the right sign.
+/// Returns twice the signed area of (0, a, b) seen along the ray, with the right sign.
 [[nodiscard]] inline double edge_function(const Vec3& a, const Vec3& b) {
     const double e = a.x * b.y - a.y * b.x;
     return e != 0 ? e : difference_of_products(a.x, b.y, a.y, b.x);
 }
 
-/// Whether a triangle with the given winding owns points on its edge a -> b: its neighbour
+/// Returns whether a triangle with the given winding owns points on its edge a -> b. Its neighbour
 /// traverses the edge the other way and gets the other answer.
 [[nodiscard]] inline bool owns_edge(const Vec3& a, const Vec3& b, bool counter_clockwise) {
     const double dx = b.x - a.x, dy = b.y - a.y;
@@ -66,7 +67,8 @@ class ShearedRay {
     return up == counter_clockwise;
 }
 
-/// Triangle of transformed corners; t must lie in (t_min, t_max]. NaN anywhere is a miss.
+/// Intersects a triangle of transformed corners; t must lie in (t_min, t_max]. A NaN anywhere is a
+/// miss.
 template <EdgeRule rule>
 [[nodiscard]] inline bool hit_triangle(const Vec3& a, const Vec3& b, const Vec3& c, double t_min,
                                        double t_max, TriangleHit& hit) {

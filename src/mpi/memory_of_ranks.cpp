@@ -10,7 +10,7 @@
 namespace hemilux {
 namespace {
 
-/// One that is open.
+/// A file that is open, which this closes.
 class File {
   public:
     explicit File(int number) : number_(number) {}
@@ -26,8 +26,8 @@ class File {
     int number_;
 };
 
-/// How all find the file of the first rank. A process of another machine may have the same number,
-/// so the file has a word that no other has.
+/// The place where all ranks find the file of the first one. A process of another machine may have
+/// the same number, so the file holds a word that no other file has.
 struct Place {
     pid_t process;
     int file;
@@ -39,8 +39,8 @@ std::uint64_t random_word() {
     return std::uint64_t{random()} << 32 | random();
 }
 
-/// In memory, without a name: it ends with the last process that has it. Behind its bytes is the
-/// word.
+/// Makes a file in memory, without a name, which ends with the last process that has it. The word
+/// stands behind its bytes.
 int new_file(std::size_t bytes, std::uint64_t word) {
     const int file = memfd_create("hemilux", MFD_CLOEXEC);
     const auto size = static_cast<off_t>(bytes);
@@ -55,7 +55,7 @@ int open_file(const Place& place) {
     return open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
 }
 
-/// null where that fails.
+/// Maps the file into memory; null where that fails.
 std::shared_ptr<std::byte> map(const File& file, std::size_t bytes) {
     void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file.number(), 0);
     if (memory == MAP_FAILED)

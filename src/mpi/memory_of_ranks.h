@@ -8,9 +8,9 @@
 
 namespace hemilux {
 
-/// Memory that all ranks read and write; null, of all of them, where they are on several
-/// machines, in containers that do not see each other's processes, or have no memory for it. All
-/// call this with as many bytes at the same time. It lasts until all have given it back.
+/// Returns memory that all ranks read and write. All ranks call this with as many bytes at the same
+/// time, and the memory lasts until all have given it back. All get null where they are on several
+/// machines, in containers that do not see each other's processes, or have no memory for it.
 [[nodiscard]] std::shared_ptr<std::byte> memory_of_ranks(const Ranks& ranks, std::size_t bytes);
 
 } // namespace hemilux

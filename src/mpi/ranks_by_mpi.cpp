@@ -13,10 +13,10 @@
 namespace hemilux {
 namespace {
 
-/// Bytes of one message: MPI counts with int.
+/// The most bytes of one message, as MPI counts with int.
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
-/// MPI ends the program where a call of it fails.
+/// The ranks of MPI, which ends the program where one of its calls fails.
 class RanksByMpi final : public Ranks {
   public:
     RanksByMpi() {
@@ -48,7 +48,7 @@ class RanksByMpi final : public Ranks {
                        MPI_BYTE, MPI_COMM_WORLD);
     }
 
-    /// From one rank after the other, in messages that are not too long.
+    /// Gathers from one rank after the other, in messages that are not too long.
     void gather_in_turn(std::span<const std::size_t> sizes, std::span<std::byte> all) const {
         for (int rank = 0; rank < count_; ++rank) {
             const std::size_t size = sizes[static_cast<std::size_t>(rank)];
@@ -91,7 +91,8 @@ std::unique_ptr<RanksByMpi> ranks;
 } // namespace hemilux
 
 extern "C" const hemilux::Ranks* hemilux_start_ranks() {
-    // Of Open MPI: a rank that waits leaves the processor to who has work. The user's word counts.
+    // This setting is for Open MPI: a rank that waits leaves the processor to those that have work.
+    // A setting by the user takes precedence.
     setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
     int provided = 0;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS ||

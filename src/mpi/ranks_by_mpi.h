@@ -1,5 +1,5 @@
 #pragma once
-// What the module of MPI gives the program, which loads it where mpirun or srun has started it: a
+// What the module for MPI gives the program, which loads it where mpirun or srun has started it. A
 // program that runs alone needs no MPI and does not wait for it to be loaded.
 
 #include "parallel/ranks.h"

@@ -10,8 +10,9 @@
 
 namespace hemilux {
 
-/// Ranks of one machine share it, so nothing is sent and a cache that they share holds it once.
-/// Elsewhere each has all items. All ranks make it at the same time.
+/// A vector whose items the ranks write and then gather. Ranks of one machine share it, so nothing
+/// is sent and a cache that they share holds it once. Elsewhere each rank has all items. All ranks
+/// make it at the same time.
 template <class T>
 class GatheredVector {
   public:
@@ -27,7 +28,7 @@ class GatheredVector {
     [[nodiscard]] const T& operator[](std::size_t i) const { return items_[i]; }
     operator std::span<const T>() const { return items_; }
 
-    /// Each rank has written its own items; afterwards all read all. They are written again only
+    /// Makes the items that each rank has written known to all ranks. They are written again only
     /// after another call that waits for all ranks, as others may read until then.
     void gather() {
         if (shared_)

@@ -9,13 +9,15 @@ namespace hemilux {
 
 enum class InstructionSet { baseline, avx2, avx512 };
 
-/// "baseline", "avx2", "avx512"
+/// Returns "baseline", "avx2" or "avx512".
 [[nodiscard]] std::string_view name_of(InstructionSet set);
 
-/// The sets that were compiled in and that this machine can run; the widest first, `baseline` last.
+/// Returns the sets that are compiled in and that this machine can run; the widest first,
+/// `baseline` last.
 [[nodiscard]] std::span<const InstructionSet> available_instruction_sets();
 
-/// The set that the environment variable HEMILUX_KERNELS names if it is available, else the widest.
+/// Returns the set that the environment variable HEMILUX_KERNELS names if it is available, else the
+/// widest.
 [[nodiscard]] InstructionSet chosen_instruction_set();
 
 } // namespace hemilux

@@ -22,7 +22,7 @@ class OneRank final : public Ranks {
     }
 };
 
-/// Bytes that are gathered at a time: they are kept twice meanwhile, in a processor's cache.
+/// The bytes that are gathered at a time: they are kept twice meanwhile, in a processor's cache.
 constexpr std::size_t bytes_at_a_time = std::size_t{1} << 20;
 
 } // namespace
@@ -72,7 +72,7 @@ void OwnBlocks::gather_bytes(std::span<std::byte> all, std::size_t bytes_each) c
         gather_rounds(all.subspan(begin, std::min(piece, all.size() - begin)), block);
 }
 
-/// Of whole rounds of blocks, but for the last.
+/// Gathers whole rounds of blocks; the last round may be shorter.
 void OwnBlocks::gather_rounds(std::span<std::byte> some, std::size_t bytes_of_block) const {
     const std::size_t round = bytes_of_block * count_;
     std::vector<std::size_t> sizes;

@@ -1,5 +1,5 @@
 #pragma once
-// Several processes that solve one problem, as MPI starts them: each is a rank, runs the same
+// Several processes that solve one problem, as MPI starts them. Each is a rank, runs the same
 // program on the same input, and owns a part of what is large.
 //
 // The result does not depend on their number: what a rank computes is gathered as it is, and each
@@ -17,7 +17,7 @@
 
 namespace hemilux {
 
-/// What a rank has done for the run so far.
+/// The work that a rank has done for the run so far.
 struct RankWork {
     std::uint64_t rays = 0;               ///< traced
     std::uint64_t entries = 0;            ///< of matrices, each as often as it was multiplied
@@ -37,40 +37,40 @@ class Ranks {
     virtual ~Ranks() = default;
 
     [[nodiscard]] virtual unsigned count() const = 0;
-    /// Of this one, below count().
+    /// Returns the number of this rank, below count().
     [[nodiscard]] virtual unsigned index() const = 0;
     [[nodiscard]] bool are_several() const { return count() > 1; }
     [[nodiscard]] bool is_first() const { return index() == 0; }
 
-    /// `all` are the bytes of all ranks one after the other, sizes[r] of rank r. Each has written
-    /// its own; afterwards all have all.
+    /// Gathers `all`, the bytes of all ranks one after the other, with sizes[r] bytes of rank r.
+    /// Each rank has written its own; afterwards all ranks have all.
     void gather(std::span<const std::size_t> sizes, std::span<std::byte> all) const;
-    /// The items of one rank become those of all. All give as many.
+    /// Gives the items of one rank to all. All ranks pass as many items.
     template <class T>
     void give_to_all(unsigned rank, std::span<T> items) const;
-    /// The value of each rank.
+    /// Returns the value of each rank.
     template <class T>
     [[nodiscard]] std::vector<T> of_each(const T& value) const;
-    /// The value of the first rank: what depends on a clock is decided there.
+    /// Returns the value of the first rank; what depends on a clock is decided there.
     template <class T>
     [[nodiscard]] T of_first(T value) const {
         give_to_all(0, std::span(&value, 1));
         return value;
     }
-    /// Whether it holds on some rank.
+    /// Returns whether the value is true on some rank.
     [[nodiscard]] bool any(bool value) const;
     [[nodiscard]] bool all(bool value) const { return !any(!value); }
     [[nodiscard]] std::uint64_t sum(std::uint64_t value) const;
-    /// sent[r] goes to rank r; returns what each has sent to this one.
+    /// Sends sent[r] to rank r; returns what each has sent to this one.
     template <class T>
     [[nodiscard]] std::vector<std::vector<T>>
     exchange(const std::vector<std::vector<T>>& sent) const;
 
-    /// Returns when all ranks have called it: each then sees what the others wrote to memory that
+    /// Returns when all ranks have called it. Each then sees what the others wrote to memory that
     /// they share.
     virtual void wait_for_all() const = 0;
-    /// Memory that all ranks read and write, where they are on one machine; else null. All ask
-    /// for as many bytes at the same time.
+    /// Returns memory that all ranks read and write, where they are on one machine; else null. All
+    /// ask for as many bytes at the same time.
     [[nodiscard]] virtual std::shared_ptr<std::byte> share_memory(std::size_t /*bytes*/) const {
         return nullptr;
     }
@@ -92,16 +92,16 @@ class Ranks {
     mutable std::atomic<std::uint64_t> rays_{0}, entries_{0}, sent_{0}, received_{0};
 };
 
-/// The only rank of a program that runs alone.
+/// Returns the only rank of a program that runs alone.
 [[nodiscard]] const Ranks& one_rank();
 
 /// Items in blocks that belong to the ranks in turn. What is known of each item is kept by all
-/// ranks; what takes more memory or time than that is the owner's.
+/// ranks; the owner alone keeps what takes more memory or time than that.
 class OwnBlocks {
   public:
-    /// All blocks but the last are multiples of it, unless it is said how long they are.
+    /// All blocks but the last are multiples of this, unless their length is given.
     static constexpr std::size_t least_block = 64;
-    /// The ranks outlive this.
+    /// Divides the items; the ranks outlive this.
     OwnBlocks(const Ranks& ranks, std::size_t items)
         : OwnBlocks(ranks, items, usual_block(items / ranks.count())) {}
     OwnBlocks(const Ranks& ranks, std::size_t items, std::size_t block)
@@ -109,24 +109,25 @@ class OwnBlocks {
           own_(items_of(index_)) {}
 
     [[nodiscard]] const Ranks& ranks() const { return *ranks_; }
-    /// Of all ranks.
+    /// Returns the number of items of all ranks.
     [[nodiscard]] std::size_t items() const { return all_; }
-    /// Items of a block.
+    /// Returns the number of items of a block.
     [[nodiscard]] std::size_t block() const { return block_; }
     [[nodiscard]] bool are_all() const { return own_ == all_; }
     [[nodiscard]] unsigned owner(std::size_t item) const {
         return static_cast<unsigned>(item / block_ % count_);
     }
     [[nodiscard]] bool owns(std::size_t item) const { return are_all() || owner(item) == index_; }
-    /// Counts its own.
+    /// Returns the number of this rank's own items.
     [[nodiscard]] std::size_t count() const { return own_; }
-    /// The own item at place `k` among them. Those of a block follow each other.
+    /// Returns the own item at place `k` among them. Those of a block follow each other.
     [[nodiscard]] std::size_t item(std::size_t k) const {
         return (k / block_ * count_ + index_) * block_ + k % block_;
     }
     [[nodiscard]] std::size_t items_of(std::size_t rank) const;
 
-    /// Each rank has written its own items, so many values of each; afterwards all have all.
+    /// Gathers the items that each rank has written, with `of_item` values of each; afterwards all
+    /// ranks have all.
     template <class T>
     void gather(std::span<T> values, std::size_t of_item = 1) const {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -139,8 +140,8 @@ class OwnBlocks {
     }
 
   private:
-    /// So many that each rank has enough to share evenly, but no more than 16 times the least: what
-    /// follows in memory is read faster.
+    /// Returns a block length at which each rank has enough blocks to share evenly, but no more
+    /// than 16 times the least. What follows in memory is read faster.
     static std::size_t usual_block(std::size_t items_of_rank) {
         constexpr std::size_t enough = 64;
         return least_block * std::clamp<std::size_t>(items_of_rank / (enough * least_block), 1, 16);

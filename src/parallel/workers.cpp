@@ -6,7 +6,7 @@
 namespace hemilux {
 namespace {
 
-/// Looks at a condition for as long as waking a sleeping thread would take; true once it holds.
+/// Checks a condition for as long as waking a sleeping thread would take; true once it holds.
 template <class Condition>
 bool holds_soon(const Condition& condition) {
     constexpr int looks = 2000, patient = 64;
@@ -22,7 +22,7 @@ bool holds_soon(const Condition& condition) {
     return false;
 }
 
-/// A call of work_together: it lives until nobody is inside any more.
+/// A call of work_together, which lives until no helper is inside.
 struct Job {
     const std::function<void()>& work;
     std::size_t wanted;                 ///< helpers that may still come
@@ -71,7 +71,7 @@ class Pool {
         open_jobs_.store(jobs_.size(), std::memory_order_relaxed);
     }
 
-    /// As many as any job has wanted. If the system refuses, there are fewer.
+    /// Starts as many threads as any job has wanted. If the system refuses, there are fewer.
     void start_threads(std::size_t wanted) {
         try {
             while (threads_.size() < wanted)

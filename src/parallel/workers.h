@@ -1,5 +1,5 @@
 #pragma once
-// Loops over several threads whose result does not depend on their number: the caller writes to a
+// Loops over several threads whose result does not depend on their number. The caller writes to a
 // place of its own for each index or chunk and sums in order, afterwards or meanwhile. Helping
 // threads are started when they are first needed and then wait for more until the program ends.
 
@@ -15,21 +15,21 @@
 namespace hemilux {
 
 /// Calls work() on this thread and on up to `helpers` others, as far as these have nothing else to
-/// do, and returns when all calls have returned. It must not throw, and each call must do with what
-/// the others leave: perhaps nobody comes to help. May be used from several threads, and from
-/// within work itself.
+/// do, and returns when all calls have returned. work() must not throw. Each call of it must handle
+/// what the others leave, as perhaps no thread comes to help. work_together may be used from
+/// several threads, and from within work() itself.
 void work_together(std::size_t helpers, const std::function<void()>& work);
 
 class Workers {
   public:
-    /// 0: one per core.
+    /// Uses this many threads; 0: one per core.
     explicit Workers(unsigned threads)
         : threads_(threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency())) {}
 
     [[nodiscard]] unsigned threads() const { return threads_; }
 
-    /// Starts the helping threads, while there is something else to do: the first loop would have
-    /// to wait until the system finds a processor for each.
+    /// Starts the helping threads while there is something else to do. Otherwise the first loop
+    /// would wait until the system finds a processor for each.
     void start() const {
         for_chunks(threads_, 1, [](std::size_t, std::size_t) {});
     }
@@ -78,8 +78,9 @@ class Workers {
         });
     }
 
-    /// Calls body(k) for each k in [0, count) on any thread, and take(k) once it has returned:
-    /// in the order of k, never two at a time, while others go on with their bodies.
+    /// Calls body(k) for each k in [0, count) on any thread, and take(k) once body(k) has returned.
+    /// The calls of take come in the order of k, never two at a time, while others go on with their
+    /// bodies.
     template <class Body, class Take>
     void for_each_in_order(std::size_t count, const Body& body, const Take& take) const {
         std::mutex mutex;

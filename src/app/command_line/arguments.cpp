@@ -26,13 +26,13 @@ std::vector<const CLI::App*> all_subcommands(const CLI::App& program) {
     return program.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// The subcommand that was named, else the program.
+/// Returns the subcommand that was named, else the program.
 const CLI::App& command_of(const CLI::App& program) {
     const std::vector<CLI::App*> parsed = program.get_subcommands();
     return parsed.empty() ? program : *parsed.front();
 }
 
-/// What the parser did not understand, with the nearest name that it would.
+/// Returns what the parser did not understand, with the nearest name that it would.
 std::string unknown_argument(const CLI::App& program, const std::string& otherwise) {
     const CLI::App& command = command_of(program);
     const std::vector<std::string> left = command.remaining();
@@ -52,12 +52,12 @@ std::string unknown_argument(const CLI::App& program, const std::string& otherwi
     return unknown_name(is_option ? "option" : "subcommand", word, names);
 }
 
-/// The option of a message of the parser, which begins with one of its names; or nullptr.
+/// Returns the option of a message of the parser, which begins with one of its names; or nullptr.
 const CLI::Option* option_of(const CLI::App& command, const std::string& message) {
     return command.get_option_no_throw(message.substr(0, message.find(':')));
 }
 
-/// What the parser did not take, in this program's words.
+/// Returns what the parser did not take, in this program's words.
 std::string refused(const CLI::App& program, const CLI::ParseError& error) {
     const CLI::App& command = command_of(program);
     const std::vector<std::string> subcommands = names_of(all_subcommands(program));
@@ -140,8 +140,8 @@ std::string wrapped(const std::string& help) {
     return text;
 }
 
-/// Help whose lines begin with what is typed: options that contradict each other are named in the
-/// descriptions.
+/// A formatter of help whose lines begin with what is typed: options that contradict each other are
+/// named in the descriptions.
 class HelpFormatter : public CLI::Formatter {
   public:
     std::string make_option_opts(const CLI::Option* option) const override {
@@ -154,7 +154,7 @@ void describe_exclusion(CLI::Option& of, const CLI::Option& other) {
     of.description(of.get_description() + " (not with " + other.get_name() + ")");
 }
 
-/// A word as a shell takes it.
+/// Returns a word as a shell takes it.
 std::string quoted(const std::string& word) {
     const auto is_plain = [](unsigned char c) {
         return std::isalnum(c) != 0 ||

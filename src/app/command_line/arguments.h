@@ -1,5 +1,5 @@
 #pragma once
-// The arguments of a program: options with their help, subcommands, and what is said of a mistake.
+// The arguments of a program: options with their help, subcommands, and messages about mistakes.
 // CLI11 does the work. It takes long to compile, so arguments.cpp alone includes it.
 
 #include "io/results/statistics.h"
@@ -19,23 +19,23 @@ class Option;
 
 namespace hemilux {
 
-/// An option that was added. Copies mean the same option.
+/// An option that has been added. Copies mean the same option.
 class Option {
   public:
     explicit Option(CLI::Option& option) : option_(&option) {}
     Option required() const;
-    /// At most one of the two may be given.
+    /// Declares that at most one of the two may be given.
     Option excludes(Option other) const;
-    /// It may be given several times, with one value each time.
+    /// Declares that it may be given several times, with one value each time.
     Option repeatable() const;
-    /// A value may be several, with this letter between them.
+    /// Declares that a value may be several, with this letter between them.
     Option separated_by(char letter) const;
 
   private:
     CLI::Option* option_;
 };
 
-/// What was declared of an option.
+/// The declaration of an option.
 struct OptionText {
     std::vector<std::string> names; ///< with their dashes; one without dashes: a positional
     std::string type, help, group;  ///< type: empty where it takes no value
@@ -43,7 +43,7 @@ struct OptionText {
     std::vector<std::string> excludes = {}; ///< names of options that it contradicts
 };
 
-/// What was declared of a subcommand, or of the program itself.
+/// The declaration of a subcommand, or of the program itself.
 struct CommandText {
     std::string name, description;
     std::vector<OptionText> options;
@@ -56,13 +56,14 @@ class Command {
   public:
     explicit Command(CLI::App& app, std::string_view heading = {})
         : app_(&app), heading_(heading) {}
-    /// The same command, whose options that are added stand under a heading of --help. The text of
-    /// the heading outlives it.
+    /// Returns the same command, whose options that are added stand under a heading of --help. The
+    /// text of the heading outlives it.
     [[nodiscard]] Command under(std::string_view heading) const { return Command(*app_, heading); }
-    /// `read` gets all values that were given, and throws UsageError for those that it refuses.
+    /// Adds an option. `read` gets all values that were given, and throws UsageError for those that
+    /// it refuses.
     Option add_values(const std::string& name, const std::string& type, const std::string& help,
                       std::function<void(const std::vector<std::string>&)> read) const;
-    /// The same with one value.
+    /// Adds an option in the same way, with one value.
     Option add_value(const std::string& name, const std::string& type, const std::string& help,
                      std::function<void(const std::string&)> read) const;
     Option add_text(const std::string& name, const std::string& type, std::string& target,
@@ -70,28 +71,27 @@ class Command {
     Option add_texts(const std::string& name, const std::string& type,
                      std::vector<std::string>& target, const std::string& help) const;
     Option add_flag(const std::string& name, bool& target, const std::string& help) const;
-    /// A flag that does something where it is given.
+    /// Adds a flag that does something where it is given.
     Option add_action(const std::string& name, std::function<void()> action,
                       const std::string& help) const;
     Option add_version(const std::string& name, const std::string& version,
                        const std::string& help) const;
-    /// An option of one value whose answer is a text, as that of --help is.
+    /// Adds an option of one value whose answer is a text, as that of --help is.
     Option add_answer(const std::string& name, const std::string& type, const std::string& help,
                       std::function<std::string(const std::string&)> answer) const;
-    /// --help stands where this is called, not first.
+    /// Adds --help, which stands where this is called, not first.
     Option add_help(const std::string& name, const std::string& help) const;
-    /// The text that --help ends with.
+    /// Sets the text that --help ends with.
     void end_help_with(const std::string& text) const;
     void after_parsing(std::function<void()> action) const;
 
-    /// Whether the option was given.
+    /// Returns whether the option was given.
     [[nodiscard]] bool given(const std::string& option) const;
-    /// What was given, in the order of --help.
+    /// Returns what was given, in the order of --help.
     [[nodiscard]] std::vector<GivenOption> options_given() const;
-    /// The same, as a shell takes it; without the options of these
-    /// names.
+    /// Returns the same, as a shell takes it; without the options of these names.
     [[nodiscard]] std::string text_given(std::span<const std::string_view> except) const;
-    /// Whether the subcommand was named.
+    /// Returns whether the subcommand was named.
     [[nodiscard]] bool parsed() const;
 
   private:
@@ -108,17 +108,17 @@ class Arguments {
     Arguments(const Arguments&) = delete;
     Arguments& operator=(const Arguments&) = delete;
 
-    /// Where options of the program itself are added.
+    /// Returns the program itself, to which options may be added.
     [[nodiscard]] Command program() const;
-    /// One of the subcommands has to be named.
+    /// Adds a subcommand. One of the subcommands has to be named.
     Command add_command(const std::string& name, const std::string& description);
     [[nodiscard]] std::vector<std::string> commands() const;
-    /// The program, then its subcommands.
+    /// Returns the program, then its subcommands.
     [[nodiscard]] std::vector<CommandText> described() const;
 
     /// Fills what the options write to. Returns the text that --help or --version asked for; empty
-    /// where the program is to do its work. Throws UsageError, with the nearest name for one that
-    /// there is not.
+    /// where the program is to do its work. Throws UsageError, which for an unknown name tells the
+    /// nearest known one.
     [[nodiscard]] std::string parse(std::vector<std::string> words);
 
   private:

@@ -16,7 +16,7 @@ namespace hemilux {
 
 namespace {
 
-/// All that --methods may name.
+/// Returns all that --methods may name.
 std::vector<MethodVariant> possible_variants() {
     std::vector<MethodVariant> list;
     for (const Method* const method : methods()) {
@@ -42,7 +42,7 @@ MethodVariant variant_by_name(std::string_view name) {
     throw UsageError("--methods: " + unknown_name("method", name, names));
 }
 
-/// Names with commas between them.
+/// Reads names with commas between them.
 std::vector<MethodVariant> variants_from(std::string_view text) {
     std::vector<MethodVariant> list;
     for (const std::string_view name : parts_of(text, ',')) {

@@ -11,7 +11,8 @@
 namespace hemilux {
 namespace {
 
-/// The words that a value of this type may be; those of its choices that stand for no other text.
+/// Returns the words that a value of this type may be; those of its choices that stand for no other
+/// text.
 std::vector<std::string> choices_of(const std::string& type,
                                     const std::vector<std::string>& methods) {
     if (type.starts_with("METHOD"))
@@ -32,7 +33,8 @@ bool is_file(const std::string& type) {
 
 bool is_positional(const OptionText& option) { return !option.names.front().starts_with("-"); }
 
-/// The first thought of a help text, without what a shell would take for more than a letter.
+/// Returns the first thought of a help text, without what a shell would take for more than a
+/// letter.
 std::string summary(const std::string& help) {
     std::string text = help;
     for (const char* const end : {"; ", ": ", ". ", " [", ", "})
@@ -58,7 +60,7 @@ std::vector<std::string> subcommands(const std::vector<CommandText>& program) {
     return names;
 }
 
-/// Where no word is offered, bash offers files.
+/// Returns the completions for bash, which offers files where no word is offered.
 std::string bash(const std::vector<CommandText>& program, const std::vector<std::string>& methods) {
     std::string text =
         "# bash completion for hemilux\n"
@@ -91,7 +93,7 @@ std::string bash(const std::vector<CommandText>& program, const std::vector<std:
     return text;
 }
 
-/// What _arguments takes of an option, for each of its names.
+/// Returns what _arguments takes of an option, for each of its names.
 std::string zsh_option(const OptionText& option, const std::vector<std::string>& methods) {
     std::string value;
     if (!option.type.empty()) {

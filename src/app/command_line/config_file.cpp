@@ -43,7 +43,7 @@ class Reader {
                              found_instead(std::string_view(text_).substr(at_, end - at_)));
     }
 
-    /// Blanks and comments; line ends too where they mean nothing.
+    /// Skips blanks and comments; line ends too where they mean nothing.
     void skip(bool over_lines) {
         for (; at_ < text_.size(); ++at_) {
             const char c = text_[at_];

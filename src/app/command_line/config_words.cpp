@@ -9,7 +9,7 @@
 namespace hemilux {
 namespace {
 
-/// FILE of `--config FILE` or `--config=FILE`; empty where there is none.
+/// Returns FILE of `--config FILE` or `--config=FILE`; empty where there is none.
 std::string config_path(const std::vector<std::string>& words) {
     const std::string name = "--config";
     for (std::size_t k = 0; k < words.size(); ++k)
@@ -20,7 +20,7 @@ std::string config_path(const std::vector<std::string>& words) {
     return {};
 }
 
-/// Whether the word is an option of one of these names, with its value or without.
+/// Returns whether the word is an option of one of these names, with its value or without.
 bool is_option(const std::string& word, const std::vector<std::string>& names) {
     return std::ranges::any_of(names, [&word](const std::string& name) {
         const bool is_long = name.starts_with("--");
@@ -28,7 +28,7 @@ bool is_option(const std::string& word, const std::vector<std::string>& names) {
     });
 }
 
-/// The words that an entry stands for.
+/// Returns the words that an entry stands for.
 std::vector<std::string> words_of(const std::string& path, const ConfigEntry& entry,
                                   const OptionText& option) {
     const std::string name = "--" + entry.key;

@@ -9,12 +9,12 @@
 
 namespace hemilux {
 
-/// The words of a command line with the options of its --config file added, but for those that the
-/// words give or contradict.
+/// The words of a command line, with the options of its --config file added. Options that the words
+/// give or contradict are not added.
 class ConfigWords {
   public:
-    /// `program` is Arguments::described(). Throws InputError for a file that cannot be read, with
-    /// its line for what is no option of the subcommand.
+    /// Adds the options; `program` is Arguments::described(). Throws InputError for a file that
+    /// cannot be read, and with its line for what is no option of the subcommand.
     ConfigWords(std::vector<std::string> words, const std::vector<CommandText>& program);
 
     [[nodiscard]] const std::vector<std::string>& words() const { return words_; }

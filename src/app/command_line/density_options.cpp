@@ -17,10 +17,10 @@ constexpr const char* density_examples = R"(Examples:
   hemilux density room.obj --method hemisphere-1997 --plane -o plane.svg
 )";
 
-/// The first two of Guide: by what the hemispheres of `hemisphere` are divided.
+/// The first two names of Guide, by which the hemispheres of `hemisphere` are divided.
 constexpr std::array drawn_guides = {guide_names[0], guide_names[1]};
 
-/// Of the methods whose hemispheres can be drawn.
+/// Adds --method, for the methods whose hemispheres can be drawn.
 void add_dividing_method(Command command, const Method*& method) {
     command.add_value("--method", "hemisphere|hemisphere-1997", "whose hemispheres [hemisphere]",
                       [&method](const std::string& name) {

@@ -9,12 +9,12 @@
 
 namespace hemilux {
 
-/// A manual page (man macros of roff), with `version` in its foot line.
+/// Returns a manual page (man macros of roff), with `version` in its foot line.
 [[nodiscard]] std::string manual_page(const std::vector<CommandText>& program,
                                       const std::string& version);
 
-/// Completions of subcommands, options and values that are choices, for a shell: bash, zsh or fish.
-/// `methods` are the names that stand for METHOD. Empty for other shells.
+/// Returns completions of subcommands, options and values that are choices, for a shell: bash, zsh
+/// or fish. `methods` are the names that stand for METHOD. The text is empty for other shells.
 [[nodiscard]] std::string completions(std::string_view shell,
                                       const std::vector<CommandText>& program,
                                       const std::vector<std::string>& methods);

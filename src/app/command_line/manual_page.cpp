@@ -6,7 +6,7 @@
 namespace hemilux {
 namespace {
 
-/// Text of which roff takes no letter for a request.
+/// Returns text of which roff takes no letter for a request.
 std::string plain(const std::string& text) {
     std::string result;
     for (const char c : text) {
@@ -33,7 +33,7 @@ void write_options(std::ostream& page, const CommandText& command) {
     }
 }
 
-/// The paragraphs that no subcommand before has ended with, line for line.
+/// Writes the paragraphs that no subcommand before has ended with, line for line.
 void write_end(std::ostream& page, const std::string& end, std::set<std::string>& written) {
     std::istringstream lines(end + "\n");
     std::string paragraph;

@@ -24,7 +24,7 @@ Option add_override(Command command, const std::string& name, std::vector<Overri
         .repeatable();
 }
 
-/// A camera, or none for `auto`.
+/// Returns a camera, or none for `auto`.
 std::optional<std::optional<Camera>> camera_from(const std::string& text) {
     if (text == "auto")
         return std::optional<Camera>();

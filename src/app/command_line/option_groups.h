@@ -10,7 +10,7 @@
 
 namespace hemilux {
 
-// Headings of --help that several subcommands have.
+// These are headings of --help that several subcommands have.
 inline constexpr const char* scene_group = "Scene";
 inline constexpr const char* method_group = "Method";
 inline constexpr const char* output_group = "Outputs";
@@ -20,7 +20,7 @@ inline constexpr const char* own_group = "Of one method"; ///< or of few
 Option add_scene_options(Command command, SceneSettings& scene);
 /// Adds --memory, for the subcommands that solve.
 void add_memory_option(Command command, SceneSettings& scene);
-/// Adds --depth and --threshold: how hemispheres are divided.
+/// Adds --depth and --threshold, which say how hemispheres are divided.
 void add_division_options(Command command, SolveOptions& options);
 /// Adds what these methods declare (Method::options), each name once.
 void add_own_options(Command command, std::span<const Method* const> methods,

@@ -1,6 +1,6 @@
 #pragma once
-// Kinds of options: numbers with a range, values with a text form of their own. Their messages name
-// the option and what it expects.
+// Kinds of options: numbers with a range, and values with a text form of their own. Their messages
+// name the option and what it expects.
 
 #include "app/command_line/arguments.h"
 #include "app/settings/exit_code.h"
@@ -17,8 +17,8 @@
 
 namespace hemilux {
 
-/// An option whose value is read by `parse`, which returns an optional; empty means that the text
-/// is not what was `expected`.
+/// Adds an option whose value is read by `parse`, which returns an optional. Empty means that the
+/// text is not what was `expected`.
 template <class Parse, class Store>
 Option add_parsed(Command command, const std::string& name, const std::string& type,
                   const std::string& help, const std::string& expected, Parse parse, Store store) {
@@ -43,7 +43,8 @@ Option add_number(Command command, const std::string& name, const std::string& t
                       [&target](double value) { target = value; });
 }
 
-/// A relative error above 0. One of 1 or more without a % sign is a slip: 1 for 1 %.
+/// Adds an option for a relative error above 0. One of 1 or more without a % sign is a slip: 1 for
+/// 1 %.
 template <class Target>
 Option add_error(Command command, const std::string& name, Target& target,
                  const std::string& help) {
@@ -58,7 +59,7 @@ Option add_error(Command command, const std::string& name, Target& target,
                       parse, [&target](double value) { target = value; });
 }
 
-/// A time: seconds, or a number with s, m or h.
+/// Adds an option for a time: seconds, or a number with s, m or h.
 template <class Target>
 Option add_seconds(Command command, const std::string& name, Target& target,
                    const NumberRange& range, const std::string& help) {
@@ -71,7 +72,8 @@ Option add_seconds(Command command, const std::string& name, Target& target,
                       [&target](double value) { target = value; });
 }
 
-/// An option whose values are the names of an enumeration, in its order; `store` gets the value.
+/// Adds an option whose values are the names of an enumeration, in its order; `store` gets the
+/// value.
 template <class Choice, std::size_t count, class Store>
 requires std::invocable<Store, Choice>
     Option add_choice(Command command, const std::string& name,
@@ -94,8 +96,8 @@ Option add_choice(Command command, const std::string& name, Choice& target,
                               [&target](Choice value) { target = value; });
 }
 
-/// An option whose value is a path with one of these extensions, which `extensions` names as the
-/// message does: ".svg or .png".
+/// Adds an option whose value is a path with one of these extensions. `extensions` names them as
+/// the message does: ".svg or .png".
 template <class Store>
 Option add_path(Command command, const std::string& name, const std::string& type,
                 const std::string& help, const std::string& extensions, Store store) {

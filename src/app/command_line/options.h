@@ -6,7 +6,7 @@
 
 namespace hemilux {
 
-/// Each adds a subcommand that fills the settings while the arguments are parsed.
+/// Each of these adds a subcommand that fills the settings while the arguments are parsed.
 Command add_solve_command(Arguments& program, SolveSettings& settings);
 Command add_compare_command(Arguments& program, CompareSettings& settings);
 Command add_density_command(Arguments& program, DensitySettings& settings);

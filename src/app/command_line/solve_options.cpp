@@ -26,7 +26,7 @@ void add_plain_option(Command command, bool& plain) {
             methods_with_a_page());
 }
 
-/// The method named, or UsageError with the nearest name.
+/// Returns the method named, or throws UsageError with the nearest name.
 const Method* method_by_name(std::string_view name) {
     if (const Method* const method = find_method(name))
         return method;
@@ -110,7 +110,7 @@ void add_point_options(Command command, SolveSettings& settings) {
         "them");
 }
 
-/// One thing that --for names.
+/// Adds one thing that --for names.
 void add_target(const std::string& text, TargetSettings& target) {
     const std::size_t colon = text.find(':');
     const std::string kind = text.substr(0, colon);
@@ -176,7 +176,7 @@ Examples:
   hemilux solve room.obj --steps 999 -o room.csv --checkpoint room.saved --resume room.saved
 )";
 
-/// What patches are divided by.
+/// The choice of what patches are divided by.
 struct DivisionChoice {
     bool by_light = false;
     double max_edge = 0; ///< 0: not divided

@@ -16,9 +16,9 @@ void add_method_options(Command command, SolveOptions& options);
 /// Adds --detail.
 void add_detail_option(Command command, std::vector<std::string>& detail);
 
-/// The methods with their summaries, a line each.
+/// Returns the methods with their summaries, a line each.
 [[nodiscard]] std::string methods_text();
-/// What the program's exit codes mean.
+/// This text says what the program's exit codes mean.
 inline constexpr const char* exit_codes = R"(
 Exit codes: 0 done, 1 wrong usage, 2 bad input, 3 output or system failure,
 130 interrupted by Ctrl-C and 143 by SIGTERM (what was computed is written).)";

@@ -31,15 +31,15 @@ namespace hemilux {
 
 namespace {
 
-/// Below this share of a method's error the reference's own error does not matter.
+/// The share of a method's error below which the reference's own error does not matter [-].
 constexpr double reference_share = 1.0 / 3;
 
 bool wants_bar(const CompareSettings& settings) {
     return settings.verbosity != Verbosity::quiet && stderr_is_terminal();
 }
 
-/// The matrix method until it is good enough or interrupted, with random numbers that no run has.
-/// Empty where not even its first step was done.
+/// Runs the matrix method until it is good enough or interrupted, with random numbers that no run
+/// has. Empty where not even its first step was done.
 std::optional<Reference> compute_reference(const CompareSettings& settings, const Mesh& mesh,
                                            const Tracer& tracer, const Needs& needs,
                                            Monitor& monitor) {
@@ -86,7 +86,8 @@ std::vector<MethodRuns> run_with_progress(const Comparison& comparison,
     });
 }
 
-/// The light that the reference gives at points of the surfaces; empty where it is not asked for.
+/// Finds the light that the reference gives at points of the surfaces; empty where it is not asked
+/// for.
 std::optional<KnownLight> find_light(const CompareSettings& settings, const Mesh& mesh,
                                      const Tracer& tracer, const Reference& reference,
                                      const StopFlag& interrupted) {
@@ -98,14 +99,15 @@ std::optional<KnownLight> find_light(const CompareSettings& settings, const Mesh
                                      Workers(settings.options.threads), interrupted);
 }
 
-/// Methods that were interrupted before their first step have nothing to show.
+/// Drops methods that were interrupted before their first step, as they have nothing to show.
 void drop_empty(std::vector<MethodRuns>& results) {
     for (MethodRuns& result : results)
         std::erase_if(result.runs, [](const MethodRun& run) { return run.rows.empty(); });
     std::erase_if(results, [](const MethodRuns& result) { return result.runs.empty(); });
 }
 
-/// Where the reference is not much better than what is compared with it; else empty.
+/// Returns a warning where the reference is not much better than what is compared with it; else
+/// empty.
 std::string reference_warning(double own, std::span<const MethodSummary> summaries) {
     std::vector<std::string> methods;
     for (const MethodSummary& summary : summaries)
@@ -117,7 +119,7 @@ std::string reference_warning(double own, std::span<const MethodSummary> summari
                      joined(methods, ", ") + "; --reference-error asks for a better one";
 }
 
-/// With those of reading, which were logged before.
+/// Returns all warnings, with those of reading, which were logged before.
 std::vector<std::string> page_warnings(const Comparison& comparison, std::string of_reference) {
     std::vector<std::string> all(comparison.warnings.begin(), comparison.warnings.end());
     all.push_back(std::move(of_reference));

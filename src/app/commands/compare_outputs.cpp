@@ -94,7 +94,7 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
               false_colour(differences[i], truth.width, truth.height, scale), 1);
 }
 
-/// What the numbers of a comparison rest on.
+/// Returns what the numbers of a comparison rest on.
 std::vector<std::pair<std::string, std::string>> facts_of(const Comparison& comparison) {
     const CompareSettings& settings = comparison.settings;
     std::vector<std::pair<std::string, std::string>> facts = {

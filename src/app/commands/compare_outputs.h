@@ -14,19 +14,19 @@ namespace hemilux {
 /// Makes the folder where it is not there. Throws OutputError where nothing can be written to it.
 void make_folder(const std::string& folder);
 
-/// The files of the run. Throws UsageError where a file that is read would be replaced, OutputError
-/// where a file cannot be made, InputError where one cannot be read.
+/// Checks and returns the files of the run. Throws UsageError where a file that is read would be
+/// replaced, OutputError where a file cannot be made, InputError where one cannot be read.
 [[nodiscard]] RunFiles check_files(const CompareSettings& settings);
 
-/// Writes error.csv, error.svg, reference.png, and METHOD.png with METHOD_difference.png from the
-/// first run of each method; and the page of --report. All pictures have one camera and one
-/// exposure, all differences one scale. `warnings`: for the page.
+/// Writes error.csv, error.svg and reference.png, and from the first run of each method METHOD.png
+/// with METHOD_difference.png. Writes the page of --report, too, with `warnings`. All pictures have
+/// one camera and one exposure, all differences one scale.
 [[nodiscard]] WriteReport write_comparison(const Comparison& comparison,
                                            std::span<const MethodRuns> results,
                                            std::span<const MethodSummary> summaries,
                                            std::span<const std::string> warnings);
 
-/// The estimated error of the reference itself, relative; NaN where it is not known.
+/// Returns the estimated error of the reference itself, relative [-]; NaN where it is not known.
 [[nodiscard]] double own_error(const Mesh& mesh, const Reference& reference);
 
 /// Writes reference.csv, for use with --reference.

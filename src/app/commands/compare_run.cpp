@@ -13,7 +13,7 @@ namespace hemilux {
 
 namespace {
 
-/// The budget as given, or the default number of rays.
+/// Returns the budget as given, or the default number of rays.
 Budget budget_of(const Comparison& comparison) {
     Budget budget = comparison.settings.budget;
     if (!budget.rays && !budget.seconds)
@@ -45,7 +45,8 @@ class Runner {
         seconds_ = ranks().of_first(preparing.seconds());
     }
 
-    /// False when it was interrupted, or cut short as it took much longer than the budget.
+    /// Does a step; false when it was interrupted, or cut short as it took much longer than the
+    /// budget.
     bool step() {
         const double before = used();
         const Stopwatch stepping;
@@ -63,7 +64,7 @@ class Runner {
         return true;
     }
 
-    /// Whether the next step would end farther from the budget than the last one did.
+    /// Returns whether the next step would end farther from the budget than the last one did.
     [[nodiscard]] bool done() const {
         if (cut_short_)
             return true;
@@ -88,7 +89,8 @@ class Runner {
     }
 
   private:
-    /// A step may end as far behind the budget as another would end before it.
+    /// Returns the time limit of a step: it may end as far behind the budget as another would end
+    /// before it.
     [[nodiscard]] std::optional<double> seconds_left() const {
         constexpr double least = 1;
         if (!budget_.seconds)
@@ -140,8 +142,8 @@ double mean_share(const Runners& runners, std::size_t of) {
     return sum / static_cast<double>(of);
 }
 
-/// One run of all methods, each until its budget is used up or all are interrupted. The runners
-/// are filled in as they are made, so that they remain when a step cannot be done.
+/// Does one run of all methods, each until its budget is used up or all are interrupted. The
+/// runners are filled in as they are made, so that they remain when a step cannot be done.
 void run_once(const Comparison& comparison, std::uint32_t run, Runners& runners,
               const std::function<void(const StepRow&, double share)>& after_step) {
     const Budget budget = budget_of(comparison);

@@ -1,6 +1,6 @@
 #pragma once
 // Runs several methods at once, step by step, so that whatever else disturbs the machine disturbs
-// all alike: the next step is always that of the method which is least far in its budget.
+// all alike. The next step is always that of the method which is least far in its budget.
 
 #include "app/loading/reference.h"
 #include "app/report/run_data.h"
@@ -17,20 +17,21 @@ namespace hemilux {
 /// One run of one variant.
 struct MethodRun {
     std::vector<StepRow> rows;
-    /// Of the first run after steps 1, 2, 4 and so on and the last one, for a page; else none.
+    /// The light of the first run after steps 1, 2, 4 and so on and after the last one, for a page.
+    /// Other runs have none.
     std::vector<LightOfStep> lights;
     std::uint64_t bytes_density = 0;
     bool complete = false; ///< not interrupted
 };
 
-/// All runs of one variant; those that were begun.
+/// All runs of one variant that were begun.
 struct MethodRuns {
     MethodVariant variant;
     std::vector<MethodRun> runs;
-    std::vector<Vec3> radiosity; ///< at the end of the first that has a step
+    std::vector<Vec3> radiosity; ///< at the end of the first that has a step [W/m2]
 };
 
-/// What the runs have in common; all of it outlives them.
+/// The things that the runs have in common; all of them outlive the runs.
 struct Comparison {
     const Mesh& mesh;
     const Tracer& tracer;
@@ -43,8 +44,8 @@ struct Comparison {
     double unit;                           ///< of the light on a page [W/m2]
 };
 
-/// `after_step` gets the share of all runs that is done, 0 to 1.
-/// `fault`: what kept a step from being done; the results are then those of the steps before.
+/// Runs the methods. `after_step` gets the share of all runs that is done, 0 to 1. `fault` becomes
+/// what kept a step from being done; the results are then those of the steps before.
 [[nodiscard]] std::vector<MethodRuns>
 run_methods(const Comparison& comparison, std::optional<SolveError>& fault,
             const std::function<void(const StepRow&, double share)>& after_step);

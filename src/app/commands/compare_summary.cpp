@@ -94,7 +94,7 @@ std::string gain(const std::optional<Gain>& x) {
     return *x->standard_error == 0 ? times : times + formatted(" +- %.2f", *x->standard_error);
 }
 
-/// Before `error %`, where there is one.
+/// The column of the total error, where there is one, before `error %`.
 constexpr std::ptrdiff_t total_column = 3;
 
 std::vector<std::string> table_row(const MethodSummary& s) {
@@ -116,7 +116,7 @@ std::vector<std::string> table_row(const MethodSummary& s) {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// The first column and some of the others.
+/// Returns the first column and some of the others.
 Rows with_columns(const Rows& rows, std::span<const std::size_t> columns) {
     Rows some;
     for (const auto& row : rows) {
@@ -136,7 +136,7 @@ std::vector<std::size_t> known_columns(const Rows& rows) {
     return known;
 }
 
-/// Lines of text: columns two blanks apart, the first flush left, the others flush right.
+/// Returns lines of text: columns two blanks apart, the first flush left, the others flush right.
 std::string aligned(const Rows& rows) {
     std::vector<std::size_t> widths(rows.front().size());
     for (const auto& row : rows)

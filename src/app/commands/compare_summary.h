@@ -11,19 +11,19 @@
 
 namespace hemilux {
 
-/// How many times less of it the base method's error costs; see `speed_up`.
+/// The factor by which the base method's error costs less with this method; see `speed_up`.
 struct Gain {
-    double times = 1;
+    double times = 1;                     ///< [-]
     std::optional<double> standard_error; ///< 0 for the base method; empty: unknown, as of one run
 };
 
-/// Means over the runs at their ends, geometric ones for errors; NaN: unknown.
+/// The means over the runs at their ends, geometric ones for errors; NaN: unknown.
 struct MethodSummary {
     std::string label;
     double rays = 0, seconds = 0;
     RelativeError error;
     std::optional<double> total_error; ///< with --total, which the curves and gains are then of
-    double estimated_error = 0;
+    double estimated_error = 0;        ///< relative [-]
     std::uint64_t bytes_density = 0;
     std::vector<ErrorCurve> runs_by_seconds, runs_by_rays; ///< true error, or total
     MeanCurve by_seconds, by_rays;                         ///< mean of these
@@ -36,18 +36,18 @@ struct MethodSummary {
 [[nodiscard]] std::vector<MethodSummary> summarise(std::span<const MethodRuns> results,
                                                    bool literal);
 
-/// A row of headings, then one per method; errors in per cent. A gain comes with its standard
-/// error, or with a question mark where that is unknown.
+/// Returns a row of headings, then one per method; errors in per cent. A gain comes with its
+/// standard error, or with a question mark where that is unknown.
 [[nodiscard]] std::vector<std::vector<std::string>>
 summary_rows(std::span<const MethodSummary> summaries);
 
-/// Lines of text for a terminal of so many `columns`, 0: none. Fields stand two blanks apart, the
-/// first flush left, the others flush right. Where the lines would be longer, columns in which
-/// nothing is known are left out, and those that do not fit stand in a table below.
+/// Returns lines of text for a terminal of so many `columns`, 0: none. Fields stand two blanks
+/// apart, the first flush left, the others flush right. Where the lines would be longer, columns in
+/// which nothing is known are left out, and those that do not fit stand in a table below.
 [[nodiscard]] std::string aligned_for(std::size_t columns,
                                       const std::vector<std::vector<std::string>>& rows);
 
-/// What the standard errors of the gains come from; empty where no gain has or lacks one.
+/// Returns what the standard errors of the gains come from; empty where no gain has or lacks one.
 [[nodiscard]] std::string gain_note(std::span<const MethodSummary> summaries);
 
 } // namespace hemilux

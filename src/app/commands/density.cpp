@@ -29,7 +29,7 @@ namespace hemilux {
 
 namespace {
 
-/// All that the drawings are made from.
+/// The data that the drawings are made from.
 struct Preprocessed {
     const DensitySettings& settings;
     const Mesh& mesh;
@@ -38,8 +38,8 @@ struct Preprocessed {
     Monitor& monitor;
 };
 
-/// Of each patch's densities, weighted by the power of their triangles: D_average of the paper, and
-/// the standard deviation. Parts of a patch count alike.
+/// The mean and the standard deviation of each patch's densities, weighted by the power of their
+/// triangles. The mean is D_average of the paper. Parts of a patch count alike.
 struct PatchDensities {
     std::vector<double> mean, spread;
 };
@@ -84,7 +84,7 @@ std::string title_of(const Preprocessed& made, std::uint32_t patch, double mean,
            counted(triangles, "triangle", "triangles") + formatted(", mean density %.3g", mean);
 }
 
-/// Where the patch has several, each over its part.
+/// Returns the hemispheres of a patch, each over its part where the patch has several.
 std::vector<HemisphereDrawing::Part> parts_of(const Preprocessed& made, std::uint32_t patch) {
     const std::size_t parts = made.hemispheres.parts();
     std::vector<HemisphereDrawing::Part> result;
@@ -99,7 +99,7 @@ std::vector<HemisphereDrawing::Part> parts_of(const Preprocessed& made, std::uin
     return result;
 }
 
-/// Figure 1.
+/// Writes figure 1.
 void write_plane(const Preprocessed& made, const PatchDensities& densities, std::uint32_t patch,
                  const std::string& path) {
     const std::size_t part = made.settings.part;

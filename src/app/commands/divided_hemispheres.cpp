@@ -12,7 +12,8 @@ namespace hemilux {
 
 namespace {
 
-/// Directions in triangles, each of which gets its expected number on average: systematic rounding.
+/// A source of directions in triangles, each of which gets its expected number on average:
+/// systematic rounding.
 class RayDrawer {
   public:
     RayDrawer(std::uint64_t seed, std::uint32_t patch)
@@ -29,7 +30,7 @@ class RayDrawer {
     double due_;
 };
 
-/// Section 5, or with pyramids in place of rays.
+/// The hemispheres of section 5, or with pyramids in place of rays.
 class ByDensity final : public DividedHemispheres {
   public:
     ByDensity(const SolverInput& input, const Workers& workers)
@@ -90,7 +91,7 @@ class ByDensity final : public DividedHemispheres {
     const DensityMap* counted_ = nullptr; ///< leaves_, unless they are of pyramids
 };
 
-/// Section 4: the triangles of the last guided step.
+/// The hemispheres of section 4: the triangles of the last guided step.
 class Of1997 final : public DividedHemispheres {
   public:
     Of1997(const SolverInput& input, const Workers& workers)
@@ -116,7 +117,7 @@ class Of1997 final : public DividedHemispheres {
                                                         std::size_t part) const override {
         return subdivision_.counted(patch, part);
     }
-    /// The same number for every triangle.
+    /// Returns rays, on average the same number in every triangle.
     [[nodiscard]] std::vector<Vec3> rays(std::uint32_t patch, std::size_t part,
                                          std::uint32_t number) const override {
         RayDrawer drawer(seed_, patch);

@@ -14,17 +14,17 @@ namespace hemilux {
 class DividedHemispheres {
   public:
     virtual ~DividedHemispheres() = default;
-    /// Of each patch; the technique of 1997 has a hemisphere over each.
+    /// Returns the number of parts of each patch; the technique of 1997 has a hemisphere over each.
     [[nodiscard]] virtual std::size_t parts() const { return 1; }
     [[nodiscard]] virtual std::vector<DrawnTriangle> triangles(std::uint32_t patch,
                                                                std::size_t part) const = 0;
-    /// The directions along which surfaces were counted.
+    /// Returns the directions along which surfaces were counted.
     [[nodiscard]] virtual std::vector<CountedDirection> counted(std::uint32_t patch,
                                                                 std::size_t part) const = 0;
-    /// Directions of about so many energy rays, as the method allocates them.
+    /// Returns the directions of about so many energy rays, as the method allocates them.
     [[nodiscard]] virtual std::vector<Vec3> rays(std::uint32_t patch, std::size_t part,
                                                  std::uint32_t number) const = 0;
-    /// Of densities.
+    /// Returns the unit of densities.
     [[nodiscard]] virtual std::string unit() const { return "surfaces per ray"; }
     [[nodiscard]] virtual std::uint64_t density_rays() const = 0;
     [[nodiscard]] virtual std::uint64_t bytes() const = 0;

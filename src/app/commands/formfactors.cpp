@@ -58,7 +58,7 @@ void log_rays(Verbosity verbosity, std::size_t patches, std::uint64_t rays) {
              counted(patches, "patch", "patches") + ", " + short_counted(rays, "ray", "rays"));
 }
 
-/// Nothing where the user interrupted.
+/// Finds the factors by hemicubes; nothing where the user interrupted.
 std::optional<Factors> by_hemicubes(const FormFactorSettings& settings, const Mesh& mesh,
                                     const Tracer& tracer, const Workers& workers,
                                     Monitor& monitor) {
@@ -72,7 +72,7 @@ std::optional<Factors> by_hemicubes(const FormFactorSettings& settings, const Me
     return Factors{std::move(factors.matrix), quality};
 }
 
-/// Nothing where the user interrupted.
+/// Finds the factors by rays; nothing where the user interrupted.
 std::optional<Factors> by_rays(const FormFactorSettings& settings, const Mesh& mesh,
                                const Tracer& tracer, const Workers& workers, Monitor& monitor) {
     SampledFormFactors samples(mesh, tracer, {}, settings.options.seed);

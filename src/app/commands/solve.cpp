@@ -38,7 +38,8 @@ namespace hemilux {
 
 namespace {
 
-/// `sampling`: the error that --divide auto leaves to the run, where that is known.
+/// Returns the stop rule. `sampling` is the error that --divide auto leaves to the run, where that
+/// is known.
 StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
                    std::optional<double> sampling = {}) {
     StopRule stop = settings.stop;
@@ -157,7 +158,7 @@ void SolveRun::build_tree() {
     guard_.watch(monitor_.interrupted);
 }
 
-/// Of the mesh as it is then.
+/// Begins a solver for the mesh as it is then.
 std::unique_ptr<Solver> SolveRun::begin() {
     const std::size_t patches = mesh().patches().size();
     const StopRule stop = stop_rule(settings_, patches);
@@ -182,7 +183,7 @@ void SolveRun::mesh_changed() {
     input_->target = target_;
 }
 
-/// Where --divide auto asks for it.
+/// Divides the mesh where --divide auto asks for it.
 void SolveRun::divide() {
     try {
         divided_ = divide_as_asked(
@@ -193,7 +194,8 @@ void SolveRun::divide() {
     }
 }
 
-/// Of the patches as they are divided. A signal ends the program while the file is read.
+/// Reads the reference, which is of the patches as they are divided. A signal ends the program
+/// while the file is read.
 void SolveRun::read_the_reference() {
     std::vector<bool> detail = detail_mask(mesh(), settings_.detail);
     if (settings_.reference.empty() || monitor_.interrupted)
@@ -262,7 +264,7 @@ void SolveRun::take_steps() {
 }
 
 void SolveRun::estimate_errors() {
-    // Where a signal or the time left no step, there is the light by which patches were divided.
+    // Where a signal or the time left no step, the light by which patches were divided is used.
     const bool has_step = solver_->solution().steps > 0 || divided_.rough.steps == 0;
     solution_ = has_step ? &solver_->solution() : &divided_.rough;
     if (divided_.linear) {
@@ -271,7 +273,7 @@ void SolveRun::estimate_errors() {
         solution_ = &*linear_;
     }
     fill(statistics_, settings_, mesh(), *solution_, seconds_solver_);
-    // Without an estimate of sampling the error of the division would be taken for the whole.
+    // Without an estimate of sampling, the error of the division would be taken for the whole.
     if (!settings_.work().estimates_error || !shows_statistics(settings_))
         statistics_.error_sampling = statistics_.estimated_error;
     else

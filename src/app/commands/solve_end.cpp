@@ -27,14 +27,14 @@ std::string lost_light_of(const SolveSettings& settings, const Results& results)
     return lost_light_text(results.mesh, results.solution.radiosity, light, settings.scene.sides);
 }
 
-/// Those of the stages that have a name, before anything is written.
+/// Returns the seconds of the stages that have a name, before anything is written.
 double seconds_of_stages(const Statistics& s) {
     const auto known = [](double seconds) { return std::isfinite(seconds) ? seconds : 0; };
     return known(s.seconds_read) + known(s.seconds_bvh) + s.seconds_divide +
            known(s.seconds_density) + known(s.seconds_solve) + known(s.seconds_division_error);
 }
 
-/// What a user must know of a run that has ended.
+/// Returns what a user must know of a run that has ended.
 std::vector<std::string> warnings_of(const SolveSettings& settings, const Results& results,
                                      const RunNotes& notes, bool interrupted) {
     std::vector<std::string> warnings = notes.texts(results.statistics.error_sampling, interrupted);
@@ -58,7 +58,7 @@ std::string interruption_text(std::uint32_t steps, bool wrote) {
     return wrote ? when + "; the outputs hold " + outputs : when;
 }
 
-/// What suns and skies emit, and what all else reflects.
+/// Adds what suns and skies emit, and what all else reflects.
 void add_powers(Statistics& statistics, const Mesh& mesh, const Solution& solution) {
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
         const double area = mesh.frame().area_to_world(mesh.patches()[i].area);

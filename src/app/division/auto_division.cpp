@@ -18,14 +18,14 @@
 namespace hemilux {
 namespace {
 
-/// Of the time of a run that the division may take.
+/// The share of the time of a run that the division may take.
 constexpr double share_of_time = .5;
 
-/// Where light is gathered, what sampling may leave on patches: at first, as gathers average over
-/// them; and of the whole error.
+/// The error that sampling may leave on patches where light is gathered: at first, as gathers
+/// average over them; and as a share of the whole error [-].
 constexpr double first_sampling_of_gathered = .05, sampling_of_gathered = .4;
 
-/// A goal is set lower by a factor in this range, with some room. Where light is gathered finding
+/// A goal is set lower by a factor in this range, with some room. Where light is gathered, finding
 /// the error costs more than patches do, so steps are few and large.
 constexpr double safe = .9, least_step = .5, most_step = .9, least_step_of_gathered = .3,
                  most_step_of_gathered = .6;
@@ -33,12 +33,12 @@ constexpr double safe = .9, least_step = .5, most_step = .9, least_step_of_gathe
 /// An error of gathered light, over that asked for, that need not be known better.
 constexpr double negligible_when_reported = .05;
 
-/// So often the division goes on where the whole error is too large still.
+/// The number of times that the division goes on where the whole error is still too large.
 constexpr unsigned most_attempts = 8;
 
-/// Rays to find out the error of the division where patches were divided by rays: of all before, at
-/// most one in so many; but so many are always worth it, the more so where all light is gathered
-/// and little else is traced.
+/// Rays to find out the error of the division where patches were divided by rays. They are at most
+/// one in so many of all before. But so many are always worth it, the more so where all light is
+/// gathered and little else is traced.
 constexpr std::uint64_t share_of_divided = 5, least_rays_of_error = 400'000,
                         least_rays_of_gathered = 4'000'000;
 
@@ -62,9 +62,10 @@ class AutoDivision {
     [[nodiscard]] Divided divide();
 
   private:
-    /// The light of the mesh as it is: by the run to come, where that is of the standard method.
+    /// Finds the light of the mesh as it is: by the run to come, where that is of the standard
+    /// method.
     void run_to(double error, const StopRule& most);
-    /// How far the light that is given out is off by the division, at points of its own.
+    /// Measures how far the light that is given out is off by the division, at points of its own.
     void measure(DivisionErrorOptions options);
     [[nodiscard]] double measured() const {
         return is_gathered_ ? gathered_error(*divided_.spread, mesh_, divided_.rough).error
@@ -74,8 +75,8 @@ class AutoDivision {
     void lower_goals();
     void divide_once(Division& division);
     void divide_until_enough();
-    /// Whether the whole error, as far as it is known, is as asked for; else less is left to what
-    /// has the larger part.
+    /// Returns whether the whole error, as far as it is known, is as asked for. If it is not, less
+    /// is left to what has the larger part.
     [[nodiscard]] bool is_enough(double sampling);
     void measure_at_first();
     void measure_again(DivisionErrorOptions options);
@@ -142,8 +143,8 @@ void AutoDivision::measure(DivisionErrorOptions options) {
     seconds_of_errors_ += watch.seconds();
 }
 
-/// Light on patches may vary so much as it does on those that there are, but for what gathered
-/// light is to gain.
+/// Begins the division for gathered light. Light on patches may vary as much as it does on those
+/// that there are, but for what gathered light is to gain.
 void AutoDivision::begin_gathered() {
     options_.error = division_error(mesh_, input_.tracer, divided_.rough,
                                     {.seed = hash_words({settings_.options.seed, 6})},
@@ -152,7 +153,8 @@ void AutoDivision::begin_gathered() {
     lower_goals();
 }
 
-/// Of patches, by less than gathered light is to gain: its error falls faster than theirs.
+/// Lowers the goal of patches, by less than gathered light is to gain: its error falls faster than
+/// theirs.
 void AutoDivision::lower_goals() {
     const double step = std::sqrt(safe * whole_ / measured()); // not a number where it is unknown
     options_.error *= step > least_step_of_gathered ? std::min(step, most_step_of_gathered)
@@ -160,7 +162,8 @@ void AutoDivision::lower_goals() {
     divided_.sampling = sampling_of_gathered * whole_;
 }
 
-/// What is left is aimed at with some room, as what was found is known to a tenth.
+/// Returns whether it is enough. What is left is aimed at with some room, as what was found is
+/// known to a tenth.
 bool AutoDivision::is_enough(double sampling) {
     constexpr double least_sampling = .6;
     if (is_gathered_) {
@@ -183,7 +186,7 @@ bool AutoDivision::is_enough(double sampling) {
     return false;
 }
 
-/// The first of several errors to be small enough errs low, so another one confirms it.
+/// Confirms an error, as the first of several errors to be small enough errs low.
 bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
                                 std::span<const double> square) {
     const DivisionErrorOptions options{
@@ -197,8 +200,8 @@ bool AutoDivision::is_confirmed(std::uint64_t most_rays, double sampling,
     return !is_over() && is_enough(sampling);
 }
 
-/// At other points, and with more rays, as it is reported. That of gathered light is found out
-/// better even where it is negligible.
+/// Measures at other points, and with more rays, as it is reported. The error of gathered light is
+/// found out better even where it is negligible.
 void AutoDivision::measure_again(DivisionErrorOptions options) {
     constexpr unsigned more_rays = 4;
     options.most_rays *= more_rays;
@@ -207,7 +210,8 @@ void AutoDivision::measure_again(DivisionErrorOptions options) {
     measure(options);
 }
 
-/// That of gathered light is found out as it is reported: mostly nothing is divided.
+/// Measures for the first time. The error of gathered light is found out as it is reported: mostly
+/// nothing is divided.
 void AutoDivision::measure_at_first() {
     const DivisionErrorOptions options{
         .most_rays = rays_of_error(0),

@@ -8,10 +8,10 @@
 namespace hemilux {
 namespace {
 
-/// What stored transport takes, and the patch with its outputs.
+/// The bytes that stored transport takes for a patch, and the patch with its outputs.
 constexpr std::uint64_t bytes_of_patch = 16'384;
 
-/// Large models that have more are not divided.
+/// The most patches with which large models are still divided.
 constexpr std::size_t most_patches_of_large_models = 200'000;
 
 } // namespace

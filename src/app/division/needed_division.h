@@ -1,5 +1,5 @@
 #pragma once
-// Whether a scene needs division, for those who have not solved it yet.
+// This says whether a scene needs division, for those who have not solved it yet.
 
 #include <optional>
 
@@ -8,9 +8,9 @@ namespace hemilux {
 class Mesh;
 class Tracer;
 
-/// How far the light is off within the patches of a mesh, relative to it, from a rough solution;
-/// empty where nothing is lit or cannot be solved, and where there are more patches than a plain
-/// run divides. All cores work at it.
+/// Returns how far the light is off within the patches of a mesh, relative to it [-], from a rough
+/// solution. It is empty where nothing is lit or the scene cannot be solved, and where there are
+/// more patches than a plain run divides. All cores work at it.
 [[nodiscard]] std::optional<double> error_within_patches(const Mesh& mesh, const Tracer& tracer);
 
 } // namespace hemilux

@@ -14,20 +14,22 @@
 namespace hemilux {
 namespace {
 
-/// Rays to find out the error of the division: of all before, at most one in so many.
+/// Rays to find out the error of the division: at most one in so many of all before.
 constexpr std::uint64_t share_of_rays = 2;
 
-/// Errors of the division below this are not resolved where nothing asks for it.
+/// The relative error of the division below which errors are not resolved where nothing asks for it
+/// [-].
 constexpr double resolved_on_fixed_patches = .01;
 
-/// With --divide auto the estimated error is that of the light as given out: gathered, or both
-/// errors of patches together.
+/// Enters the errors into the statistics. With --divide auto the estimated error is that of the
+/// light as given out: gathered, or both errors of patches together.
 void enter(Statistics& statistics, const DivisionError& of_patches, bool divide_auto,
            const std::optional<DivisionError>& gathered) {
     statistics.error_division = of_patches.error;
     statistics.error_division_uncertainty = of_patches.uncertainty;
     if (gathered) {
-        // Relative to the light itself, whose square is larger than that of the patches' means.
+        // The error is relative to the light itself, whose square is larger than that of the
+        // patches' means.
         const double within = std::isfinite(of_patches.error) ? of_patches.error : 0;
         const double light = std::sqrt(1 - std::min(within * within, 1.0));
         statistics.estimated_error = light * gathered->error;

@@ -1,5 +1,5 @@
 #pragma once
-// The whole error of the light as given out: which it is, and how large.
+// The whole error of the light as given out: which error it is, and how large.
 
 #include "app/division/auto_division.h"
 #include "app/settings/settings.h"
@@ -9,15 +9,16 @@
 
 namespace hemilux {
 
-/// The whole error that a run with --divide auto is to reach.
+/// Returns the whole error that a run with --divide auto is to reach, relative [-].
 [[nodiscard]] double whole_error(const SolveSettings& settings);
 
-/// Whether all light that is given out is gathered at points or for pictures, none as patches have
-/// it. The whole error is then that of gathered light.
+/// Returns whether all light that is given out is gathered at points or for pictures, none as
+/// patches have it. The whole error is then that of gathered light.
 [[nodiscard]] bool gives_gathered_light(const SolveSettings& settings);
-/// Of the division errors of gathered light below this are not resolved.
+/// Returns the error of gathered light by the division [-] below which errors are not resolved.
 [[nodiscard]] double resolved_gathered_error(const SolveSettings& settings);
-/// Whether it is gathered for pictures, whose rays read the patches that they meet however near.
+/// Returns whether light is gathered for pictures, whose rays read the patches that they meet
+/// however near.
 [[nodiscard]] bool gathers_near(const SolveSettings& settings);
 
 /// Adds the error of the division to the statistics of a solution, and with --divide auto makes the
@@ -26,7 +27,7 @@ void add_division_error(Statistics& statistics, const SolveSettings& settings, c
                         const Tracer& tracer, const Solution& solution, const Divided& divided,
                         const StopFlag& interrupted);
 
-/// Where --divide auto has not reached the whole error asked for: why. Else empty.
+/// Returns why --divide auto has not reached the whole error asked for; empty where it has.
 [[nodiscard]] std::string whole_error_note(const SolveSettings& settings,
                                            const Statistics& statistics);
 

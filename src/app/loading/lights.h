@@ -9,11 +9,11 @@
 
 namespace hemilux {
 
-/// Their groups and materials are `light 1`, `light 2`, `sun 1`, `sky`. Nothing is added to a scene
-/// without faces.
+/// Adds the lights. Their groups and materials are `light 1`, `light 2`, `sun 1`, `sky`. Nothing is
+/// added to a scene without faces.
 void add_lights(Scene& scene, const SceneSettings& settings);
 
-/// The materials whose names sound like lamps: "Ceiling_Light", "bulb", "lava".
+/// Returns the materials whose names sound like emitters: "Ceiling_Light", "bulb", "lava".
 [[nodiscard]] std::vector<std::string> likely_lamps(const Scene& scene);
 
 } // namespace hemilux

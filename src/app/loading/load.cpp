@@ -88,8 +88,8 @@ void check_solvable(const ReadResult& read, const std::string& path) {
         throw InputError(path, no_light_text(read.scene, names));
 }
 
-/// A camera is held level; z is upwards where it is level only so, as where Blender exported
-/// without its option +Y Up.
+/// Returns whether a camera is held level only with z upwards, as where Blender exported without
+/// its option +Y Up.
 bool is_level_by_z(const Camera& camera) {
     const Vec3 right = glm::normalize(glm::cross(camera.target - camera.eye, camera.up));
     constexpr double level = 1e-3, tilted = .1;
@@ -156,7 +156,7 @@ ViewSettings view_of(const ViewSettings& asked, const FileView& file, Verbosity 
     return view;
 }
 
-/// Either by a thread of its own, where there are two.
+/// Prepares the tracer and the needs, each by a thread of its own, where there are two.
 Prepared prepare(LoadedMesh& loaded, const SolveOptions& options, Verbosity verbosity) {
     const Stopwatch preparing;
     const Mesh& mesh = loaded.mesh;

@@ -1,5 +1,5 @@
 #pragma once
-// From a path on the command line to a scene that can be solved.
+// The way from a path on the command line to a scene that can be solved.
 
 #include "app/settings/settings.h"
 #include "io/files/error.h"
@@ -15,24 +15,25 @@
 namespace hemilux {
 
 /// Reads a scene by its extension and applies what the command line changes in it. Throws
-/// InputError for the file, UsageError for the changes and where a file that the scene refers to is
-/// an output of the run.
+/// InputError for the file. Throws UsageError for the changes, and where a file that the scene
+/// refers to is an output of the run.
 [[nodiscard]] ReadResult load_scene(const SceneSettings& settings, const RunFiles& files);
 
-/// What cannot be solved, as an error of the file with the line of the face.
+/// Returns what cannot be solved as an error of the file, with the line of the face.
 [[nodiscard]] InputError as_input_error(const SolveError& error, const std::string& path,
                                         std::span<const std::uint32_t> face_lines);
 
-/// What a file says of how to look at it.
+/// The view that a file asks for.
 struct FileView {
     std::optional<Camera> camera; ///< ReadResult
     std::string camera_name;
-    /// The axis that is upwards: of glTF 1, or 2 where only so its camera is held level; empty for
-    /// other formats.
+    /// The axis that is upwards. For glTF it is 1, or 2 where its camera is held level only so; it
+    /// is empty for other formats.
     std::optional<int> up;
 };
 [[nodiscard]] FileView view_of_file(const std::string& path, const ReadResult& read);
-/// The view asked for; with the camera of the file, which is reported, where none was asked for.
+/// Returns the view asked for. Where no camera was asked for, it has the camera of the file, which
+/// is reported.
 [[nodiscard]] ViewSettings view_of(const ViewSettings& asked, const FileView& file,
                                    Verbosity verbosity);
 
@@ -45,10 +46,10 @@ struct LoadedMesh {
     std::vector<std::string> warnings; ///< that were logged
 };
 
-/// Does all of this, with what there is to report. Throws InputError for what no method can solve:
-/// no faces, a material in use that reflects more than all light, negative emission, or a scene in
-/// which nothing emits; std::runtime_error if the methods side by side, or `before` alone, would
-/// need more memory than they may.
+/// Does all of this and reports what there is to report. Throws InputError for what no method can
+/// solve: no faces, a material in use that reflects more than all light, negative emission, or a
+/// scene in which nothing emits. Throws std::runtime_error if the methods side by side, or `before`
+/// alone, would need more memory than they may.
 [[nodiscard]] LoadedMesh load_mesh(const SceneSettings& settings, const RunFiles& files,
                                    const SolveOptions& options,
                                    std::span<const Method* const> methods, Verbosity verbosity,
@@ -59,11 +60,11 @@ struct Prepared {
     MadeTracer made;
     double seconds; ///< with those of the sides
 };
-/// What solving needs besides the mesh, which must outlive it. Takes over what was made. Warns
-/// where rays will be slow.
+/// Prepares what solving needs besides the mesh, which must outlive it. Takes over what was made.
+/// Warns where rays will be slow.
 [[nodiscard]] Prepared prepare(LoadedMesh& loaded, const SolveOptions& options,
                                Verbosity verbosity);
-/// What makes rays slow, and how to mend it; empty where nothing does.
+/// Returns what makes rays slow, and how to mend it; empty where nothing does.
 [[nodiscard]] std::string crowd_text(const Crowd& crowd, const Mesh& mesh);
 
 /// Divides the faces; throws UsageError where --max-edge would give too many patches.

@@ -12,7 +12,7 @@ namespace hemilux {
 
 namespace {
 
-/// Tables from other programs may carry fewer digits.
+/// The tolerance for tables from other programs, which may carry fewer digits.
 constexpr double tolerance = 1e-4;
 
 bool same_patch(const PatchTable& table, std::size_t i, const Mesh& mesh) {

@@ -11,8 +11,8 @@
 namespace hemilux {
 
 struct Reference {
-    std::vector<Vec3> radiosity;
-    std::vector<Vec3> standard_error; ///< may be NaN
+    std::vector<Vec3> radiosity;      ///< [W/m2]
+    std::vector<Vec3> standard_error; ///< [W/m2]; may be NaN
     std::vector<bool> detail;         ///< patches that are reported apart
 
     [[nodiscard]] RelativeError error(const Mesh& mesh, std::span<const Vec3> solution) const {
@@ -25,8 +25,8 @@ struct Reference {
 [[nodiscard]] Reference read_reference(const std::string& path, const Mesh& mesh,
                                        std::vector<bool> detail);
 
-/// Which patches belong to the groups named, or, where none is, to those whose name begins with
-/// `detail`. Throws UsageError for a group that the scene does not have.
+/// Returns which patches belong to the groups named, or, where none is, to those whose name begins
+/// with `detail`. Throws UsageError for a group that the scene does not have.
 [[nodiscard]] std::vector<bool> detail_mask(const Mesh& mesh,
                                             const std::vector<std::string>& groups);
 

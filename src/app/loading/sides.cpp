@@ -21,7 +21,7 @@ std::string names_of(const std::vector<std::uint32_t>& groups, const Scene& scen
     return (names.size() == 1 ? "group " : "groups ") + list_names(names, most);
 }
 
-/// "1 closed surface inside out, 1 lamp facing a wall at once or nothing"
+/// Returns "1 closed surface inside out, 1 lamp facing a wall at once or nothing".
 std::string kinds_text(const Orientation& found) {
     std::string text;
     const auto add = [&](std::size_t count, const std::string& one, const std::string& many) {
@@ -43,7 +43,7 @@ std::string faces_text(const Orientation& found, const Scene& scene) {
            names_of(found.groups, scene) + ": " + kinds_text(found) + ")";
 }
 
-/// Of the fronts, all channels [W].
+/// Returns the power that the fronts emit, over all channels [W].
 double emitted_power(const Scene& scene) {
     double power = 0;
     for (const Facet& facet : scene.facets) {
@@ -54,7 +54,7 @@ double emitted_power(const Scene& scene) {
     return power;
 }
 
-/// "3 faces (group shade)": those that stay as they are.
+/// Returns "3 faces (group shade)" for those that stay as they are.
 std::string doubt_text(const Orientation& found, const Scene& scene) {
     return counted(found.in_doubt, "face", "faces") + " (" +
            names_of(found.groups_in_doubt, scene) + ")";
@@ -84,7 +84,7 @@ std::string both_sides_text(const Scene& scene) {
                      power);
 }
 
-/// Power that is reflected, relative to what is emitted; both over all channels.
+/// Returns the power that is reflected, relative to what is emitted [-]; both over all channels.
 double reflected_share(const Mesh& mesh, std::span<const Vec3> radiosity) {
     double reflected = 0, emitted = 0;
     for (std::uint32_t i = 0; i < radiosity.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// --sides: faces that look away from the light are turned or reported, and a black picture with an
+// --sides: faces that look away from the light are turned or reported. So a black picture with an
 // error of 0 % does not pass for a result.
 
 #include "app/settings/settings.h"
@@ -16,18 +16,20 @@ struct SidedMesh {
     MadeTracer made; ///< of the mesh; empty with --sides both, which needs none to be divided
 };
 
-/// Divides the faces and turns them where --sides says so; says on stderr what was turned, what
-/// looks away all the same, or what lamps emit that shine to both sides. Throws as divide_scene().
+/// Divides the faces and turns them where --sides says so. Says on stderr what was turned, what
+/// looks away all the same, or what emitters emit that shine to both sides. Throws as
+/// divide_scene().
 [[nodiscard]] SidedMesh divide_with_sides(Scene scene, const SceneSettings& settings,
                                           const SolveOptions& options, Verbosity verbosity);
 
-/// Lines of `info`: names on the left, figures on the right. What is as it should be gets no line.
+/// Returns lines of `info`: names on the left, figures on the right. What is as it should be gets
+/// no line.
 [[nodiscard]] std::string describe(const Orientation& orientation, const Scene& scene, Sides sides);
-/// The same of lamps that shine to both sides.
+/// Returns the same for emitters that shine to both sides.
 [[nodiscard]] std::string describe_both_sides(const Scene& scene);
 
-/// Words for a run whose light was lost: nothing is lit, or more than nine tenths of the light fell
-/// on backs or left the scene. Empty for others.
+/// Returns words for a run whose light was lost: nothing is lit, or more than nine tenths of the
+/// light fell on backs or left the scene. They are empty for other runs.
 [[nodiscard]] std::string lost_light_text(const Mesh& mesh, std::span<const Vec3> radiosity,
                                           const LightShares& light, Sides sides);
 

@@ -26,7 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As the environment says: of Open MPI, of MPICH and its kin, of a step of Slurm.
+/// Returns the number of processes that the environment names: of Open MPI, of MPICH and its kin,
+/// or of a step of Slurm.
 int count_of_started() {
     for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
         const char* const text = std::getenv(name);
@@ -41,8 +42,9 @@ int count_of_started() {
     return 1;
 }
 
-/// From here on the rank is a child of this process, which waits for it and ends as it does; where
-/// a signal killed it, with an exit code: of a signal mpirun would make one of its own.
+/// Makes the rank a child of this process, which waits for it and ends as it does. Where a signal
+/// killed the rank, this process ends with an exit code: from a signal mpirun would make one of its
+/// own.
 void be_watched() {
     const pid_t rank = fork();
     if (rank < 0)
@@ -63,7 +65,7 @@ void be_watched() {
     _exit(exit_output);
 }
 
-/// Beside the program where it was built, or where it is installed.
+/// Opens the module, beside the program where it was built, or where it is installed.
 void* open_module() {
     std::error_code error;
     const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();

@@ -10,15 +10,15 @@ namespace hemilux {
 /// This process among those that were started with it; alone where it was not.
 class StartedRanks {
   public:
-    /// All ranks but the first write nothing from now on, neither files nor text. Throws UsageError
-    /// where several processes were started and the program has no module for MPI.
+    /// Finds the ranks. All ranks but the first then write nothing, neither files nor text. Throws
+    /// UsageError where several processes were started and the program has no module for MPI.
     StartedRanks();
 
     [[nodiscard]] const Ranks& ranks() const { return *ranks_; }
-    /// Called by all ranks at the end: the exit code of the first.
+    /// Returns the exit code of the first rank. All ranks call this at the end.
     [[nodiscard]] int end(int code) const;
-    /// Of a rank that cannot go on: ends all of them. What all ranks meet the first one says; what
-    /// one alone meets is said with its number.
+    /// Ends all ranks, where this one cannot go on. The first rank reports what all ranks meet; a
+    /// rank that alone meets something reports it with its number.
     void fail(int code, const std::string& message) const;
 
   private:

@@ -6,7 +6,8 @@
 
 namespace hemilux {
 
-/// With padding. The texts of pieces whose sizes are multiples of 3 can be put together.
+/// Returns the bytes as text, with padding. The texts of pieces whose sizes are multiples of 3 can
+/// be put together.
 [[nodiscard]] std::string base64(std::string_view bytes);
 
 } // namespace hemilux

@@ -1,6 +1,7 @@
 #pragma once
 // The file of `compare --report`: one page of HTML with the errors of all runs as a chart and
-// tables, and the light that two methods had after as many steps, side by side, to turn around.
+// tables. It also shows the light that two methods had after as many steps, side by side, to turn
+// around.
 //
 // The page is compare.html with the style page.css, its scripts and the data. JSON holds all
 // that is not a number by patch (run_data.h). The arrays of the mesh are those of report_page.h.
@@ -21,7 +22,7 @@ namespace hemilux {
 /// Writes the page, array by array. Throws OutputError and Interrupted.
 void write_comparison_page(const std::string& path, const ComparisonContent& content);
 
-/// The mean of the radiosity over area and channels [W/m2]; 1 where there is none.
+/// Returns the mean of the radiosity over area and channels [W/m2]; 1 where there is none.
 [[nodiscard]] double mean_light(const Mesh& mesh, std::span<const Vec3> radiosity);
 
 } // namespace hemilux

@@ -6,8 +6,8 @@
 
 namespace hemilux {
 
-/// Exponents of halves are biased by 15 and those of floats by 127. So a float that is 2^-112 times
-/// as large has the half's exponent, also below the normal numbers of both.
+/// Converts by exponents, which are biased by 15 for halves and by 127 for floats. So a float that
+/// is 2^-112 times as large has the half's exponent, also below the normal numbers of both.
 std::uint16_t half_of(double value) {
     constexpr double largest = 65504;
     if (std::isnan(value))

@@ -9,10 +9,11 @@
 
 namespace hemilux {
 
-/// The nearest half; what is too large is the largest one, 65504, and what is not a number 0.
+/// Returns the nearest half. What is too large becomes the largest one, 65504, and what is not a
+/// number becomes 0.
 [[nodiscard]] std::uint16_t half_of(double value);
 
-/// Three halves for each radiosity: how many times `unit` it is.
+/// Returns three halves for each radiosity, as multiples of `unit` [W/m2].
 [[nodiscard]] std::vector<std::uint16_t> halves_of(std::span<const Vec3> radiosity, double unit);
 
 } // namespace hemilux

@@ -14,7 +14,7 @@ namespace hemilux {
 class Mesh;
 
 inline void append(std::string& bytes, std::uint32_t word) { append_number(bytes, word); }
-/// In single precision.
+/// Appends the value in single precision.
 inline void append(std::string& bytes, double value) {
     append_number(bytes, static_cast<float>(value));
 }

@@ -43,7 +43,7 @@ Json steps_json(std::span<const StepRow> rows) {
     return list;
 }
 
-/// What a page says of any run. Content: ReportContent or ComparisonContent.
+/// Returns what a page says of any run. Content is ReportContent or ComparisonContent.
 template <class Content>
 Json common_json(const Content& content) {
     const Mesh& mesh = content.mesh;

@@ -24,7 +24,7 @@ struct ReportDensities {
     double threshold; ///< is_divided()
 };
 
-/// What a report is made of; refers to what lives in the caller.
+/// The content of a report; it refers to what lives in the caller.
 struct ReportContent {
     const Mesh& mesh;
     const Solution& solution;
@@ -38,8 +38,9 @@ struct ReportContent {
     const ReportDensities* densities = nullptr; ///< of methods that have them
 };
 
-/// The keys are scene, command, version, machine, centre, materials, groups, camera, exposure,
-/// warnings, statistics (as of to_json), steps and, where there are densities, threshold.
+/// Returns the JSON. The keys are scene, command, version, machine, centre, materials, groups,
+/// camera, exposure, warnings, statistics (as of to_json), steps and, where there are densities,
+/// threshold.
 [[nodiscard]] std::string run_json(const ReportContent& content);
 
 /// The light that a method had found after some step.
@@ -54,10 +55,10 @@ struct ComparedMethod {
     std::span<const LightOfStep> lights; ///< of its first run, ascending
 };
 
-/// What the report of a comparison is made of; refers to what lives in the caller.
+/// The content of a report of a comparison; it refers to what lives in the caller.
 struct ComparisonContent {
     const Mesh& mesh;
-    std::span<const Vec3> reference; ///< radiosity
+    std::span<const Vec3> reference; ///< radiosity [W/m2]
     double unit;                     ///< of LightOfStep [W/m2]
     std::vector<ComparedMethod> methods;
     std::span<const StepRow> rows;                 ///< of all runs, as the CSV has them
@@ -70,9 +71,9 @@ struct ComparisonContent {
     std::optional<double> exposure;
 };
 
-/// The keys scene to warnings of run_json(), and unit, methods (name, label and steps, the numbers
-/// of those with a light), summary, facts, columns and rows: those of the CSV, where an empty field
-/// is null.
+/// Returns the JSON. It has the keys scene to warnings of run_json(), and unit, methods, summary,
+/// facts, columns and rows. A method has name, label and steps, the numbers of those with a light.
+/// Columns and rows are those of the CSV, where an empty field is null.
 [[nodiscard]] std::string comparison_json(const ComparisonContent& content);
 
 } // namespace hemilux

@@ -17,8 +17,8 @@ using Options = std::vector<std::pair<std::string, std::string>>;
 
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
-/// All but what decides when to stop, where to write and how many threads work. What changes the
-/// scene is in its hash.
+/// Returns all options but those that decide when to stop, where to write and how many threads
+/// work. What changes the scene is in its hash.
 Options options_of(const SolveSettings& settings) {
     const SolveOptions& o = settings.options;
     Options options = {{"hemilux", HEMILUX_VERSION},
@@ -37,7 +37,8 @@ Options options_of(const SolveSettings& settings) {
     return options;
 }
 
-/// Of an option of some method, which need not be named where it has this value; else empty.
+/// Returns the default value of an option of some method, which need not be named where it has this
+/// value; else empty.
 std::string default_of(const std::string& name) {
     for (const Method* const method : methods())
         for (const MethodOption& own : method->own_options())

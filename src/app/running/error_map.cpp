@@ -13,7 +13,8 @@
 namespace hemilux {
 namespace {
 
-/// The largest of 99 patches in 100: a few patches in gaps must not hide all others.
+/// Limits errors to the largest of 99 patches in 100: a few patches in gaps must not hide all
+/// others.
 void limit_to_most(std::vector<double>& errors) {
     constexpr double most = .99;
     std::vector<double> sorted = errors;

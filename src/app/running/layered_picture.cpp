@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint32_t no_patch = std::numeric_limits<std::uint32_t>::max();
 
-/// The patch in the middle of each pixel. Colours in a picture of one sample a pixel are the
-/// numbers themselves, in two halves that a float holds exactly.
+/// Returns the patch in the middle of each pixel. Colours in a picture of one sample a pixel are
+/// the numbers themselves, in two halves that a float holds exactly.
 std::vector<std::uint32_t> patches_in(const Results& results, const Camera& camera,
                                       const RenderOptions& options) {
     constexpr std::uint32_t half = 1u << 16;
@@ -34,8 +34,8 @@ std::vector<std::uint32_t> patches_in(const Results& results, const Camera& came
     return patches;
 }
 
-/// By patch: the mean density of its hemisphere, weighted by Lambert's law [surfaces per ray].
-/// Empty when interrupted.
+/// Returns by patch the mean density of its hemisphere, weighted by Lambert's law [surfaces per
+/// ray]. Empty when interrupted.
 std::vector<double> mean_densities(const SolveSettings& settings, const Results& results) {
     const Hemisphere hemisphere(settings.options.depth);
     const DensityMap map(results.mesh, results.tracer, hemisphere, settings.options.threshold,

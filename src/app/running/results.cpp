@@ -31,7 +31,7 @@ namespace hemilux {
 
 namespace {
 
-/// Found when they are first asked for, once for pictures and meshes.
+/// The classes of corners, found when they are first asked for, once for pictures and meshes.
 class SharedClasses {
   public:
     explicit SharedClasses(const Mesh& mesh) : mesh_(mesh) {}
@@ -46,7 +46,7 @@ class SharedClasses {
     CornerClasses classes_;
 };
 
-/// Renders when the first picture is asked for, and once only.
+/// The picture of the light. It is rendered when the first picture is asked for, and once only.
 class Picture {
   public:
     Picture(const SolveSettings& settings, const Results& results, SharedClasses& classes)
@@ -54,7 +54,7 @@ class Picture {
           gather_(settings.gather_pictures ? settings.gather : 0), results_(results),
           classes_(classes), time_(results.monitor.interrupted) {}
 
-    /// Of rendering, where the light is gathered.
+    /// Returns the time of rendering [s], where the light is gathered.
     [[nodiscard]] double seconds_gather() const { return seconds_gather_; }
 
     void write(const Output& output) {
@@ -106,7 +106,7 @@ std::vector<Vec3> indirect_light(const SolveSettings& settings, const Results& r
                                Workers(settings.options.threads));
 }
 
-/// The axis that is upwards; reported where z was guessed.
+/// Returns the axis that is upwards; reported where z was guessed.
 int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
     const int up = known ? *known : guess_up(mesh);
     if (!known && up == 2)
@@ -114,7 +114,7 @@ int up_axis(std::optional<int> known, const Mesh& mesh, Verbosity verbosity) {
     return up;
 }
 
-/// A .glb file, and its lightmap as an attempt of its own.
+/// Writes a .glb file, and its lightmap as an attempt of its own.
 void write_lightmapped(const SolveSettings& settings, const std::string& path, const Mesh& mesh,
                        const CornerClasses& classes, VertexLight light, int up,
                        WriteReport& report) {
@@ -195,7 +195,7 @@ void write_report(const SolveSettings& settings, const Results& results) {
                               guide_of(settings.options) == Guide::density && !settings.plain;
     if (!by_densities)
         return write_report_page(settings.report, content);
-    // Counted anew, as the method does not keep all.
+    // The densities are counted again, as the method does not keep all.
     const Hemisphere hemisphere(settings.options.depth);
     const double threshold = settings.options.threshold;
     const DensityMap map(mesh, tracer, hemisphere, threshold, Workers(statistics.threads), monitor);

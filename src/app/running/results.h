@@ -1,5 +1,5 @@
 #pragma once
-// What a run leaves behind: the files that were asked for.
+// The files that a run leaves behind, as they were asked for.
 
 #include "app/running/write_report.h"
 #include "app/settings/settings.h"
@@ -15,7 +15,7 @@
 
 namespace hemilux {
 
-/// Everything that is known after a run; refers to what lives in the caller.
+/// Everything that is known after a run; it refers to what lives in the caller.
 struct Results {
     const Mesh& mesh;
     const Tracer& tracer;
@@ -27,7 +27,7 @@ struct Results {
     Monitor& monitor; ///< once it is interrupted, densities and what takes long are left out
 };
 
-/// Whether anything that is written or said holds the statistics of the run.
+/// Returns whether anything that is written or said holds the statistics of the run.
 [[nodiscard]] bool shows_statistics(const SolveSettings& settings);
 
 /// Writes all outputs, the statistics last: with the seconds that the others took, and those of the

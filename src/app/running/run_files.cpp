@@ -16,7 +16,7 @@ namespace {
 
 using RoleAndPath = std::pair<std::string, std::string>;
 
-/// The files of --lightmap.
+/// Returns the files of --lightmap.
 std::vector<std::string> lightmap_paths(const SolveSettings& settings) {
     std::vector<std::string> paths;
     for (const Output& output : settings.outputs)
@@ -30,7 +30,7 @@ std::vector<std::string> lightmap_paths(const SolveSettings& settings) {
     return paths;
 }
 
-/// What the run leaves behind, but for checkpoints.
+/// Returns what the run leaves behind, but for checkpoints.
 std::vector<RoleAndPath> results_of(const SolveSettings& settings) {
     std::vector<RoleAndPath> results;
     for (const Output& output : settings.outputs)

@@ -1,14 +1,15 @@
 #pragma once
-// Which files a run reads and writes, and whether it can: checked before the scene is read.
+// The files that a run reads and writes, and whether it can. This is checked before the scene is
+// read.
 
 #include "app/settings/outputs.h"
 #include "app/settings/settings.h"
 
 namespace hemilux {
 
-/// The files of the run, as far as they are known before the scene is read. Throws UsageError where
-/// nothing would be written or an output is another file of the run, OutputError where a file
-/// cannot be made, InputError where one cannot be read.
+/// Returns the files of the run, as far as they are known before the scene is read. Throws
+/// UsageError where nothing would be written or an output is another file of the run. Throws
+/// OutputError where a file cannot be made, InputError where one cannot be read.
 [[nodiscard]] RunFiles check_files(const SolveSettings& settings);
 
 } // namespace hemilux

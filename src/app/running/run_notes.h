@@ -1,6 +1,6 @@
 #pragma once
-// What a user must know of how a run ended, besides its numbers: that an error is not known, that
-// it was not reached, that the estimate has jumped.
+// The notes on how a run ended that a user must know besides its numbers: that an error is not
+// known, that it was not reached, that the estimate has jumped.
 
 #include "radiosity/solving/run.h"
 
@@ -9,7 +9,7 @@
 
 namespace hemilux {
 
-/// Of factors by hemicubes.
+/// The note on factors by hemicubes.
 inline constexpr const char* hemicube_note =
     "the error of hemicube factors is not estimated: what lies between pixels, and that the centre "
     "stands for the patch, is not random; another N, or --factors rays, shows how large it is";
@@ -21,8 +21,8 @@ class RunNotes {
 
     void step_done(const StepRecord& record);
 
-    /// A sentence each, for stderr; none where there is nothing to say. `error` is the estimated
-    /// one of the solution, NaN where it is not known.
+    /// Returns a sentence for each note, for stderr; none where there is nothing to say. `error` is
+    /// the estimated one of the solution, relative [-], NaN where it is not known.
     [[nodiscard]] std::vector<std::string> texts(double error, bool interrupted) const;
 
   private:

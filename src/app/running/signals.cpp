@@ -20,7 +20,7 @@ std::atomic<int> exit_code{exit_interrupted};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
               "a signal handler must not wait for a lock");
 
-/// Only what is safe in a signal handler (POSIX.1, signal-safety). AddressSanitizer would add
+/// Does only what is safe in a signal handler (POSIX.1, signal-safety). AddressSanitizer would add
 /// warnings of its own before _exit, on a thread that is being started, and wait for their reader.
 extern "C" [[gnu::no_sanitize_address]] void on_interrupt(int signal) {
     constexpr int of_shells = 128;

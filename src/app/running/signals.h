@@ -1,36 +1,36 @@
 #pragma once
-// Ctrl-C and SIGTERM. The first one asks the solver to stop, so that what was computed is still
-// written; the second one ends the program at once.
+// Handles Ctrl-C and SIGTERM. The first one asks the solver to stop, so that what was computed is
+// still written; the second one ends the program at once.
 
 #include <atomic>
 
 namespace hemilux {
 
-/// While it lives, SIGINT and SIGTERM are its own; one at a time.
+/// A guard that, while it lives, takes SIGINT and SIGTERM for itself; there is one at a time.
 class InterruptGuard {
   public:
-    /// As long as there is nothing to save, a signal ends the program at once.
+    /// Takes the signals. As long as there is nothing to save, a signal ends the program at once.
     InterruptGuard();
     ~InterruptGuard();
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-    /// From now on a signal sets the flag.
+    /// Makes every later signal set the flag.
     void watch(std::atomic<bool>& flag);
-    /// And from now on it ends the program at once again.
+    /// Makes every later signal end the program at once again.
     void unwatch();
 };
 
-/// How the program ends after the first signal: 130 or 143.
+/// Returns how the program ends after the first signal: 130 or 143.
 [[nodiscard]] int exit_code_of_signal();
 
 /// Ends the program after a signal, when all is written: the system takes the memory back sooner
 /// than it could be given back piece by piece.
 [[noreturn]] void end_at_once(int code);
 
-/// Called by main: writing to a pipe that nobody reads or beyond the limit of a file's size is an
-/// error to be reported, not a death; and no file is ever opened in the place of a closed stdout or
-/// stderr.
+/// Prepares the process; main calls it. Writing to a pipe that nobody reads, or beyond the limit of
+/// a file's size, becomes an error to be reported, not a death. No file is ever opened in the place
+/// of a closed stdout or stderr.
 void prepare_process();
 
 } // namespace hemilux

@@ -12,9 +12,9 @@
 
 namespace hemilux {
 
-/// One camera for all steps, chosen by the first that has light to show; and one exposure, so that
-/// one sees the light grow. The picture of step 12 for room.png is room-0012.png. Refers to the
-/// arguments.
+/// The pictures of all steps. They have one camera, chosen by the first step that has light to
+/// show, and one exposure, so that one sees the light grow. The picture of step 12 for room.png is
+/// room-0012.png. This refers to the arguments.
 class StepPictures {
   public:
     StepPictures(const SolveSettings& settings, const Mesh& mesh, const Tracer& tracer,
@@ -26,9 +26,9 @@ class StepPictures {
     /// interrupted.
     void write(std::span<const Vec3> radiosity, std::uint32_t step);
 
-    /// The camera of all steps, once it is known.
+    /// Returns the camera of all steps, once it is known.
     [[nodiscard]] const std::optional<Camera>& camera() const { return view_.camera; }
-    /// What was written and what failed.
+    /// Returns what was written and what failed.
     [[nodiscard]] const WriteReport& report() const { return report_; }
 
   private:

@@ -9,8 +9,8 @@ namespace hemilux {
 
 double rays_of_step(double rays, std::optional<double> seconds, const Method& method,
                     std::size_t patches) {
-    /// A slow thread traces as many. What is usual is made less only where several fast threads
-    /// would hardly end a step.
+    /// A slow thread traces this many rays in a second. The usual number is reduced only where
+    /// several fast threads would hardly end a step.
     constexpr double rays_per_second = 250e3, default_rays = 64, many_per_second = 2e6, least = 1;
     if (!seconds)
         return rays;

@@ -8,11 +8,11 @@
 
 namespace hemilux {
 
-/// --rays, or fewer where a step of so many would take most of the time that there is. It depends
-/// on the numbers given alone, not on the machine.
+/// Returns --rays, or fewer where a step of so many would take most of the time that there is. The
+/// result depends on the numbers given alone, not on the machine.
 [[nodiscard]] double rays_of_step(double rays, std::optional<double> seconds, const Method& method,
                                   std::size_t patches);
-/// A warning where these are fewer.
+/// Logs a warning where `rays_of_step` is less than `rays`.
 void log_rays_of_step(Verbosity verbosity, double rays, double rays_of_step);
 
 } // namespace hemilux

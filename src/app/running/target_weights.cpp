@@ -13,7 +13,7 @@
 namespace hemilux {
 namespace {
 
-/// Pixels of the picture that stand for all, along its longer side; and rays from each.
+/// The pixels of the picture that stand for all, along its longer side; and the rays from each.
 constexpr double most_pixels = 128;
 constexpr unsigned rays_of_pixel = 4;
 
@@ -47,7 +47,7 @@ std::vector<double> weights_of_groups(const SolveSettings& settings, const Mesh&
     return weights_of_groups(mesh, groups);
 }
 
-/// 1 where a point lies.
+/// Returns the weight 1 for each patch on which a point lies, else 0.
 std::vector<double> weights_of_points(const TargetPoints& of_file, const Mesh& mesh,
                                       const Tracer& tracer) {
     const auto& [path, points] = of_file;

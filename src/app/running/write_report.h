@@ -1,5 +1,5 @@
 #pragma once
-// Which files were written: one that fails does not keep the others from being written.
+// A record of which files were written. One that fails does not keep the others from being written.
 
 #include "app/settings/settings.h"
 
@@ -17,7 +17,7 @@ struct WriteReport {
     /// Calls `write` and notes whether it threw.
     void attempt(const std::string& path, const std::function<void()>& write);
     void add(const WriteReport& other);
-    /// A failure counts more than an interruption.
+    /// Returns the exit code; a failure counts more than an interruption.
     [[nodiscard]] int exit_code(bool interrupted) const;
     /// Reports to the user on stderr.
     void log(Verbosity verbosity) const;

@@ -1,6 +1,6 @@
 #pragma once
-// How the program ends, for the shell, and the errors that lead there. Bad input and failing output
-// are thrown as InputError and OutputError (io/files/error.h).
+// The ways in which the program ends, for the shell, and the errors that lead there. Bad input and
+// failing output are thrown as InputError and OutputError (io/files/error.h).
 
 #include <stdexcept>
 
@@ -15,7 +15,8 @@ enum ExitCode : int {
     exit_terminated = 143
 };
 
-/// What the user asked for cannot be done, whatever the scene: what() says what to write instead.
+/// This error says that what the user asked for cannot be done, whatever the scene; what() says
+/// what to write instead.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -8,7 +8,7 @@
 
 namespace hemilux {
 
-/// The extension of a path with its dot, in small letters.
+/// Returns the extension of a path with its dot, in small letters.
 [[nodiscard]] inline std::string extension_of(const std::string& path) {
     return small_letters(std::filesystem::path(path).extension().string());
 }

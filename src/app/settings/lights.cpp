@@ -17,7 +17,7 @@ std::optional<Vec3> vector_of(std::string_view text) {
     return Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
 }
 
-/// Whether the value belongs to the word, and was read.
+/// Returns whether the value belongs to the word, and was read.
 bool read_pair(LightSettings& light, const std::string& word, const std::string& value) {
     if (word == "at" || word == "towards") {
         const std::optional<Vec3> vector = vector_of(value);

@@ -9,12 +9,12 @@
 
 namespace hemilux {
 
-/// A lamp of one disc or rectangle.
+/// An emitter of one disc or rectangle.
 struct LightSettings {
     bool is_disc = false;
     Vec3 at{0.0}, towards{0.0};   ///< its middle [m]; the direction in which it shines
     double width = 0, height = 0; ///< of a rectangle; of a disc the radius, twice [m]
-    std::optional<Vec3> watts;    ///< that it emits in all, by channel
+    std::optional<Vec3> watts;    ///< that it emits in all, by channel [W]
     std::optional<Vec3> emission; ///< [W/m2]; one of the two is given
 };
 inline constexpr const char* light_form =

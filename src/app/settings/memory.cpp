@@ -19,22 +19,22 @@ namespace {
 constexpr double bytes_of_program = 12e6;
 /// Arrays that grow keep the old one until the new one is filled.
 constexpr double growth = 2;
-/// Per triangle: boxes while the tree is built, and a leaf's share.
+/// The bytes per triangle: boxes while the tree is built, and a leaf's share.
 constexpr double bytes_per_triangle = 150;
-/// Of a stepwise method: solution, spread, one step.
+/// The bytes of a stepwise method: solution, spread, one step.
 constexpr double bytes_per_solution = 241;
-/// What `stored-transport` may use for its rays where --memory says nothing: a scene of a million
-/// patches then stays within 4 GiB.
+/// The bytes that `stored-transport` may use for its rays where --memory says nothing: a scene of a
+/// million patches then stays within 4 GiB.
 constexpr std::uint64_t default_transport = std::uint64_t{5} << 29;
-/// Corners, planes and boxes of both sides of a facet, and its edges.
+/// The bytes of corners, planes and boxes of both sides of a facet, and of its edges.
 constexpr double bytes_of_analysis = 350;
-/// Per pixel: the picture, its bytes, the rows that are compressed, and the file. For `compare`
-/// there are the reference, the method and their difference.
+/// The bytes per pixel: the picture, its bytes, the rows that are compressed, and the file. For
+/// `compare` there are the reference, the method and their difference.
 constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
-/// The light of a pixel in its parts, of more surfaces at edges, and of a quarter of a point at
-/// which indirect light is gathered.
+/// The bytes for the light of a pixel in its parts and of more surfaces at edges, and for a quarter
+/// of a point at which indirect light is gathered.
 constexpr double bytes_per_gathered_pixel = 154;
-/// Rays that wait to be summed.
+/// The bytes of rays that wait to be summed.
 constexpr double bytes_of_ray_batches = 32e6;
 
 struct Lengths {
@@ -45,8 +45,8 @@ double length(const Scene& scene, const Facet& facet, std::size_t a, std::size_t
     return glm::length(scene.vertices[facet.vertex[b]] - scene.vertices[facet.vertex[a]]);
 }
 
-/// The sides by which a facet is divided (Mesh). The shortest side of a triangle decides how many
-/// columns there are, and there are as many rows as columns or more.
+/// Returns the sides by which a facet is divided (Mesh). The shortest side of a triangle decides
+/// how many columns there are, and there are as many rows as columns or more.
 Lengths lengths_of(const Scene& scene, const Facet& facet) {
     if (!facet.is_triangle())
         return {std::max(length(scene, facet, 0, 1), length(scene, facet, 3, 2)),
@@ -70,7 +70,7 @@ std::string rounded(double bytes) {
                         : formatted("%.2g bytes", bytes);
 }
 
-/// Of pictures, each once, and of texture coordinates.
+/// Returns the bytes of pictures, each once, and of texture coordinates.
 std::vector<double> bytes_of_textures(const Scene& scene) {
     std::set<const Texture*> textures;
     for (const auto& [reflectance, emission] : scene.textures.of_material)

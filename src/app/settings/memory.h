@@ -27,41 +27,43 @@ struct MemoryNeed {
     double analysis = 0; ///< which sides face the light, what light may reach
     double method = 0;   ///< of several, all
     double pictures = 0; ///< while they are written
-    /// The list of patches grows by being copied, before there is anything else.
+    /// Returns the peak of all parts [bytes]. The list of patches grows by being copied, before
+    /// there is anything else.
     [[nodiscard]] double all() const {
         return scene +
                std::max(2 * mesh + pairs, mesh + tree + std::max(analysis, method + pictures));
     }
 };
 
-/// Patches that a division of the faces will make, at the most.
+/// Returns the most patches that a division of the faces will make.
 [[nodiscard]] double patches_of(const Scene& scene, const MeshOptions& options);
-/// Of these methods side by side, after `before` has run alone.
+/// Returns the need of these methods side by side, after `before` has run alone.
 [[nodiscard]] MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh,
                                      const SolveOptions& options,
                                      std::span<const Method* const> methods,
                                      const Method* before = nullptr);
 
-/// The options with the part of --memory that each of so many solvers may fill step by step.
+/// Returns the options with the part of --memory that each of so many solvers may fill step by
+/// step.
 [[nodiscard]] SolveOptions with_memory(SolveOptions options, const SceneSettings& scene,
                                        std::size_t solvers = 1);
 
-/// The bytes at the peak of writing a picture of so many pixels, or for `compare` all of its
+/// Return the bytes at the peak of writing a picture of so many pixels, or for `compare` all of its
 /// pictures.
 [[nodiscard]] double bytes_of_picture(PixelSize size, bool gathered);
 [[nodiscard]] double bytes_of_compared_pictures(PixelSize size);
-/// The bytes of a lightmap with so many texels along a side, while it is made and written.
+/// Returns the bytes of a lightmap with so many texels along a side, while it is made and written.
 [[nodiscard]] double bytes_of_lightmap(int size);
-/// The bytes of so many points of --points, while their light is gathered and written.
+/// Returns the bytes of so many points of --points, while their light is gathered and written.
 [[nodiscard]] double bytes_of_points(std::size_t points, unsigned gather);
 
-/// A check while the file is read, which throws std::runtime_error once that takes more.
+/// Returns a check while the file is read, which throws std::runtime_error once that takes more.
 [[nodiscard]] std::function<void(double bytes)> memory_guard(const std::string& path,
                                                              std::optional<std::uint64_t> limit);
-/// The same check before the file is read, by its size.
+/// Does the same check before the file is read, by its size.
 void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit);
-/// A check before the faces are divided. Throws std::runtime_error, which says what is needed for
-/// what.
+/// Checks the need before the faces are divided. Throws std::runtime_error, which says what is
+/// needed for what.
 void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
                   const std::string& path);
 

@@ -32,7 +32,7 @@ SolveOptions MethodVariant::applied_to(SolveOptions options) const {
 
 namespace {
 
-/// Whether the method has an option of this name that takes this value.
+/// Returns whether the method has an option of this name that takes this value.
 bool takes(const Method& method, const std::string& name, const std::string& value) {
     SolveOptions ignored;
     return std::ranges::any_of(method.own_options(), [&](const MethodOption& own) {

@@ -11,15 +11,15 @@
 namespace hemilux {
 
 /// Throws UsageError where an option is set that none of these methods has, or not with this value,
-/// or where their own checks find fault; patches: 0 before their number is known.
+/// or where their own checks find fault. `patches` is 0 before their number is known.
 void check_own_options(const SolveOptions& options, std::span<const Method* const> chosen,
                        std::size_t patches = 0);
 
-/// The names of the methods for which `belongs` holds, with `between` between them.
+/// Returns the names of the methods for which `belongs` holds, with `between` between them.
 [[nodiscard]] std::string names_of_methods(const std::function<bool(const Method&)>& belongs,
                                            std::string_view between = ", ");
 
-/// The names of the methods that --plain may choose, with commas between them.
+/// Returns the names of the methods that --plain may choose, with commas between them.
 [[nodiscard]] std::string methods_with_a_page();
 
 /// Throws UsageError where --plain was given and the method has no page, or its page does not

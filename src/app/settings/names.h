@@ -1,5 +1,5 @@
 #pragma once
-// Names that a user typed: which of the known ones was meant?
+// The names that a user typed, and which of the known ones was meant.
 
 #include <cstddef>
 #include <iterator>
@@ -10,15 +10,15 @@
 
 namespace hemilux {
 
-/// The number of insertions, deletions and replacements that turn one word into the other
+/// Returns the number of insertions, deletions and replacements that turn one word into the other
 /// (Levenshtein 1966).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The known name that begins with the word, else the one with the smallest distance, if that is at
-/// most half of the word; else empty.
+/// Returns the known name that begins with the word, else the one with the smallest distance, if
+/// that is at most half of the word; else empty.
 [[nodiscard]] std::string nearest_name(std::string_view word, std::span<const std::string> known);
 
-/// The words with `between` between them, and `last` before the last one.
+/// Returns the words with `between` between them, and `last` before the last one.
 template <class Words>
 [[nodiscard]] std::string joined(const Words& words, std::string_view between,
                                  std::string_view last) {
@@ -36,7 +36,8 @@ template <class Words>
     return joined(words, between, between);
 }
 
-/// "unknown material 'lihgt'; did you mean 'light'?" or, where none is near, the list of all.
+/// Returns "unknown material 'lihgt'; did you mean 'light'?" or, where none is near, the list of
+/// all.
 [[nodiscard]] std::string unknown_name(std::string_view kind, std::string_view word,
                                        std::span<const std::string> known);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers on the command line: all of the text must be one number within its range. NaN and
+// The numbers on the command line: all of the text must be one number within its range. NaN and
 // infinities are never accepted.
 
 #include "geometry/vector.h"
@@ -20,7 +20,7 @@ struct NumberRange {
     [[nodiscard]] bool contains(double x) const {
         return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high);
     }
-    /// "above 0", "from 0 to 5", "at least 0 and below 1".
+    /// Returns "above 0", "from 0 to 5", "at least 0 and below 1".
     [[nodiscard]] std::string text() const;
 };
 
@@ -28,10 +28,10 @@ inline constexpr double no_limit = 1.7976931348623157e308; ///< the largest doub
 inline constexpr NumberRange positive{.low = 0, .high = no_limit, .low_included = false};
 inline constexpr NumberRange non_negative{.low = 0, .high = no_limit};
 
-/// The shortest text that gives back the same double.
+/// Returns the shortest text that gives back the same double.
 [[nodiscard]] std::string shortest_text(double x);
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
-/// Between separators; empty where one of them is no number.
+/// Reads numbers between separators; empty where one of them is no number.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text,
                                                                char separator);
 /// Reads a whole number of decimal digits; empty for any other text.

@@ -70,7 +70,8 @@ void check_writable(const std::string& path) {
 
 namespace {
 
-/// room-0012.png of room.png: the stem with a dash, digits, the extension.
+/// Returns whether a name is like room-0012.png of room.png: the stem with a dash, digits, the
+/// extension.
 bool has_step_name(std::string_view name, std::string_view stem, std::string_view extension) {
     constexpr std::size_t least_digits = 4;
     if (!name.starts_with(stem) || !name.ends_with(extension) ||

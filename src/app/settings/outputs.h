@@ -1,6 +1,6 @@
 #pragma once
-// Where results go. Each file is checked before the work begins, so that an hour of computing is
-// not lost to a mistyped folder.
+// The places where results go. Each file is checked before the work begins, so that an hour of
+// computing is not lost to a mistyped folder.
 
 #include "io/files/file_identity.h"
 
@@ -23,11 +23,11 @@ struct Output {
     return kind == OutputKind::png || kind == OutputKind::hdr || kind == OutputKind::exr;
 }
 
-/// The kind of output by the extension of the path, in small or capital letters; empty if it is
-/// unknown. "-" is a patch table on standard output, and "-.ply" another kind there.
+/// Returns the kind of output by the extension of the path, in small or capital letters; empty if
+/// it is unknown. "-" is a patch table on standard output, and "-.ply" another kind there.
 [[nodiscard]] std::optional<Output> parse_output(std::string_view path);
 
-/// The file of --lightmap beside a .glb file: scene.glb has scene.lightmap.exr.
+/// Returns the file of --lightmap beside a .glb file: scene.glb has scene.lightmap.exr.
 [[nodiscard]] std::string lightmap_path(const std::string& glb);
 
 /// Throws OutputError where no file can be made or replaced at the path, links being followed.
@@ -38,9 +38,9 @@ void check_writable(const std::string& path);
 class RunFiles {
   public:
     void write(const std::string& role, const std::string& path);
-    /// The pictures of steps that exist, as StepPictures names them.
+    /// Adds the pictures of steps that exist, as StepPictures names them.
     void write_steps(const std::string& path);
-    /// A file that is read, after all that are written.
+    /// Checks a file that is read, after all that are written.
     void read(const std::string& role, const std::string& path) const;
 
   private:
@@ -53,7 +53,8 @@ class RunFiles {
     std::vector<Entry> written_;
 };
 
-/// The files of a run that reads a scene and writes these outputs. Throws UsageError, OutputError.
+/// Returns the files of a run that reads a scene and writes these outputs. Throws UsageError,
+/// OutputError.
 [[nodiscard]] RunFiles check_files(const std::vector<std::string>& outputs,
                                    const std::string& scene);
 

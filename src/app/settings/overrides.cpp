@@ -6,7 +6,7 @@
 namespace hemilux {
 namespace {
 
-/// Whether the name is the pattern, where each * of it stands for any letters.
+/// Returns whether the name is the pattern, where each * of it stands for any letters.
 bool matches(std::string_view pattern, std::string_view name) {
     const std::size_t star = pattern.find('*');
     if (star == std::string_view::npos || pattern == name)

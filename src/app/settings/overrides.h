@@ -15,7 +15,7 @@ namespace hemilux {
 /// letters, and alone for all materials.
 struct Override {
     std::string material;
-    Vec3 value;
+    Vec3 value; ///< emission [W/m2], or reflectance [-]
 };
 
 inline constexpr NumberRange emission_range = non_negative;

@@ -1,5 +1,6 @@
 #pragma once
-// What the command line asks for, once it has been read and its numbers are within their ranges.
+// The settings that the command line asks for, once it has been read and its numbers are within
+// their ranges.
 
 #include "app/settings/lights.h"
 #include "app/settings/numbers.h"
@@ -20,11 +21,11 @@
 
 namespace hemilux {
 
-/// Which sides of faces emit and reflect, as --sides names them, in this order.
+/// The sides of faces that emit and reflect, as --sides names them, in this order.
 enum class Sides { automatic, front, both };
 inline constexpr std::array<const char*, 3> sides_names = {"auto", "front", "both"};
 
-/// Which scene, and with which changes.
+/// The scene, and the changes to it.
 struct SceneSettings {
     std::string path;
     std::string config; ///< path of the file that options were read from; empty: none
@@ -39,7 +40,7 @@ struct SceneSettings {
     std::string spill; ///< a folder for what memory has no room for (spill.h); empty: none
 };
 
-/// How much is said on stderr.
+/// This says how much is reported on stderr.
 enum class Verbosity { quiet, normal, verbose };
 
 /// The view of a picture.
@@ -53,18 +54,19 @@ struct ViewSettings {
     Tone tone = Tone::neutral;
 };
 
-/// --points and --points-output: where the light is to be known, and the table of it.
+/// The settings of --points and --points-output: where the light is to be known, and the table of
+/// it.
 struct PointSettings {
     std::string path, output; ///< empty: none
-    /// Rays from a point for each ray of --gather: points are fewer than pixels.
+    /// The number of rays from a point for each ray of --gather: points are fewer than pixels.
     static constexpr unsigned rays_per_gather_ray = 256;
 };
 
-/// --for: what is to be right. Nothing: all alike.
+/// The settings of --for, which say what is to be right. Without them, all patches count alike.
 struct TargetSettings {
     bool camera = false;
     std::vector<std::string> groups, points; ///< names; paths of files as of --points
-    /// As they are given; empty where nothing is.
+    /// Returns the names as they are given; empty where nothing is.
     [[nodiscard]] std::vector<std::string> names() const {
         std::vector<std::string> names;
         if (camera)
@@ -77,7 +79,7 @@ struct TargetSettings {
     }
 };
 
-/// --checkpoint, --every, --resume.
+/// The settings of --checkpoint, --every and --resume.
 struct CheckpointSettings {
     std::string path, resumed;   ///< empty: none
     std::optional<double> every; ///< seconds between two
@@ -99,7 +101,7 @@ struct SolveSettings {
     PlyColours ply_colours = PlyColours::linear; ///< and how .ply files do
     Provenance from;                             ///< of the files
     std::vector<GivenOption> given;              ///< options and their values
-    /// Paths; empty: not asked for.
+    /// These are paths; empty: not asked for.
     std::string statistics, steps_log, error_map, report;
     bool every_step = false;         ///< pictures also after every step
     std::string reference;           ///< path of a patch table; empty: none
@@ -110,13 +112,13 @@ struct SolveSettings {
     unsigned gather = default_gather; ///< rays at a point of a surface that a picture shows
     static constexpr unsigned default_gather = 16, most_gather = 1024;
     static constexpr int most_lightmap = 16384;
-    /// From a patch for each ray of --gather, where the indirect light is baked.
+    /// The number of rays from a patch for each ray of --gather, where the indirect light is baked.
     static constexpr unsigned bake_rays_per_gather_ray = 64;
     bool gather_pictures = true; ///< else they interpolate the light of the patches
     Verbosity verbosity = Verbosity::normal;
     const Ranks* ranks = &one_rank(); ///< that solve it together
 
-    /// What the method does in this run.
+    /// Returns what the method does in this run.
     [[nodiscard]] MethodWork work() const { return method->work_with(options); }
 };
 
@@ -131,7 +133,8 @@ struct Budget {
 struct MethodVariant {
     std::string name;
     const Method* method = nullptr;
-    /// A value of one of its own options (MethodOption::makes_variants). Empty: as it is given.
+    /// This is a value of one of its own options (MethodOption::makes_variants). It is empty where
+    /// the option is as given.
     std::string option, value;
     [[nodiscard]] SolveOptions applied_to(SolveOptions options) const;
 };
@@ -143,7 +146,7 @@ struct CompareSettings {
     Budget budget;
     std::uint32_t runs = 3;
     std::string reference;         ///< path of a patch table; empty: computed by `matrix`
-    double reference_error = .002; ///< estimated error at which it is good enough
+    double reference_error = .002; ///< estimated error at which it is good enough, relative [-]
     bool total = false;            ///< errors are those of the light itself, division included
     ViewSettings view;
     Provenance from;                ///< of the files

@@ -13,14 +13,14 @@
 namespace hemilux {
 namespace {
 
-/// Smaller ones stay in memory: together they are small.
+/// The size below which arrays stay in memory: together such arrays are small.
 constexpr std::size_t least_bytes = 1024;
 
-/// Rows of matrices, and what rays have hit, come in pieces smaller than that; a vector of all
-/// patches is larger.
+/// The size from which on an array counts as a vector of all patches. Rows of matrices, and what
+/// rays have hit, come in smaller pieces.
 constexpr std::size_t least_vector = std::size_t{1} << 20;
 
-/// It lives until the process ends, as may what lies in it.
+/// The file lives until the process ends, as may what lies in it.
 constinit std::atomic<SpillFile*> file{nullptr};
 constinit std::atomic<std::int64_t> in_memory{0}; ///< bytes of large arrays
 constinit std::int64_t most_in_memory = 0;
@@ -89,9 +89,9 @@ std::uint64_t bytes_spilled() {
 
 } // namespace hemilux
 
-// All but those of aligned types, which stay in memory: the vectors that each row of a matrix is
-// multiplied with (Lanes), read all over. Sanitizers have their own of each, so none may be left
-// out.
+// These replace all operators but those of aligned types, which stay in memory: the vectors that
+// each row of a matrix is multiplied with (Lanes), read all over. Sanitizers have their own of
+// each, so none may be left out.
 void* operator new(std::size_t bytes) { return hemilux::allocate(bytes); }
 void* operator new[](std::size_t bytes) { return hemilux::allocate(bytes); }
 void* operator new(std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept {

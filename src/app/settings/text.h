@@ -10,20 +10,20 @@ namespace hemilux {
 
 /// Formats like printf into a std::string.
 [[nodiscard, gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
-/// A count as 999, 12.3 k, 4.56 M or 7.89 G.
+/// Returns a count as 999, 12.3 k, 4.56 M or 7.89 G.
 [[nodiscard]] std::string short_count(double count);
-/// A whole number with its digits in groups of three, as 1 234 567.
+/// Returns a whole number with its digits in groups of three, as 1 234 567.
 [[nodiscard]] std::string grouped(std::uint64_t count);
-/// A duration as 1.2 ms, 0.42 s, 12.3 s, 3:05 or 1:02:03.
+/// Returns a duration as 1.2 ms, 0.42 s, 12.3 s, 3:05 or 1:02:03.
 [[nodiscard]] std::string duration(double seconds);
-/// An amount of memory as 800 bytes, 12.3 kB or 4.56 MB.
+/// Returns an amount of memory as 800 bytes, 12.3 kB or 4.56 MB.
 [[nodiscard]] std::string byte_size(std::uint64_t bytes);
-/// A ratio as 2.31 %, or "unknown" for NaN.
+/// Returns a ratio as 2.31 %, or "unknown" for NaN.
 [[nodiscard]] std::string percent(double share);
-/// A number with its noun: "1 patch", "2 patches".
+/// Returns a number with its noun: "1 patch", "2 patches".
 [[nodiscard]] std::string counted(std::uint64_t count, const std::string& one,
                                   const std::string& many);
-/// The same with the number as by short_count(): "1 ray", "12.3 k rays".
+/// Returns the same with the number as by short_count(): "1 ray", "12.3 k rays".
 [[nodiscard]] std::string short_counted(std::uint64_t count, const std::string& one,
                                         const std::string& many);
 

@@ -12,18 +12,18 @@
 
 namespace hemilux {
 
-/// Throws UsageError for a camera given whose eye and target are one point where the scene is.
+/// Throws UsageError for a camera given whose eye and target are one point at the scene's scale.
 void check_camera(const ViewSettings& view, const Mesh& mesh);
 
-/// The option that asks for this camera: "--camera 1,2,3,4,5,6,45".
+/// Returns the option that asks for this camera: "--camera 1,2,3,4,5,6,45".
 [[nodiscard]] std::string camera_text(const Camera& camera);
 
-/// The camera given, or one chosen for the scene.
+/// Returns the camera given, or one chosen for the scene.
 [[nodiscard]] Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                                std::span<const Vec3> radiosity, unsigned threads);
 
-/// How long pictures may still take once the user asked the program to end: until two seconds
-/// after this was made, so that small ones are there. Refers to the argument.
+/// The time that pictures may still take once the user has asked the program to end: until two
+/// seconds after this was made, so that small ones are written. It refers to the argument.
 class PictureTime {
   public:
     explicit PictureTime(const std::atomic<bool>& interrupted) : interrupted_(interrupted) {}
@@ -35,7 +35,7 @@ class PictureTime {
 };
 
 /// Renders linear radiosity in the size asked for: that of the patches, or gathered with `gather`
-/// rays at a point. `classes` are the mesh's classes of corners, where they are known; `slope` is
+/// rays at a point. `classes` are the mesh's classes of corners, where they are known. `slope` is
 /// as in smooth(). Throws Interrupted when the time is over.
 [[nodiscard]] Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
                                 std::span<const Vec3> radiosity, const Camera& camera,
@@ -43,17 +43,17 @@ class PictureTime {
                                 const CornerClasses* classes = nullptr, unsigned gather = 0,
                                 std::span<const Slope> slope = {});
 
-/// A .png file, by the exposure of the view, or the light alone in an .hdr or .exr file. Throws
-/// OutputError.
+/// Writes a .png file, by the exposure of the view, or the light alone in an .hdr or .exr file.
+/// Throws OutputError.
 void write_picture(const Output& output, const Image& image, const ViewSettings& view,
                    const Provenance& from);
 
 /// Chooses the exposure for what render_view() made, where none was given.
 void choose_exposure(ViewSettings& view, const Image& picture, const Mesh& mesh,
                      const Tracer& tracer, const Camera& camera, unsigned threads);
-/// How pictures are shown, once their exposure is known.
+/// Returns how pictures are shown, once their exposure is known.
 [[nodiscard]] Display display_of(const ViewSettings& view);
-/// The same of the light of a mesh's vertices, by class of corners.
+/// Returns the same for the light of a mesh's vertices, by class of corners.
 [[nodiscard]] Display display_of(const ViewSettings& view, const Mesh& mesh,
                                  const CornerClasses& classes, std::span<const Vec3> of_class);
 

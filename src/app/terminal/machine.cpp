@@ -10,7 +10,7 @@
 namespace hemilux {
 namespace {
 
-/// As Linux names it in /proc/cpuinfo; empty elsewhere.
+/// Returns the processor as Linux names it in /proc/cpuinfo; empty elsewhere.
 std::string processor() {
     std::ifstream file("/proc/cpuinfo");
     for (std::string line; std::getline(file, line);)

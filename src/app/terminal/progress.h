@@ -15,7 +15,7 @@
 
 namespace hemilux {
 
-/// What the bar shows.
+/// The state that the bar shows.
 struct ProgressState {
     const char* phase = "";
     std::string topic{};     ///< what it works on; may be empty
@@ -28,32 +28,34 @@ struct ProgressState {
     double estimated_error = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not known yet
 };
 
-/// How much of the run is done, 0 to 1, by the part of the stop rule that will be met first. The
-/// error is taken to fall as rays^-1/2, or as rays^-.7 where points are well distributed.
+/// Returns how much of the run is done, 0 to 1, by the part of the stop rule that will be met
+/// first. The error is taken to fall as rays^-1/2, or as rays^-.7 where points are well
+/// distributed.
 [[nodiscard]] double share_done(const StopRule& stop, bool well_distributed,
                                 const ProgressState& state);
 
-/// How much of the work is done, 0 to 1.
+/// This returns how much of the work is done, 0 to 1.
 using ShareDone = std::function<double(const ProgressState&)>;
-/// The share of one run that is done.
+/// Returns the share of one run that is done.
 [[nodiscard]] ShareDone share_of(const StopRule& stop, const Method& method);
 
-/// The bar as text of at most `width` columns.
+/// Returns the bar as text of at most `width` columns.
 [[nodiscard]] std::string progress_line(double share, const ProgressState& state,
                                         std::size_t width);
 
 class Progress {
   public:
-    /// Without a bar it only passes on what is logged. The monitor outlives this.
+    /// Begins the display. Without a bar it only passes on what is logged. The monitor outlives
+    /// this.
     Progress(const Monitor& monitor, ShareDone share, bool bar);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
     void step_done(const StepRecord& record);
-    /// What stands before the phase.
+    /// Sets what stands before the phase.
     void set_topic(const std::string& topic);
-    /// A line on stderr that stays, above the bar.
+    /// Writes a line on stderr that stays, above the bar.
     void log(const std::string& line);
     /// Takes the bar away for good.
     void close();
@@ -74,7 +76,7 @@ class Progress {
     std::thread thread_;
 };
 
-/// Whether stderr is a terminal that can redraw a line.
+/// Returns whether stderr is a terminal that can redraw a line.
 [[nodiscard]] bool stderr_is_terminal();
 
 } // namespace hemilux

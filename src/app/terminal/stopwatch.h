@@ -1,5 +1,5 @@
 #pragma once
-// Seconds since it was made.
+// A stopwatch that counts the seconds since it was made.
 
 #include <chrono>
 

@@ -25,14 +25,14 @@ std::string energy_text(const Statistics& s) {
            formatted("; balance closed to %.0e", energy.imbalance());
 }
 
-/// How well the estimated error is known.
+/// Returns how well the estimated error is known.
 std::string uncertainty_text(const Statistics& s) {
     return std::isfinite(s.estimated_error_uncertainty)
                ? ", give or take " + percent(s.estimated_error_uncertainty)
                : "";
 }
 
-/// The estimated error, of what, and what the other part of it is.
+/// Returns the estimated error, of what, and what the other part of it is.
 std::string errors_text(const Statistics& s) {
     if (!std::isfinite(s.estimated_error) && std::isfinite(s.error_sampling) &&
         s.error_sampling > 0) // else nothing is lit

@@ -1,5 +1,5 @@
 #pragma once
-// What is said on stderr about a run: lines of text made from its figures.
+// The messages on stderr about a run: lines of text made from its figures.
 
 #include "bvh/quality.h"
 #include "io/results/statistics.h"
@@ -11,17 +11,17 @@
 
 namespace hemilux {
 
-/// What was prepared before solving (-v).
+/// Return what was prepared before solving (-v).
 [[nodiscard]] std::string mesh_text(const Mesh& mesh);
 [[nodiscard]] std::string tracer_text(const std::optional<BvhQuality>& tree, double seconds);
-/// One step (-v).
+/// Returns the text of one step (-v).
 [[nodiscard]] std::string step_text(const StepRow& row);
 
-/// The end of a run: method, rays, time, error, energy.
+/// Returns the text of the end of a run: method, rays, time, error, energy.
 [[nodiscard]] std::string run_text(const Statistics& statistics);
-/// Bytes of the density store and of the process (-v).
+/// Returns the bytes of the density store and of the process (-v).
 [[nodiscard]] std::string memory_text(const Statistics& statistics);
-/// Against a reference.
+/// Return the errors against a reference.
 [[nodiscard]] std::string error_text(const RelativeError& error);
 [[nodiscard]] std::string z_scores_text(const ZScores& z);
 

@@ -12,7 +12,8 @@ namespace {
 
 bool keeps_hemispheres(const Method& method) { return &method == &method_of(Role::paper); }
 
-/// `layers`: there are pictures with a layer of densities.
+/// Returns the uses of the options of methods. `layers` says that there are pictures with a layer
+/// of densities.
 std::vector<OptionUse> uses_of_methods(std::span<const Method* const> chosen, bool layers) {
     const auto use = [&](std::string_view name, const std::function<bool(const Method&)>& takes,
                          bool other) {

@@ -15,7 +15,7 @@ struct OptionUse {
     std::string what; ///< it is for
 };
 
-/// A warning for each of these that is given and not used.
+/// Warns of each of these that is given and not used.
 void warn_of_unused(std::span<const GivenOption> given, std::span<const OptionUse> uses,
                     Verbosity verbosity);
 void warn_of_unused(const SolveSettings& settings);

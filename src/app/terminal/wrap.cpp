@@ -21,8 +21,8 @@ std::size_t columns(std::string_view text) {
 
 bool is_alphanumeric(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
-/// Where the place that a message begins with ends: "hemilux: PLACE: ...", where PLACE is a word or
-/// a path.
+/// Returns where the place that a message begins with ends: "hemilux: PLACE: ...", where PLACE is a
+/// word or a path.
 std::size_t end_of_place(std::string_view line) {
     std::size_t begin = 0;
     for (const std::string_view label : {"hemilux: ", "warning: ", "note: "})
@@ -35,7 +35,7 @@ std::size_t end_of_place(std::string_view line) {
     return begin > 0 && is_place ? begin + place.size() : 0;
 }
 
-/// Where the quotation ends that begins at `at`; `at` itself where none does.
+/// Returns where the quotation ends that begins at `at`; `at` itself where none does.
 std::size_t end_of_quotation(std::string_view line, std::size_t at) {
     const bool opens =
         (line[at] == '\'' || line[at] == '"') && (at == 0 || !is_alphanumeric(line[at - 1]));
@@ -43,7 +43,7 @@ std::size_t end_of_quotation(std::string_view line, std::size_t at) {
     return end == line.npos ? at : end;
 }
 
-/// Whether a line may be broken between what stands before a space and after it.
+/// Returns whether a line may be broken between what stands before a space and after it.
 bool parts(std::string_view before, std::string_view after) {
     if (before.empty() || before.back() == ' ' || after.empty() || after.front() == ' ')
         return false;
@@ -55,7 +55,7 @@ bool parts(std::string_view before, std::string_view after) {
     return !wants_value && !is_prefix && !is_number;
 }
 
-/// The spaces at which a line may be broken, in order.
+/// Returns the spaces at which a line may be broken, in order.
 std::vector<std::size_t> breaks_of(std::string_view line) {
     std::vector<std::size_t> breaks;
     for (std::size_t i = end_of_place(line); i < line.size(); ++i) {

@@ -6,8 +6,9 @@
 namespace hemilux::wide {
 namespace {
 
-/// Below it a direction's component is taken for this in the box tests: the ray then strays by far
-/// less than the boxes are widened by, and no slab's plane gives 0 times infinity.
+/// In the box tests, a component of a direction that is smaller than this is replaced by it. The
+/// ray then strays by far less than the boxes are widened by, and no slab's plane gives 0 times
+/// infinity.
 constexpr double least_slope = 1e-18;
 constexpr double too_far = 0x1p20; ///< in sizes of the scene
 
@@ -15,7 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double max_abs(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Where the ray enters the box; false when it does not.
+/// Finds where the ray enters the box; false when it does not.
 bool enter_box(const Ray& ray, const Space& space, double& enter) {
     const double widen = space.size * 0x1p-20;
     double leave = infinity;
@@ -31,7 +32,8 @@ bool enter_box(const Ray& ray, const Space& space, double& enter) {
     return enter <= leave;
 }
 
-/// What nearly all rays are: of unit length, from within the scene; nothing infinite, no NaN.
+/// Returns whether the ray is as nearly all rays are: of unit length, from within the scene, with
+/// nothing infinite and no NaN.
 bool is_unit_and_near(const Ray& ray, const Space& space) {
     const Vec3 &o = ray.origin, &d = ray.direction;
     const double square = glm::dot(d, d) + 0 * (o.x + o.y + o.z);
@@ -67,7 +69,8 @@ Fit scale_ray(const Ray& given, const Space& space, FloatRay& ray) {
         return Fit::misses;
     if (distance > too_far)
         return Fit::too_far;
-    // A power of two, so that scaling rounds nothing; most directions are of unit length already.
+    // A power of two is chosen, so that scaling rounds nothing; most directions are of unit length
+    // already.
     double shorten = 1;
     if (!(longest >= 0.5 && longest <= 1)) {
         int exponent = 0;

@@ -10,14 +10,14 @@
 
 namespace hemilux::wide {
 
-/// The box of the scene and the number its coordinates are divided by.
+/// The box of the scene, in the soup's units, and the number by which its coordinates are divided.
 struct Space {
     Box bounds;
     double size = 1;
     double shrink = 1; ///< 1 / size, which is exact
 };
 
-/// Whether the kernels can trace the ray.
+/// This says whether the kernels can trace the ray.
 enum class Fit {
     good,
     misses, ///< certainly, or it is no ray at all
@@ -29,7 +29,7 @@ enum class Fit {
 /// This bounds the error of a scaled distance, apart from the distance's own rounding.
 inline constexpr double distance_slack = 0x1p-30;
 
-/// Certain lower and upper bounds of a distance in scaled units, which may be infinite.
+/// Return certain lower and upper bounds of a distance in scaled units, which may be infinite.
 [[nodiscard]] inline float below(const FloatRay& scaled, double t) {
     const double at = (t - scaled.skipped) * scaled.per_unit;
     return static_cast<float>(std::isinf(at) ? at : at - std::abs(at) * 0x1p-22 - distance_slack);
@@ -39,7 +39,7 @@ inline constexpr double distance_slack = 0x1p-30;
     return static_cast<float>(at + std::abs(at) * 0x1p-22 + distance_slack);
 }
 
-/// The nearest hit of a ray that has met nothing yet.
+/// Returns the nearest hit of a ray that has met nothing yet.
 [[nodiscard]] inline Nearest nothing_before(const FloatRay& scaled, double t_max) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     if (t_max == infinity) // so are its bounds, which take longer to find

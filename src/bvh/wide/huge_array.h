@@ -19,7 +19,7 @@ class HugeArray {
 
   public:
     HugeArray() = default;
-    /// The values are not initialised.
+    /// Allocates the array; the values are not initialised.
     explicit HugeArray(std::size_t size) : size_(size) {
         if (size == 0)
             return;

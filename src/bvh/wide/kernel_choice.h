@@ -6,7 +6,7 @@
 
 namespace hemilux::wide {
 
-/// The kernels of an instruction set, which must be available.
+/// Returns the kernels of an instruction set, which must be available.
 [[nodiscard]] const Kernels& kernels_of(InstructionSet set);
 
 } // namespace hemilux::wide

@@ -17,7 +17,7 @@ bool is_finite(const Vec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// Nodes and leaves made by one thread; child indices count within it.
+/// The nodes and leaves made by one thread; child indices count within it.
 struct Part {
     std::vector<Node> nodes;
     std::vector<Leaf> leaves;
@@ -119,7 +119,8 @@ class Builder {
             children[widest] = halves[0];
             children[count] = halves[1];
         }
-        // In the order of the items: neighbours in space lie together in memory.
+        // The children are in the order of the items, so that neighbours in space lie together in
+        // memory.
         std::sort(children.begin(), children.begin() + count,
                   [](const Range& a, const Range& b) { return a.begin < b.begin; });
         for (unsigned c = 0; c < width; ++c)
@@ -127,7 +128,7 @@ class Builder {
         set_order(part.nodes[node], children);
     }
 
-    /// Along the diagonal of each octant, the farthest first.
+    /// Sets the order of the children along the diagonal of each octant, the farthest first.
     static void set_order(Node& node, const std::array<Range, width>& children) {
         for (unsigned octant = 0; octant < width; ++octant) {
             std::array<float, width> along;
@@ -147,8 +148,8 @@ class Builder {
         }
     }
 
-    /// The part with the largest surface, or with the most triangles, of those that are too many
-    /// for a leaf; width: none.
+    /// Returns the part with the largest surface, or with the most triangles, of those that are too
+    /// many for a leaf; width: none.
     [[nodiscard]] static unsigned choose(const std::array<Range, width>& children, unsigned count,
                                          bool balanced) {
         unsigned best = width;
@@ -179,7 +180,8 @@ class Builder {
         }
     }
 
-    /// Wider than the triangles by what rounding can do to box, origin and direction.
+    /// Writes a box that is wider than the triangles by what rounding can do to box, origin and
+    /// direction.
     static void write_box(Node& node, unsigned c, const FloatBox& box) {
         constexpr float widen = 0x1p-22f;
         for (unsigned axis = 0; axis < 3; ++axis) {
@@ -191,7 +193,7 @@ class Builder {
     std::uint32_t make_leaf(Part& part, const Range& range) const {
         Leaf leaf{};
         std::fill(std::begin(leaf.slot), std::end(leaf.slot), no_facet);
-        // By slot: the same leaf whatever the order of the items.
+        // The slots are sorted, so that the leaf is the same whatever the order of the items.
         std::array<std::uint32_t, width> slots;
         const std::uint32_t size = std::min(range.size(), width);
         for (std::uint32_t i = 0; i < size; ++i)
@@ -210,7 +212,7 @@ class Builder {
         const Vec3 a = shrink_ * soup_.vertices[c[0]];
         Vec3 e1 = shrink_ * soup_.vertices[c[second ? 2 : 1]] - a;
         Vec3 e2 = shrink_ * soup_.vertices[c[second ? 3 : 2]] - a;
-        // Products of edges still smaller would vanish in floats.
+        // The products of edges shorter than this would vanish in floats.
         constexpr double tiny = 1e-12;
         if (is_doubtful(c) || !(std::max(glm::length(e1), glm::length(e2)) > tiny))
             e1 = e2 = Vec3(std::numeric_limits<double>::quiet_NaN());
@@ -223,8 +225,9 @@ class Builder {
         leaf.slot[k] = slot;
     }
 
-    /// A quad whose halves a ray might both hit: where it is not planar and convex, and the
-    /// filter would not be uncertain of such rays anyway. Its hits are always decided in doubles.
+    /// Returns whether a quad has halves that a ray might both hit. It does where it is not planar
+    /// and convex, and the filter would not be uncertain of such rays anyway. Its hits are always
+    /// decided in doubles.
     ///
     /// A ray that strikes both halves meets one from the front and one from behind, so its sine to
     /// either plane is at most the angle between the normals. The filter is certain only where that

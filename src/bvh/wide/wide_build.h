@@ -1,7 +1,7 @@
 #pragma once
 // Builds the wide tree: top-down, eight children at a time, by the surface area heuristic over bins
-// (Wald 2007). A node's range of triangles is divided in two again and again, always the part with
-// the largest surface, until there are eight parts.
+// (Wald 2007). A node's range of triangles is divided in two again and again until there are eight
+// parts. Each time the part with the largest surface is divided.
 //
 // The upper tree is built by one thread; the subtrees below it are jobs for all threads, cut by
 // size alone, so that the tree does not depend on the number of threads.
@@ -21,12 +21,12 @@ struct Built {
     BvhQuality quality;
 };
 
-/// The power of two by which the soup's coordinates are divided; no coordinate is larger.
+/// Returns the power of two by which the soup's coordinates are divided; no coordinate is larger.
 [[nodiscard]] double size_of(const Box& bounds);
 
 /// Builds the tree with so many `threads`, 0 being one per core. Facets with coordinates that are
-/// not finite are left out. Nothing is one leaf with no node above it, and so are up to eight
-/// triangles without `hierarchy`.
+/// not finite are left out. An empty soup becomes one leaf with no node above it, and so do up to
+/// eight triangles without `hierarchy`.
 [[nodiscard]] Built build(const FacetSoup& soup, unsigned threads, bool hierarchy = true);
 
 } // namespace hemilux::wide

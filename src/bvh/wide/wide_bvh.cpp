@@ -16,7 +16,7 @@ using wide::flag;
 using wide::FloatRay;
 using wide::Nearest;
 
-/// What the exact test needs to decide in doubles.
+/// The data that the exact test needs to decide in doubles.
 struct Query {
     const FacetSoup& soup;
     std::span<const Ray> rays;
@@ -31,7 +31,8 @@ struct Query {
     }
 };
 
-/// The nearest so far is worked out again too: this happens so seldom that keeping it costs more.
+/// Decides which hit is closer. The nearest so far is computed again too: this happens so seldom
+/// that keeping it costs more.
 void closer(void* context, unsigned k, std::uint32_t slot, Nearest& nearest) {
     const Query& query = *static_cast<const Query*>(context);
     Hit best{none, query.rays[k].t_max, 0, 0, false, false}, hit{};
@@ -52,7 +53,8 @@ bool hits(void* context, unsigned k, std::uint32_t slot) {
     return query.hit<EdgeRule::inclusive>(k, slot & ~flag, query.rays[k].t_max, hit);
 }
 
-/// The second half of a quad counts only where the first does not: then the quad counts once.
+/// Counts the second half of a quad only where the first does not count, so that the quad counts
+/// once.
 bool counts(void* context, unsigned k, std::uint32_t slot) {
     const Query& query = *static_cast<const Query*>(context);
     Hit hit{};
@@ -159,7 +161,8 @@ wide::Tree WideBvh::tree() const {
             built_.quality.bytes > cache};
 }
 
-/// Some rays of a stream, ready for the kernels. Those that they cannot take end before they begin.
+/// Some rays of a stream, ready for the kernels. Those that the kernels cannot trace end before
+/// they begin.
 struct WideBvh::Block {
     static constexpr std::size_t size = 256;
 

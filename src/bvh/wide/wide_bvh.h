@@ -29,8 +29,8 @@ class WideBvh final : public Tracer {
                          std::span<std::uint8_t> out) const override;
     [[nodiscard]] Hit locate(const Ray& ray, std::uint32_t facet) const override;
 
-    /// How many triangles a ray that begins or passes there has to be tested against at least:
-    /// those of the leaves whose boxes hold the point.
+    /// Returns how many triangles a ray that begins or passes there has to be tested against at
+    /// least: those of the leaves whose boxes hold the point.
     [[nodiscard]] std::size_t triangles_around(const Vec3& point) const;
 
     [[nodiscard]] const BvhQuality& quality() const { return built_.quality; }

@@ -13,20 +13,20 @@
 namespace hemilux::wide {
 
 /// The kernels' error bound (kernels/conservative_test.h) is the first times E (|A| + E + the
-/// second), with E the largest component of a triangle's edges and A where the ray's origin sees
-/// its corner.
+/// second). E is the largest component of a triangle's edges, and A is its corner as seen from the
+/// ray's origin.
 inline constexpr float error_share = 80 * 0x1p-24f, error_offset = 0.15f;
 
 inline constexpr unsigned width = 8;
 inline constexpr std::uint32_t no_facet = 0xffffffffu;
 inline constexpr std::uint32_t flag = 0x80000000u; ///< child: a leaf; slot: second half of a quad
 
-/// Planes are ordered low x, high x, low y, high y, low z, high z. An absent child's box is
-/// inverted, so that nothing meets it.
+/// An inner node. Planes are ordered low x, high x, low y, high y, low z, high z. An absent child's
+/// box is inverted, so that nothing meets it.
 struct alignas(64) Node {
     float plane[6][width];
     std::uint32_t child[width]; ///< index of a node, or of a leaf with `flag`
-    /// For each octant of directions (bit i: component i is negative) the children, four bits each,
+    /// The children for each octant of directions (bit i: component i is negative), four bits each,
     /// the one to be visited last in the lowest.
     std::uint32_t order[width];
 };
@@ -60,7 +60,7 @@ struct alignas(64) FloatRay {
     double skipped, per_unit; ///< the kernels' t is (t - skipped) * per_unit
 };
 
-/// Certain bounds of the nearest distance so far, and the slot that it belongs to.
+/// Certain bounds of the nearest distance so far, in scaled units, and the slot that it belongs to.
 struct Nearest {
     float low, high;
     std::uint32_t slot;
@@ -70,9 +70,9 @@ struct Nearest {
 /// Decides in doubles what the kernels are uncertain of. `ray` counts within the query.
 struct ExactTest {
     void* query;
-    /// A slot that may be hit: updates `nearest`.
+    /// Updates `nearest` with a slot that may be hit.
     void (*closer)(void* query, unsigned ray, std::uint32_t slot, Nearest& nearest);
-    /// Whether a slot is hit (inclusive edges), and counts (half-open edges).
+    /// Return whether a slot is hit (inclusive edges), and whether it counts (half-open edges).
     bool (*hits)(void* query, unsigned ray, std::uint32_t slot);
     bool (*counts)(void* query, unsigned ray, std::uint32_t slot);
 };

@@ -23,7 +23,7 @@ struct Bins {
     }
 };
 
-/// Maps centres to bins. An axis along which they do not differ has scale 0.
+/// A map from centres to bins. An axis along which they do not differ has scale 0.
 struct Binning {
     F4 low, scale;
 
@@ -125,7 +125,7 @@ std::array<Range, 2> divide(std::span<Item> items, const Range& range, bool bala
     if (split.axis == 3)
         return halve(items, range);
 
-    // From both ends towards the middle, collecting the boxes of both parts.
+    // The loop runs from both ends towards the middle and collects the boxes of both parts.
     Range left{range.begin, range.begin, {}, {}}, right{range.end, range.end, {}, {}};
     while (left.end < right.begin) {
         const Item item = items[left.end];

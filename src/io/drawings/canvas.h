@@ -1,6 +1,5 @@
 #pragma once
-// What drawings are made of: filled polygons, lines and text. Coordinates are pixels from the top
-// left.
+// Drawings are made of filled polygons, lines and text. Coordinates are pixels from the top left.
 
 #include "geometry/vector.h"
 
@@ -17,16 +16,16 @@ struct Colour {
     std::uint8_t r = 0, g = 0, b = 0;
 };
 
-/// What all drawings are written with, and the rays in them.
+/// The colours of the writing in all drawings, and of the rays in them.
 inline constexpr Colour ink{40, 40, 40}, ray_blue{0, 90, 200};
 
 struct Stroke {
     Colour colour{};
-    double width = 1;
-    double dash = 0; ///< length of dashes and of the gaps between them; 0: drawn through
+    double width = 1; ///< [pixels]
+    double dash = 0;  ///< length of dashes and of gaps between them [pixels]; 0: drawn through
 };
 
-/// Which part of a text stands at its place.
+/// The part of a text that stands at its place.
 enum class Anchor { start, middle, end };
 
 struct TextStyle {
@@ -51,14 +50,14 @@ class SvgCanvas final : public Canvas {
     void polygon(std::span<const Vec2> corners, Colour fill, double opacity) override;
     void line(std::span<const Vec2> points, const Stroke& stroke) override;
     void text(const Vec2& at, std::string_view text, const TextStyle& style) override;
-    /// The text of the whole file.
+    /// Returns the text of the whole file.
     [[nodiscard]] std::string document() const { return body_ + "</svg>\n"; }
 
   private:
     std::string body_;
 };
 
-/// A rectangle with the sides of the axes.
+/// Fills a rectangle whose sides lie along the axes.
 void fill_box(Canvas& canvas, const Vec2& low, const Vec2& high, Colour fill, double opacity = 1);
 
 } // namespace hemilux

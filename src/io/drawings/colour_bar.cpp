@@ -43,7 +43,7 @@ void draw_colour_bar(const Vec2& low, const Vec2& high, double most, const std::
     const double width = high.x - low.x;
     constexpr int cells = 128;
     for (int i = 0; i < cells; ++i) {
-        // Each reaches to the end, under those that follow: so no seams are seen.
+        // Each cell reaches to the end, under those that follow, so that no seams are seen.
         fill_box(canvas, {low.x + width * i / cells, low.y}, high, heat_colour((i + 0.5) / cells));
     }
     for (const BarMark& mark : round_marks(most)) {

@@ -10,7 +10,7 @@ Image density_picture(const Mesh& mesh, const Tracer& tracer, std::span<const do
                       const std::string& caption, const Camera& camera,
                       const RenderOptions& options) {
     const double most = numbers.empty() ? 0 : std::ranges::max(numbers);
-    // Two pictures in one: the number, and how much of the pixel is covered at all.
+    // This renders two pictures in one: the number, and how much of the pixel is covered at all.
     std::vector<Vec3> channels;
     for (const double number : numbers)
         channels.emplace_back(most > 0 ? number / most : 0.0, 1, 0);

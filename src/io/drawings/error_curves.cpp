@@ -10,7 +10,7 @@ namespace {
 
 bool has_logarithm(double x) { return x > 0 && std::isfinite(x); }
 
-/// On the straight line through two points of log-log paper: y at x.
+/// Returns y at x on the straight line through two points of log-log paper.
 double interpolate(double x0, double y0, double x1, double y1, double x) {
     const double share = std::log(x / x0) / std::log(x1 / x0);
     return y0 * std::pow(y1 / y0, share);
@@ -20,7 +20,7 @@ double least_error(const ErrorCurve& curve) {
     return std::ranges::min_element(curve, {}, &CurvePoint::error)->error;
 }
 
-/// All runs but run i; all of them where there is no such run.
+/// Returns all runs but run i; all of them where there is no such run.
 std::vector<ErrorCurve> without(std::span<const ErrorCurve> runs, std::size_t i) {
     std::vector<ErrorCurve> others(runs.begin(), runs.end());
     if (i < others.size())
@@ -28,7 +28,7 @@ std::vector<ErrorCurve> without(std::span<const ErrorCurve> runs, std::size_t i)
     return others;
 }
 
-/// `count` numbers from low to high in equal ratios; one where these are the same.
+/// Returns `count` numbers from low to high in equal ratios; one where these are the same.
 std::vector<double> geometric_series(double low, double high, std::size_t count) {
     std::vector<double> series{low};
     if (!(high > low))

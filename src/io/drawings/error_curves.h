@@ -1,5 +1,5 @@
 #pragma once
-// Error against what it cost, seconds or rays: curves that are near to straight lines when both
+// Error against what it cost, seconds or rays. These curves are nearly straight lines when both
 // axes are logarithmic, so everything here is done with logarithms.
 
 #include <cstddef>
@@ -25,31 +25,33 @@ struct MeanCurve {
     std::vector<double> x, mean, low, high;
 };
 
-/// The error at x, interpolated; empty where the curve does not reach.
+/// Returns the error at x, interpolated; empty where the curve does not reach.
 [[nodiscard]] std::optional<double> error_at(const ErrorCurve& curve, double x);
 
-/// The mean of the runs over the x that all have, at up to `count` places evenly spaced in log x;
-/// empty where they have none in common. Runs without a point do not count.
+/// Returns the mean of the runs over the x that all have, at up to `count` places evenly spaced in
+/// log x. It is empty where they have none in common. Runs without a point do not count.
 [[nodiscard]] MeanCurve mean_curve(std::span<const ErrorCurve> runs, std::size_t count = 100);
 
-/// The first x at which the error has come down to the given one; empty where it never does, or
-/// where the curve begins below it.
+/// Returns the first x at which the error has come down to the given one. The result is empty where
+/// it never does, or where the curve begins below it.
 [[nodiscard]] std::optional<double> x_of_error(const ErrorCurve& curve, double error);
 
-/// How many times less runs cost than those of the base at the same error: the smallest that both
-/// reach. Least errors and costs are averaged as logarithms. A run that begins below the error
-/// counts with its first point, so that the result may be too small. Empty where the two have no
-/// error in common.
+/// Returns how many times less the runs cost than those of the base at the same error: the smallest
+/// that both reach. Least errors and costs are averaged as logarithms. A run that begins below the
+/// error counts with its first point, so that the result may be too small. The result is empty
+/// where the two have no error in common.
 [[nodiscard]] std::optional<double> speed_up(std::span<const ErrorCurve> runs,
                                              std::span<const ErrorCurve> base_runs);
 
-/// The standard error of the gain of several runs, from their spread: jackknife of its logarithm.
-/// Run i of both is left out at once, as what disturbs the machine disturbs both. Rough where the
-/// runs are few; empty where there are not two of both, or the gain is not known without one.
+/// Returns the standard error of the gain of several runs from their spread, by a jackknife of its
+/// logarithm. Run i of both is left out at once, as what disturbs the machine disturbs both. The
+/// result is rough where the runs are few. It is empty where there are not two of both, or the gain
+/// is not known without one.
 [[nodiscard]] std::optional<double> speed_up_error(std::span<const ErrorCurve> runs,
                                                    std::span<const ErrorCurve> base_runs);
 
-/// The geometric mean. Numbers that are not positive and finite do not count; NaN if none counts.
+/// Returns the geometric mean. Numbers that are not positive and finite do not count; NaN if none
+/// counts.
 [[nodiscard]] double geometric_mean(std::span<const double> numbers);
 
 } // namespace hemilux

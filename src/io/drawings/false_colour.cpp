@@ -27,7 +27,7 @@ glm::vec3 along(const Stops& stops, double t) {
     return glm::mix(stops[first], stops[first + 1], static_cast<float>(place - double(first)));
 }
 
-/// Almost all of what differs is within it.
+/// Returns a scale that almost all of what differs is within.
 double scale_of(const std::vector<float>& difference) {
     std::vector<float> sizes;
     for (const float d : difference)
@@ -40,7 +40,8 @@ double scale_of(const std::vector<float>& difference) {
     return std::max(least_scale, double(sizes[static_cast<std::size_t>(rank)]));
 }
 
-/// Positive differences to mark on the bar: both ends of the logarithmic part and its middle.
+/// Returns positive differences to mark on the bar: both ends of the logarithmic part and its
+/// middle.
 std::vector<double> marks(const DifferenceScale& scale) {
     if (scale.most < 4 * scale.typical)
         return {scale.most / 2, scale.most};

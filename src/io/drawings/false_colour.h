@@ -10,22 +10,22 @@
 
 namespace hemilux {
 
-/// The colour of a number from -1 (dark blue) over 0 (white) to 1 (dark red). Numbers beyond take
-/// the colours of the ends, NaN is grey. Lightness falls evenly to both sides.
+/// Returns the colour of a number from -1 (dark blue) over 0 (white) to 1 (dark red). Numbers
+/// beyond take the colours of the ends, NaN is grey. Lightness falls evenly to both sides.
 [[nodiscard]] Colour diverging_colour(double t);
 
-/// The luminance of a picture minus that of the reference, in units of the exposure's white. Throws
-/// std::invalid_argument unless both have one size.
+/// Returns the luminance of a picture minus that of the reference, in units of the exposure's
+/// white. Throws std::invalid_argument unless both have one size.
 [[nodiscard]] std::vector<float> luminance_difference(const Image& picture, const Image& reference,
                                                       double exposure);
 
-/// One scale for all pictures that are compared: even about 0, where pictures that are nearly right
-/// differ, and logarithmic beyond, for those that are far off.
+/// One scale for all pictures that are compared. It is even about 0, where pictures that are nearly
+/// right differ, and logarithmic beyond, for those that are far off.
 struct DifferenceScale {
     double typical = 1; ///< up to about here even
     double most = 1;    ///< the darkest colours; at least `typical`
 
-    /// The place of a difference on the scale, from -1 to 1.
+    /// Returns the place of a difference on the scale, from -1 to 1.
     [[nodiscard]] double place(double difference) const;
 };
 

@@ -42,7 +42,7 @@ DomeView from_side() {
     return {centre_side, right, glm::cross(toward, right), toward};
 }
 
-/// Points of the great-circle arc from a on, without b.
+/// Appends points of the great-circle arc from a on, without b.
 void append_arc(const Vec3& a, const Vec3& b, int steps, std::vector<Vec3>& points) {
     for (int i = 0; i < steps; ++i)
         points.push_back(glm::normalize(glm::mix(a, b, double(i) / steps)));
@@ -60,7 +60,8 @@ std::vector<Vec3> outline_of(const SphericalTriangle& triangle) {
     return outline;
 }
 
-/// The part of a triangle's outline that is turned to the viewer, closed along the silhouette.
+/// Returns the part of a triangle's outline that is turned to the viewer, closed along the
+/// silhouette.
 std::vector<Vec3> seen_part(const std::vector<Vec3>& outline, const DomeView& view) {
     std::vector<Vec3> part;
     std::size_t exit = outline.size(); // the point of `part` where the outline turns away
@@ -115,8 +116,8 @@ void draw_triangles(std::span<const DrawnTriangle> triangles, const DomeView& vi
         canvas.line(edge, {.colour = edge_ink, .width = 0.8});
 }
 
-/// The patch as large as a dome, and on each part of it a dome that leaves some of the part free;
-/// the nearest are drawn last.
+/// Draws the patch as large as a dome, and on each part of it a dome that leaves some of the part
+/// free. The nearest are drawn last.
 void draw_parts(std::span<const HemisphereDrawing::Part> parts, const DomeView& view, double most,
                 Canvas& canvas) {
     Vec3 centre(0.0);

@@ -1,8 +1,8 @@
 #pragma once
-// The divided hemisphere of a patch, as the paper draws it (figures 2 and 4 to 7): its spherical
-// triangles in parallel projection, from above and from the side, coloured by density. Where a
-// patch has several hemispheres (figure 3), one of them is shown from above and all of them, each
-// over its part of the patch, from the side.
+// The divided hemisphere of a patch, as the paper draws it (figures 2 and 4 to 7). Its spherical
+// triangles are drawn in parallel projection, from above and from the side, coloured by density.
+// Where a patch has several hemispheres (figure 3), the view from above shows one of them. The view
+// from the side shows all, each over its part of the patch.
 
 #include "geometry/polygon.h"
 #include "geometry/spherical_triangle.h"
@@ -36,16 +36,16 @@ struct HemisphereDrawing {
     std::string unit = "surfaces per ray"; ///< of densities
 };
 
-/// Where the two views are [pixels]; seen from above the dome fills its circle.
+/// The places of the two views [pixels]; seen from above the dome fills its circle.
 inline constexpr int dome_width = 1280, dome_height = 790;
 inline constexpr double dome_radius = 285;
 inline constexpr Vec2 centre_above{330, 390}, centre_side{950, 450};
 
-/// Both views, a colour bar, and a number at each dot of the view from above unless there are too
-/// many. What the side view cannot see is left out.
+/// Draws both views, a colour bar, and a number at each dot of the view from above unless there are
+/// too many. What the side view cannot see is left out.
 void draw(const HemisphereDrawing& drawing, Canvas& canvas);
 
-/// The same as the text of an .svg file.
+/// Returns the same as the text of an .svg file.
 [[nodiscard]] std::string hemisphere_svg(const HemisphereDrawing& drawing);
 
 } // namespace hemilux

@@ -12,14 +12,14 @@ namespace {
 constexpr int strip = 56, bar_top = 6, bar_bottom = 18, tick_bottom = 22, mark_top = 26,
               caption_top = 41;
 
-/// What lies outside of the picture is left out.
+/// Fills a rectangle. What lies outside of the picture is left out.
 void fill(Image& image, int left, int top, int right, int bottom, Colour colour) {
     for (int y = std::max(top, 0); y < std::min(bottom, image.height); ++y)
         for (int x = std::max(left, 0); x < std::min(right, image.width); ++x)
             image.at(x, y) = linear(colour);
 }
 
-/// Black letters, in ASCII, the middle of the line at x.
+/// Writes black letters, in ASCII, with the middle of the line at x.
 void write(Image& image, int x, int top, std::string text) {
     struct Corner { // as the font gives it
         float x, y, z;

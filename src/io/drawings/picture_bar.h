@@ -10,10 +10,11 @@
 
 namespace hemilux {
 
-/// Linear light, so that write_png with exposure 1 gives the colour.
+/// Returns the colour as linear light, so that write_png with exposure 1 shows that colour.
 [[nodiscard]] glm::vec3 linear(Colour colour);
 
-/// The picture with a white strip below it: the colours of the places from 0 to 1, marks, caption.
+/// Returns the picture with a white strip below it: the colours of the places from 0 to 1, the
+/// marks and the caption.
 [[nodiscard]] Image with_bar(const Image& picture, const std::function<Colour(double)>& colour,
                              std::span<const BarMark> marks, std::string caption);
 

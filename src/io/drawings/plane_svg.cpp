@@ -15,12 +15,12 @@ namespace {
 constexpr Colour faint{150, 150, 150}, red{190, 30, 30};
 constexpr int width = 1280, height = 790;
 constexpr Vec2 ground{640, 700};
-/// Of the scene about the patch [pixels], and of the half circle.
+/// The room for the scene about the patch, and the radius of the half circle [pixels].
 constexpr Vec2 space{590, 620};
 constexpr double circle = 220;
 
-/// The part of a polygon's outline between which the plane y = 0 lies, its corners being in the
-/// frame of the hemisphere.
+/// Returns the segment in which the plane y = 0 cuts a polygon, whose corners are in the frame of
+/// the hemisphere.
 std::optional<PlaneSection> cut(const std::vector<Vec3>& corner) {
     std::vector<Vec2> ends;
     for (std::size_t k = 0; k < corner.size(); ++k) {
@@ -35,7 +35,7 @@ std::optional<PlaneSection> cut(const std::vector<Vec3>& corner) {
     return PlaneSection{{ends[0], ends[1]}, false};
 }
 
-/// What of it lies at z >= 0.
+/// Returns the part of a section that lies at z >= 0.
 std::optional<PlaneSection> above(PlaneSection section) {
     constexpr double rounding = 1e-9;
     auto& [a, b] = section.end;

@@ -1,7 +1,7 @@
 #pragma once
-// The subdivision in a plane, as the paper's figure 1 draws it: a patch in cross-section, the half
-// circle over it with rays at the directions of the subdivision, and what of the scene the plane
-// cuts.
+// The subdivision in a plane, as the paper's figure 1 draws it. It shows a patch in cross-section
+// and the half circle over it, with rays at the directions of the subdivision. It also shows what
+// the plane cuts of the scene.
 
 #include "radiosity/hemisphere/edge_division.h"
 
@@ -13,13 +13,14 @@ namespace hemilux {
 
 class Mesh;
 
-/// In the frame of a hemisphere: x in the plane, z along the patch's normal, in local units.
+/// A section of a patch in the frame of a hemisphere: x in the plane, z along the patch's normal,
+/// in local units.
 struct PlaneSection {
     std::array<Vec2, 2> end; ///< x and z of a patch that the plane y = 0 cuts, at z >= 0
     bool own;                ///< of the patch under the hemisphere
 };
 
-/// What the plane y = 0 of a patch's hemisphere over `centre` cuts.
+/// Returns what the plane y = 0 of a patch's hemisphere over `centre` cuts.
 [[nodiscard]] std::vector<PlaneSection> cut_by_plane(const Mesh& mesh, std::uint32_t patch,
                                                      const Vec3& centre);
 
@@ -29,7 +30,7 @@ struct PlaneDrawing {
     std::vector<PlaneSection> sections;
 };
 
-/// The text of an .svg file: rays through the half circle, each with the surfaces along it.
+/// Returns the text of an .svg file: rays through the half circle, each with the surfaces along it.
 [[nodiscard]] std::string plane_svg(const PlaneDrawing& drawing);
 
 } // namespace hemilux

@@ -17,13 +17,14 @@ constexpr double small_text = 14, title_text = 17;
 constexpr Colour grid{222, 222, 222}, faint_grid{240, 240, 240}, grey{130, 130, 130};
 constexpr double band_opacity = 0.18;
 
-/// Of a dashed line below the curves of each panel.
+/// The slope and the name of a dashed line below the curves of each panel.
 constexpr double guide_slope = -0.5;
 constexpr const char* guide_name = "slope -1/2";
 
-/// By its place among the names.
+/// Returns the colour of a curve by its place among the names.
 Colour curve_colour(std::size_t index) {
-    // Distinguished with every kind of colour vision (Okabe and Ito 2008), without their yellow.
+    // These are distinguished with every kind of colour vision (Okabe and Ito 2008), without their
+    // yellow.
     static constexpr std::array<Colour, 8> colours{{{0, 114, 178},
                                                     {213, 94, 0},
                                                     {0, 158, 115},
@@ -35,7 +36,7 @@ Colour curve_colour(std::size_t index) {
     return colours[index % colours.size()];
 }
 
-/// Where numbers are on one panel.
+/// The places of numbers on one panel.
 struct Frame2 {
     LogAxis x, y;
     Vec2 low, high; ///< corners of the panel: top left, bottom right
@@ -46,8 +47,8 @@ struct Frame2 {
     }
 };
 
-/// The least error that a straight line of the guide's slope through any point has at x = 1, for
-/// all points; infinity where there is none.
+/// Returns the error at x = 1 of a straight line that has the guide's slope and lies a little below
+/// all points. It is infinity where there is no point.
 double guide_height(const Panel& panel) {
     double height = std::numeric_limits<double>::infinity();
     for (const MeanCurve& curve : panel.curves)
@@ -64,7 +65,7 @@ LogAxis x_axis(const Panel& panel) {
     return LogAxis(numbers);
 }
 
-/// The same for all panels, so that they can be read across.
+/// Returns the axis of errors, the same for all panels, so that they can be read across.
 LogAxis y_axis(const Chart& chart) {
     std::vector<double> numbers;
     for (const Panel& panel : chart.panels)
@@ -96,7 +97,7 @@ void draw_grid(const Frame2& frame, Canvas& canvas) {
     }
 }
 
-/// The part within the panel of the line error = height x^slope.
+/// Draws the part within the panel of the line error = height x^slope.
 void draw_guide(const Panel& panel, const Frame2& frame, Canvas& canvas) {
     const double height = guide_height(panel);
     if (!std::isfinite(height))

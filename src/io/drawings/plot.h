@@ -21,8 +21,8 @@ struct Chart {
     std::vector<Panel> panels;
 };
 
-/// The text of an .svg file: curves with the range of their runs as a light band, ticks, labels,
-/// legend, and below the curves a dashed line of the slope -1/2.
+/// Returns the text of an .svg file: curves with the range of their runs as a light band, ticks,
+/// labels and a legend. Below the curves is a dashed line of the slope -1/2.
 [[nodiscard]] std::string chart_svg(const Chart& chart);
 
 } // namespace hemilux

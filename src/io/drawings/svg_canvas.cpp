@@ -12,7 +12,7 @@ namespace hemilux {
 
 namespace {
 
-/// Hundredths of a pixel; no exponent, no locale.
+/// Returns a number rounded to hundredths of a pixel; no exponent, no locale.
 std::string number(double x) {
     if (!std::isfinite(x))
         return "0";

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t buffer_size = 1 << 16;
 
-/// Once for each folder.
+/// Removes stale temporary files, once for each folder.
 void clean(const fs::path& folder) {
     static std::mutex mutex;
     static std::set<fs::path> cleaned;
@@ -38,8 +38,8 @@ bool is_pipe(const std::string& path) {
     return ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
 }
 
-/// Opened once more under its name, a socket is refused and a file is written from its beginning,
-/// whatever the shell has appended to.
+/// Returns whether the descriptor itself must be used. Opened once more under its name, a socket is
+/// refused and a file is written from its beginning, even where the shell appends to it.
 bool is_written_as_it_is_open(int descriptor) {
     struct stat status {};
     return ::fstat(descriptor, &status) == 0 &&
@@ -49,13 +49,13 @@ bool is_written_as_it_is_open(int descriptor) {
 std::atomic<const std::atomic<bool>*> ends_waits{nullptr};
 std::atomic<bool> no_files{false};
 
-/// A wait for another process, in short pauses: a signal may reach any thread at any moment, so
+/// A wait for another process, in short pauses. A signal may reach any thread at any moment, so
 /// only looking again and again never misses it.
 class Wait {
   public:
     static constexpr int milliseconds = 20; ///< of a pause
 
-    /// Before each pause.
+    /// Returns whether to give the wait up; it must be called before each pause.
     [[nodiscard]] bool is_over() {
         const std::atomic<bool>* const flag = ends_waits;
         return flag && *flag && pauses_after_signal_++ * milliseconds >= 1000;
@@ -119,7 +119,7 @@ AtomicFile::AtomicFile(const std::string& path)
         fail("open");
 }
 
-/// Or a device. Waits until somebody reads.
+/// Opens a pipe or a device. Waits until somebody reads from it.
 void AtomicFile::open_pipe() {
     for (Wait wait;;) {
         descriptor_ = ::open(target_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
@@ -170,7 +170,8 @@ void AtomicFile::commit(Durable durable) {
     fail(closed == 0 ? "rename" : "write");
 }
 
-/// The new name too. Some file systems cannot do that for folders; the file itself is safe then.
+/// Brings the new name to the disk too. Some file systems cannot do that for folders; the file
+/// itself is safe then.
 void AtomicFile::sync_folder() const {
     const std::string parent = fs::path(target_).parent_path().string();
     const int folder =
@@ -181,8 +182,9 @@ void AtomicFile::sync_folder() const {
     ::close(folder);
 }
 
-/// Of the file that is replaced. The content is complete by now, and until now only the user could
-/// read it. A group that cannot be kept has no more rights than all others.
+/// Takes over the mode, owner and group of the file that is replaced. The content is complete by
+/// then, and until then only the user can read it. A group that cannot be kept gets no more rights
+/// than all others.
 void AtomicFile::take_over_access() const {
     struct stat old {};
     if (temporary_.empty() || ::stat(target_.c_str(), &old) != 0)

@@ -1,6 +1,6 @@
 #pragma once
-// An output file that appears complete or not at all: it is written to a temporary file in the same
-// folder, which takes the final name only when everything is on it.
+// An output file that appears complete or not at all. It is written to a temporary file in the same
+// folder, which takes the final name only when everything is in it.
 
 #include <atomic>
 #include <string>
@@ -13,10 +13,10 @@ inline constexpr std::string_view standard_output = "-";
 
 class AtomicFile {
   public:
-    /// Opens the temporary file. A path that names something else than a regular file (a pipe, a
+    /// Opens the temporary file. A path that names something other than a regular file (a pipe, a
     /// device) is written directly. A symbolic link stays one, and its target is replaced or made.
     /// A file that replaces another has its mode and, where the system allows it, its owner and
-    /// group. Throws OutputError, and like `write` and `commit` Interrupted (end_waits_on).
+    /// group. Throws OutputError and, like `write` and `commit`, Interrupted (end_waits_on).
     explicit AtomicFile(const std::string& path);
     /// Removes what was written unless it was committed.
     ~AtomicFile();
@@ -26,8 +26,9 @@ class AtomicFile {
     /// Throws OutputError.
     void write(std::string_view bytes);
     enum class Durable { no, yes };
-    /// Gives the file its name; nothing can be written afterwards. Durable: it is on the disk by
-    /// then, so that not even a loss of power leaves less than the old file. Throws OutputError.
+    /// Gives the file its name; nothing can be written afterwards. With Durable::yes it is on the
+    /// disk by then, so that not even a loss of power leaves less than the old file. Throws
+    /// OutputError.
     void commit(Durable durable = Durable::no);
 
   private:
@@ -44,17 +45,19 @@ class AtomicFile {
     int descriptor_ = -1;
 };
 
-/// From now on no file is opened or written: another process writes what this one would.
+/// Makes this process open and write no file from this call on: another process writes what this
+/// one would.
 void write_no_files();
-/// Whether that was asked for.
+/// Returns whether write_no_files() was called.
 [[nodiscard]] bool writes_no_files();
 
-/// Once the flag is set, a pipe whose reader takes nothing for a second is given up: Interrupted is
-/// thrown. nullptr: pipes are waited for without end, as at the start.
+/// Sets the flag that ends waits. Once it is true, a pipe whose reader takes nothing for a second
+/// is given up: Interrupted is thrown. With nullptr, as at the start, pipes are waited for without
+/// end.
 void end_waits_on(const std::atomic<bool>* flag);
 
-/// Whether a pipe or file that is open takes more; waits for it, and is false where that is given
-/// up. A pipe then takes a line without a further wait.
+/// Waits until a pipe or file that is open takes more; false where the wait is given up. A pipe
+/// then takes a line without a further wait.
 [[nodiscard]] bool wait_until_writable(int descriptor);
 
 /// Writes a whole file at once. Throws OutputError and Interrupted.

@@ -1,5 +1,5 @@
 #pragma once
-// Which file a path names. Two paths name one file where device and inode agree, whatever links,
+// The file that a path names. Two paths name one file where device and inode agree, whatever links,
 // folders and spellings lead there.
 
 #include <compare>
@@ -16,15 +16,15 @@ struct FileIdentity {
     auto operator<=>(const FileIdentity&) const = default;
 };
 
-/// The identity of a file to be written; empty for pipes and devices, in which nothing can be
-/// replaced, and if there is no folder.
+/// Returns the identity of a file to be written. It is empty for pipes and devices, in which
+/// nothing can be replaced, and if there is no folder.
 [[nodiscard]] std::optional<FileIdentity> identity_of(const std::string& path);
 
-/// Whether both paths name one pipe or device, which one of two readers alone would empty.
+/// Returns whether both paths name one pipe or device, which one of two readers alone would empty.
 [[nodiscard]] bool is_same_stream(const std::string& a, const std::string& b);
 
-/// The path at which a new file would be made: a symbolic link whose target does not exist is
-/// followed. Any other path is given back.
+/// Returns the path at which a new file would be made: a symbolic link whose target does not exist
+/// is followed. Any other path is given back.
 [[nodiscard]] std::string creation_path(const std::string& path);
 
 } // namespace hemilux

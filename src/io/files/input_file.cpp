@@ -20,10 +20,11 @@
 namespace hemilux {
 namespace {
 
-/// Such files are regular by their type, but some have no end, or reading them waits.
+/// Returns whether the kernel makes up the file. Such files are regular by their type, but some
+/// have no end, or reading them waits.
 bool is_made_by_kernel([[maybe_unused]] const std::string& path) {
 #if defined(__linux__)
-    // proc, sysfs, debugfs, tracefs, securityfs and cgroup2, as linux/magic.h has them.
+    // These are proc, sysfs, debugfs, tracefs, securityfs and cgroup2, as linux/magic.h has them.
     constexpr std::array<std::int64_t, 6> kinds{0x9fa0,     0x62656572, 0x64626720,
                                                 0x74726163, 0x73636673, 0x63677270};
     struct statfs status {};
@@ -49,8 +50,8 @@ void check_type(const std::string& path, mode_t mode, InputKind kind) {
                                (kind == InputKind::regular ? " and no regular file" : ""));
 }
 
-/// A file or pipe that is open. Of a pipe it waits for what its writer has still to say, but not
-/// for a writer to come: there may never be one.
+/// A file or pipe that is open. It waits for what the writer of a pipe has still to say, but only
+/// two seconds for a writer to come: there may never be one.
 class Source {
   public:
     explicit Source(const std::string& path)
@@ -69,7 +70,7 @@ class Source {
         check_type(path_, status.st_mode, kind);
         waits_for_writer_ = S_ISFIFO(status.st_mode);
     }
-    /// The number of bytes read; 0 at the end.
+    /// Returns the number of bytes read; 0 at the end.
     std::size_t read(char* to, std::size_t size) {
         for (;;) {
             const ssize_t count = ::read(number_, to, size);

@@ -1,7 +1,7 @@
 #pragma once
 // The one place that opens files to be read. What can never end or would wait for ever is refused
-// before it is opened: folders, devices, sockets and files that the kernel makes up (/proc); and a
-// pipe to which nobody writes.
+// before it is opened: folders, devices, sockets and files that the kernel makes up (/proc). A pipe
+// to which nobody writes is refused too.
 
 #include <functional>
 #include <string>

@@ -22,14 +22,14 @@ inline void append_number(std::string& bytes, double value) {
 inline void append_number(std::string& bytes, float value) {
     append_number(bytes, std::bit_cast<std::uint32_t>(value));
 }
-/// Those of a vector, one after the other.
+/// Appends the numbers of a vector, one after the other.
 template <class Number>
 void append_numbers(std::string& bytes, const glm::vec<3, Number>& vector) {
     for (int axis = 0; axis < 3; ++axis)
         append_number(bytes, vector[axis]);
 }
 
-/// The number whose bytes begin here.
+/// Returns the number whose bytes begin here.
 template <std::unsigned_integral Bits>
 [[nodiscard]] Bits bits_at(const char* bytes) {
     Bits value = 0;
@@ -38,7 +38,7 @@ template <std::unsigned_integral Bits>
                                               << (8 * i));
     return value;
 }
-/// The four bytes from this place on.
+/// Returns the four bytes from this place on as a number.
 [[nodiscard]] inline std::uint32_t word_at(std::string_view bytes, std::size_t at) {
     return bits_at<std::uint32_t>(bytes.data() + at);
 }

@@ -31,7 +31,7 @@ constexpr auto of_bytes = std::to_array<Beginning>({
     {"hemilux checkpoint", "a checkpoint; --resume takes it"},
 });
 
-/// After blanks, in small letters.
+/// The beginnings of texts, after blanks and in small letters.
 constexpr auto of_text = std::to_array<Beginning>({
     {"<!doctype html", "a web page, not what was to be downloaded"},
     {"<html", "a web page, not what was to be downloaded"},
@@ -43,7 +43,7 @@ constexpr auto of_text = std::to_array<Beginning>({
     {"{", "JSON; name it .gltf if it is a glTF model"},
 });
 
-/// UTF-16 without a byte order mark: one byte in two is 0.
+/// Returns whether the content is UTF-16 without a byte order mark: one byte in two is 0.
 bool is_wide(std::string_view content) {
     if (content.size() < 4)
         return false;

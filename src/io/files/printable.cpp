@@ -14,7 +14,8 @@ struct CodePoint {
     std::size_t bytes = 0; ///< 0: not valid UTF-8
 };
 
-/// The first of a text that is not empty: no longer form than needed, no surrogate (RFC 3629).
+/// Returns the first code point of a text that is not empty. A longer form than needed and a
+/// surrogate are not valid (RFC 3629).
 CodePoint first_of(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     if (byte(0) < 0x80)
@@ -50,7 +51,7 @@ bool is_printable(std::uint32_t c) {
     return !control && !line_end && !direction && !no_character;
 }
 
-/// Up to `at`, or before the character that it would cut.
+/// Returns `at`, or the beginning of the character that it would cut.
 std::size_t character_begin(std::string_view text, std::size_t at) {
     while (at > 0 && (static_cast<unsigned char>(text[at]) & 0xc0u) == 0x80)
         --at;

@@ -1,13 +1,13 @@
 #pragma once
-// How a file came about, for those who find it later.
+// The origin of a file, for those who find it later.
 
 #include <cstdint>
 #include <string>
 
 namespace hemilux {
 
-/// Written into files that have a place for it. It holds what the content depends on and nothing
-/// else, so that the same result has the same bytes.
+/// A record that is written into files that have a place for it. It holds what the content depends
+/// on and nothing else, so that the same result has the same bytes.
 struct Provenance {
     std::string program; ///< with its version
     std::string command; ///< the command line

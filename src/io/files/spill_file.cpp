@@ -16,10 +16,11 @@
 namespace hemilux {
 namespace {
 
-/// The file grows by multiples of so much, which is one of the page's size.
+/// The file grows by multiples of this size, which is itself a multiple of the page's size.
 constexpr std::size_t growth = std::size_t{1} << 26;
 
-/// Sizes of blocks: four between two powers of two, so a quarter of a block may be left empty.
+/// Returns the class of a block's size. There are four classes between two powers of two, so up to
+/// a quarter of a block may be left empty.
 constexpr std::size_t size_class(std::size_t bytes) {
     const auto power = static_cast<std::size_t>(std::bit_width(bytes - 1)) - 1;
     return 4 * power + ((bytes - 1) >> (power - 2)) - 4;
@@ -37,7 +38,7 @@ std::string text_of(int error) { return std::system_category().message(error); }
 
 } // namespace
 
-/// What stands in front of a block's bytes.
+/// The header in front of a block's bytes.
 struct alignas(std::max_align_t) SpillFile::Block {
     std::size_t size_class;
     Block* next_free;
@@ -92,7 +93,8 @@ std::uint64_t SpillFile::bytes() const {
     return size_;
 }
 
-/// The disk gives its room now, not when a page is written: there is no way to report that then.
+/// Makes the disk give its room here, not when a page is written: a failure could not be reported
+/// then.
 void SpillFile::grow_to(std::size_t end) {
     const auto at = static_cast<off_t>(size_), more = static_cast<off_t>(end - size_);
     int error = EFBIG;

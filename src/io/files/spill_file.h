@@ -36,16 +36,16 @@ class SpillFile {
     SpillFile(const SpillFile&) = delete;
     SpillFile& operator=(const SpillFile&) = delete;
 
-    /// A block of so many bytes, aligned as operator new does it. Its room on the disk is there
-    /// from now on: writing to it cannot fail. Throws SpillError.
+    /// Returns a block of so many bytes, aligned as operator new aligns it. Its room on the disk is
+    /// reserved: writing to it cannot fail. Throws SpillError.
     [[nodiscard]] void* allocate(std::size_t bytes);
-    /// The block may be given to others.
+    /// Frees a block, so that others may get it.
     void free(void* block) noexcept;
     [[nodiscard]] bool holds(const void* block) const noexcept {
         const auto* const byte = static_cast<const std::byte*>(block);
         return byte >= begin_ && byte < begin_ + address_space;
     }
-    /// Of the file, which never shrinks.
+    /// Returns the size of the file [bytes], which never shrinks.
     [[nodiscard]] std::uint64_t bytes() const;
 
   private:

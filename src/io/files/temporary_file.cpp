@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view prefix = ".hemilux-", suffix = ".tmp";
 
-/// A name that no other process or thread of this machine uses.
+/// Returns a name that no other process or thread of this machine uses.
 std::string new_name() {
     static std::atomic<unsigned> counter{0};
     return std::string(prefix) + std::to_string(::getpid()) + "-" +
@@ -27,7 +27,8 @@ bool is_number(std::string_view text) {
     return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Whether it still has its name: one who took it for a stale one may have been faster.
+/// Returns whether the file still has its name: a process that took it for stale may have been
+/// faster.
 bool has_name(int descriptor) {
     struct stat status {};
     return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;

@@ -1,8 +1,8 @@
 #pragma once
 // The files that outputs are written to before they get their names: `.hemilux-PROCESS-NUMBER.tmp`
 // in the output's folder. A killed process leaves its own behind; the next one that writes there
-// removes them. Who writes one holds a lock on it (flock), which ends with the process, so no file
-// in use is ever taken, also where folders are shared with other machines or containers.
+// removes them. A process that writes one holds a lock on it (flock), which ends with the process.
+// So no file in use is ever taken, even where folders are shared with other machines or containers.
 
 #include <filesystem>
 #include <string>

@@ -13,8 +13,8 @@ namespace hemilux {
 
 inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; ///< of UTF-8
 
-/// The content of a text file without its byte order mark. Throws InputError for what is no such
-/// file: a directory, a device, UTF-16, anything with a NUL byte (where reading ends).
+/// Returns the content of a text file without its byte order mark. Throws InputError for what is no
+/// such file: a directory, a device, UTF-16, anything with a NUL byte (where reading ends).
 [[nodiscard]] std::string read_text_file(const std::string& path, InputKind kind);
 
 struct Statement {
@@ -23,7 +23,7 @@ struct Statement {
     std::size_t line = 0;  ///< where it begins, from 1
 };
 
-/// The three numbers that a statement begins with. Throws InputError for anything else.
+/// Reads the three numbers that a statement begins with. Throws InputError for anything else.
 [[nodiscard]] Vec3 point_of(const Statement& statement, const std::string& path);
 
 /// Lines end with LF, CRLF or CR. A backslash at the end of a line joins it with the next, unless a
@@ -32,7 +32,7 @@ class TextReader {
   public:
     explicit TextReader(std::string content) : content_(std::move(content)) {}
 
-    /// The next statement, valid as long as the reader; false at the end.
+    /// Finds the next statement, which is valid as long as the reader; false at the end.
     bool next(Statement& statement);
 
   private:

@@ -12,7 +12,7 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Whether a well-formed number out of the range of doubles is one below it.
+/// Returns whether a well-formed number out of the range of doubles is too small, not too large.
 bool is_below_range(std::string_view word) {
     const std::size_t e = std::min(word.find_first_of("eE"), word.size());
     std::int64_t exponent = 0;

@@ -115,7 +115,7 @@ void Elements::check(const char* type, std::initializer_list<Component> componen
              std::to_string(static_cast<unsigned>(accessor_.component)));
 }
 
-/// nullptr for zeros.
+/// Returns where an element begins; nullptr for zeros.
 const char* Elements::place_of(std::size_t element) const {
     if (!sparse_.empty()) {
         const auto found = std::ranges::lower_bound(sparse_, element);

@@ -20,12 +20,13 @@ class Buffers {
         : document_(document), container_(container), path_(path), guard_(guard),
           contents_(document.buffers.size()) {}
 
-    /// Throws InputError where the buffer cannot be read or is shorter than the file says.
+    /// Returns the bytes of a view. Throws InputError where the buffer cannot be read or is shorter
+    /// than the file says.
     [[nodiscard]] std::string_view view(std::size_t view);
 
     [[nodiscard]] const Document& document() const { return document_; }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// The files that were read.
+    /// Returns the files that were read.
     [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
   private:
@@ -43,13 +44,13 @@ class Buffers {
 /// The elements of an accessor, normalized where it says so.
 class Elements {
   public:
-    /// Throws InputError, also where the indices of sparse elements do not ascend. The buffers
-    /// outlive this.
+    /// Throws InputError, also where the indices of sparse elements do not ascend. The buffers must
+    /// outlive this object.
     Elements(Buffers& buffers, std::size_t accessor);
 
     [[nodiscard]] std::size_t size() const { return accessor_.count; }
     [[nodiscard]] double at(std::size_t element, std::size_t component) const;
-    /// Of an accessor of whole numbers.
+    /// Returns an element of an accessor of whole numbers.
     [[nodiscard]] std::uint32_t whole_at(std::size_t element) const;
     /// Throws InputError unless the accessor has this type and one of these components.
     void check(const char* type, std::initializer_list<Component> components) const;

@@ -90,7 +90,7 @@ void Reader::count_triangles_of_scene() {
         std::size_t count = 0;
         const std::vector<Primitive>& primitives = document_.meshes[m].primitives;
         for (std::size_t p = 0; p < primitives.size(); ++p)
-            // One of points or lines takes time, too, for each node that shows it.
+            // A primitive of points or lines takes time, too, for each node that shows it.
             count =
                 std::min(count + std::max<std::size_t>(
                                      count_triangles(primitives[p], buffers_, place_of(m, p)), 1),
@@ -129,7 +129,7 @@ void Reader::add_materials() {
             maps_.read(m, result_.scene);
 }
 
-/// Facets of double-sided materials, on open surfaces.
+/// Marks facets of double-sided materials, on open surfaces, as two-sided.
 void Reader::mark_two_sided() {
     if (std::ranges::none_of(document_.materials, &MaterialInfo::double_sided))
         return;

@@ -1,13 +1,13 @@
 #pragma once
 // Reads glTF 2.0 (Khronos 2021), as .gltf with files beside it or within it, and as .glb.
 //
-// All triangles of the scene that the file shows are read, each with the name of its node as group;
-// node transforms that mirror turn the triangles around. The reflectance of a material is its base
+// All triangles of the scene that the file shows are read, each with the name of its node as group.
+// Node transforms that mirror turn the triangles around. The reflectance of a material is its base
 // colour, also where it is a metal or lets light through, which is reported. Its emission is pi
 // times emissiveFactor and emissiveStrength: a diffuse surface of radiance L emits pi L, and a
 // lumen counts as a watt. A double-sided material has two sides where it belongs to an open
-// surface; nobody sees the other side of a closed one.
-// Left out and reported: points, lines, colours of vertices, skins and morph targets.
+// surface; nobody sees the other side of a closed one. Left out and reported: points, lines,
+// colours of vertices, skins and morph targets.
 
 #include "io/scene_files/read_result.h"
 
@@ -15,8 +15,8 @@
 
 namespace hemilux {
 
-/// Throws InputError with the JSON path of what is wrong.
-/// Without `textures` colours are the factors alone.
+/// Throws InputError with the JSON path of what is wrong. Without `textures`, colours are the
+/// factors alone.
 [[nodiscard]] ReadResult read_gltf(const std::string& path, const ReadGuard& guard = {},
                                    bool textures = true);
 

@@ -6,7 +6,7 @@
 
 namespace hemilux::gltf {
 
-/// Without recursion: a chain of nodes may be long.
+/// Does without recursion: a chain of nodes may be long.
 std::vector<Instance> instances_of(const Document& document) {
     std::vector<Instance> found, open;
     for (const std::size_t root : document.roots)

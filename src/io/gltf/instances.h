@@ -19,14 +19,15 @@ struct Instance {
     glm::dmat4 to_world;
 };
 
-/// All nodes below the roots of the scene, parents first.
+/// Returns the roots of the scene and all nodes below them, parents first.
 [[nodiscard]] std::vector<Instance> instances_of(const Document& document);
 
-/// The camera of a node that has one, looking along -z of the node, y being up there (section
-/// 3.10.3); none where it is not a perspective one or its transform is not finite.
+/// Returns the camera of a node that has one, which looks along -z of the node, with y up (section
+/// 3.10.3). It returns none where the camera is not a perspective one or its transform is not
+/// finite.
 [[nodiscard]] std::optional<Camera> camera_of(const Document& document, const Instance& instance);
 
-/// The name that a part of the file has, else its kind and number.
+/// Returns the name that a part of the file has, else its kind and number.
 [[nodiscard]] std::string name_or(const std::string& name, const char* kind, std::size_t number);
 
 } // namespace hemilux::gltf

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Of lamps, relative to the diagonal of the scene.
+/// The radius of point and spot lights, relative to the diagonal of the scene.
 constexpr double small_radius = 0.002;
 
 } // namespace

@@ -15,7 +15,7 @@ std::size_t count_corners(const Primitive& primitive, const Document& document) 
     return accessor ? document.accessors[*accessor].count : 0;
 }
 
-/// The corners of triangle t, as numbers of the primitive's corners.
+/// Returns the corners of triangle t, as numbers of the primitive's corners.
 std::array<std::size_t, 3> corners_of(Mode mode, std::size_t t) {
     switch (mode) {
     case Mode::strip: // every other one would look away

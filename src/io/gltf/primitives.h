@@ -14,22 +14,22 @@ namespace hemilux::gltf {
 struct Triangles {
     std::vector<Vec3> points; ///< those that triangles use
     std::vector<std::array<std::uint32_t, 3>> corners;
-    /// By set and point; empty where no coordinates are asked for.
+    /// Texture coordinates by set and point; empty where none are asked for.
     std::vector<std::vector<glm::vec2>> texcoords;
 };
 
-/// How many triangles the primitive has; 0 for points and lines. `place` is its JSON path. Throws
-/// InputError for a number of corners that the mode does not allow.
+/// Returns how many triangles the primitive has; 0 for points and lines. `place` is its JSON path.
+/// Throws InputError for a number of corners that the mode does not allow.
 [[nodiscard]] std::size_t count_triangles(const Primitive& primitive, const Buffers& buffers,
                                           const std::string& place);
 
 class TriangleReader {
   public:
-    /// The buffers outlive this.
+    /// The buffers must outlive this object.
     explicit TriangleReader(Buffers& buffers) : buffers_(buffers) {}
 
-    /// The triangles, with coordinates of the sets from 0 to those before `texcoord_sets`. Throws
-    /// InputError for indices beyond the vertices, and for places that are no numbers.
+    /// Reads the triangles, with coordinates of the sets from 0 to the one before `texcoord_sets`.
+    /// Throws InputError for indices beyond the vertices, and for places that are no numbers.
     [[nodiscard]] Triangles read(const Primitive& primitive, const std::string& place,
                                  std::size_t texcoord_sets);
 

@@ -21,7 +21,7 @@ std::uint32_t SceneMeshes::group_of(const std::string& name) {
     return found->second;
 }
 
-/// Of primitives without one: as of an OBJ file that names none.
+/// Returns the material of primitives without one, the same as of an OBJ file that names none.
 std::uint32_t SceneMeshes::default_material() {
     if (!default_material_) {
         default_material_ = static_cast<std::uint32_t>(result_.scene.materials.size());
@@ -95,7 +95,7 @@ void SceneMeshes::add_texcoords(const Primitive& primitive, const Triangles& tri
     }
 }
 
-/// In the world.
+/// Finds the places of a primitive's points in the world.
 void SceneMeshes::place(const std::vector<Vec3>& points, const Instance& instance) {
     world_.clear();
     for (const Vec3& point : points) {

@@ -17,7 +17,7 @@
 
 namespace hemilux::gltf {
 
-/// What of primitives and meshes is not read, or is missing.
+/// The counts of what primitives and meshes have that is not read, and of what they lack.
 struct MeshTally {
     std::size_t without_coordinates = 0, lines = 0, coloured = 0, morphed = 0, skins = 0;
 };
@@ -50,7 +50,7 @@ class SceneMeshes {
     TriangleReader triangles_;
     ReadResult& result_;
     std::unordered_map<std::string, std::uint32_t> group_index_;
-    /// By mesh and primitive, read when a node shows them first.
+    /// Triangles by mesh and primitive, read when a node shows them first.
     std::unordered_map<std::size_t, std::vector<std::optional<Triangles>>> read_;
     std::optional<std::uint32_t> default_material_;
     PolygonDivision division_;
@@ -58,7 +58,7 @@ class SceneMeshes {
     MeshTally tally_;
 };
 
-/// The JSON path of a primitive.
+/// Returns the JSON path of a primitive.
 [[nodiscard]] std::string place_of(std::size_t mesh, std::size_t primitive);
 
 } // namespace hemilux::gltf

@@ -18,7 +18,7 @@ void TextureMaps::read(std::size_t material, Scene& scene) {
             scene);
 }
 
-/// The transform of KHR_texture_transform: scale, then rotation, then offset.
+/// Adds a texture with the transform of KHR_texture_transform: scale, then rotation, then offset.
 void TextureMaps::add(const TextureInfo& info, std::size_t material, Vec3 Material::*colour,
                       TextureMap MaterialTextures::*map, Scene& scene) {
     const Document& document = buffers_.document();
@@ -53,7 +53,7 @@ void TextureMaps::add(const TextureInfo& info, std::size_t material, Vec3 Materi
     sets_ = std::max(sets_, info.set + 1);
 }
 
-/// Empty where the image is missing or of a kind that is not read.
+/// Returns the image; empty where it is missing or of a kind that is not read.
 std::shared_ptr<const Texture> TextureMaps::read_image(std::size_t image) {
     const ImageInfo& info = buffers_.document().images[image];
     const std::string place = "/images/" + std::to_string(image);

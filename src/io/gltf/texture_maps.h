@@ -19,11 +19,11 @@ class TextureMaps {
     /// Its colours become their means. Throws InputError.
     void read(std::size_t material, Scene& scene);
 
-    /// The sets of texture coordinates that textures use: those before this number.
+    /// Returns the number of sets of texture coordinates: textures use those before it.
     [[nodiscard]] std::size_t sets() const { return sets_; }
-    /// How many textures are not found, or of a kind that is not read.
+    /// Returns how many textures are not found, or of a kind that is not read.
     [[nodiscard]] std::size_t missing() const { return missing_; }
-    /// Paths of the pictures that were asked for.
+    /// Returns the paths of the pictures that were asked for.
     [[nodiscard]] const std::vector<std::string>& paths() const { return paths_; }
 
   private:

@@ -34,7 +34,7 @@ std::vector<Vec3> baked_light(const Mesh& mesh, const CornerClasses& classes,
     });
 }
 
-/// By a picture of one row, whose pixels are places at equal distances of area.
+/// Uses a picture of one row, whose pixels are places at equal distances of area.
 double auto_exposure(const Mesh& mesh, const CornerClasses& classes,
                      std::span<const Vec3> of_class) {
     constexpr int places = 20'000;

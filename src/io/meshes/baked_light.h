@@ -10,24 +10,24 @@
 
 namespace hemilux {
 
-/// As --bake names them, in this order.
+/// The kinds of light, as --bake names them in this order.
 enum class Bake {
     radiosity,  ///< B, what a surface sends: what pictures show
     irradiance, ///< (B - E) / rho, what arrives: for viewers that multiply by textures of their own
-    indirect ///< what arrives by a reflection (indirect_light.h): for those that add the lamps, too
+    indirect ///< what arrives by a reflection (indirect_light.h): for those that add emitters too
 };
 inline constexpr std::array<const char*, 3> bake_names = {"radiosity", "irradiance", "indirect"};
 
-/// (B - E) / rho. Where a channel reflects nothing, its irradiance is not known and 0 stands for
-/// it.
+/// Returns (B - E) / rho [W/m2]. Where a channel reflects nothing, its irradiance is not known and
+/// 0 stands for it.
 [[nodiscard]] Vec3 irradiance_of(const Material& material, const Vec3& radiosity);
 
-/// Radiosity or irradiance of each class of corners, smoothed [W/m2].
+/// Returns the radiosity or irradiance of each class of corners, smoothed [W/m2].
 [[nodiscard]] std::vector<Vec3> baked_light(const Mesh& mesh, const CornerClasses& classes,
                                             const PatchLight& light, Bake bake);
 
-/// The exposure that auto_exposure() chooses where each surface shows as much as it has area; suns
-/// and skies do not count. `of_class` is by class of corners.
+/// Returns the exposure that auto_exposure() chooses for a picture in which each surface covers as
+/// much as it has area. Suns and skies do not count. `of_class` is by class of corners.
 [[nodiscard]] double auto_exposure(const Mesh& mesh, const CornerClasses& classes,
                                    std::span<const Vec3> of_class);
 

@@ -13,7 +13,7 @@
 namespace hemilux {
 namespace {
 
-/// Facets that meet at an edge.
+/// The facets that meet each facet at an edge.
 using Neighbours = std::vector<std::vector<std::uint32_t>>;
 
 Neighbours neighbours_of(const Scene& scene) {
@@ -28,7 +28,7 @@ Neighbours neighbours_of(const Scene& scene) {
     return neighbours;
 }
 
-/// A number for each facet, the same for those of one plane group.
+/// Returns a number for each facet, the same for those of one plane group.
 std::vector<std::uint32_t> plane_groups(const Mesh& mesh) {
     const double least_cosine = std::cos(0.5 * std::numbers::pi / 180);
     const std::vector<Facet>& facets = mesh.scene().facets;
@@ -57,7 +57,7 @@ std::vector<std::uint32_t> plane_groups(const Mesh& mesh) {
     return group;
 }
 
-/// The longest edge of the patches, which rectangles have along a side.
+/// Returns the longest edge of the patches, which rectangles have along a side.
 Vec3 longest_edge(const Mesh& mesh, std::span<const std::uint32_t> patches) {
     Vec3 longest(0.0);
     for (const std::uint32_t i : patches) {
@@ -91,8 +91,8 @@ void measure(LightmapChart& chart, const Mesh& mesh) {
     std::swap(chart.high.x, chart.high.y);
 }
 
-/// Rows of charts, the highest first, with `density` texels per length. False where they do not fit
-/// into the square.
+/// Packs the charts into rows, the highest first, with `density` texels per local unit of length;
+/// false where they do not fit into the square.
 bool pack(std::vector<LightmapChart>& charts, double density, int size) {
     std::vector<std::size_t> order(charts.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -1,5 +1,6 @@
 #pragma once
-// Where surfaces lie in a lightmap: a chart for each plane group of facets, packed into a square.
+// The places of surfaces in a lightmap: a chart for each plane group of facets, packed into a
+// square.
 
 #include "geometry/vector.h"
 #include "io/results/smooth.h"
@@ -12,7 +13,8 @@ namespace hemilux {
 
 class Mesh;
 
-/// Texels around each chart that have its light too, so that viewers may interpolate at its edges.
+/// The number of texels around each chart that have its light too, so that viewers may interpolate
+/// at its edges.
 inline constexpr int gutter = 2;
 
 /// One side of facets in one plane that meet at edges and have one material.
@@ -23,19 +25,20 @@ struct LightmapChart {
     int columns = 0, rows = 0; ///< from there to the texel in whose middle `high` lies
     std::vector<std::uint32_t> patches;
 
-    /// The place of a point in texels, from the corner of the picture. The middle of the first
-    /// texel is (0.5, 0.5).
+    /// Returns the place of a point in texels, from the corner of the picture. The middle of the
+    /// first texel is (0.5, 0.5).
     [[nodiscard]] Vec2 place(const Vec3& point) const;
 };
 
-/// Thrown where charts do not fit, however coarse they are.
+/// The error that charts do not fit, however coarse they are.
 struct LightmapTooSmall : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Charts of all patches but suns and skies, in a square of `size` texels: a texel is as large on
-/// every surface as that allows, but a chart has 2 x 2 at least. The edges of a rectangle lie in
-/// the middles of texels, so interpolation is exact there. Throws LightmapTooSmall.
+/// Makes charts of all patches but suns and skies, in a square of `size` x `size` texels. All
+/// surfaces have the same density of texels, the largest that fits, but a chart has at least 2 x 2
+/// of them. The edges of a rectangle lie in the middles of texels, so interpolation is exact there.
+/// Throws LightmapTooSmall.
 [[nodiscard]] std::vector<LightmapChart> find_charts(const Mesh& mesh, int size);
 
 /// Classes of corners, divided where charts meet.

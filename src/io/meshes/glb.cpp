@@ -36,7 +36,7 @@ std::vector<Part> parts_of(const Mesh& mesh, const CornerClasses& classes) {
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i)
         if (const Patch& patch = mesh.patches()[i]; !mesh.material(patch).is_far)
             patches[mesh.scene().facets[patch.facet].group].push_back(i);
-    // Of a class: the last group that had it, and its number there.
+    // These hold for each class the last group that had it, and its number there.
     std::vector<std::uint32_t> group_of(classes.position.size(), none), number(group_of.size());
     std::vector<Part> parts;
     for (std::uint32_t group = 0; group < patches.size(); ++group) {
@@ -182,7 +182,7 @@ class Document {
     Json accessors_ = Json::array(), nodes_ = Json::array(), meshes_ = Json::array();
 };
 
-/// A chunk of a binary file without its bytes.
+/// Returns a chunk of a binary file without its bytes.
 std::string chunk_header(std::size_t bytes, std::string_view type) {
     std::string header;
     append_number(header, static_cast<std::uint32_t>(bytes));

@@ -1,6 +1,6 @@
 #pragma once
 // --bake indirect: the light that arrives by at least one reflection, for programs that add the
-// light of lamps themselves.
+// light of emitters themselves.
 
 #include "bvh/tracer.h"
 #include "parallel/workers.h"
@@ -13,9 +13,10 @@ namespace hemilux {
 
 class Mesh;
 
-/// The mean irradiance of each patch [W/m2] by what patches reflect, B - E, where
-/// cosine-distributed rays from points all over the patch meet them. So many `rays` go from each
-/// patch: the error falls with their square root. The same for any number of threads.
+/// Estimates the mean irradiance of each patch [W/m2] by what other patches reflect, B - E.
+/// Cosine-distributed rays from points all over the patch find these. Each patch sends `rays` of
+/// them, and the error falls with their square root. The result is the same for any number of
+/// threads.
 [[nodiscard]] std::vector<Vec3> indirect_irradiance(const Mesh& mesh, const Tracer& tracer,
                                                     std::span<const Vec3> radiosity, unsigned rays,
                                                     std::uint64_t seed, const Workers& workers);

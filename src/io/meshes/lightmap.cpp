@@ -23,7 +23,7 @@ struct Nearest {
     Vec3 light;
 };
 
-/// On the edge from a to b.
+/// Returns the nearest point on the edge from a to b.
 Nearest nearest_on(const Corner& a, const Corner& b, const Vec2& at) {
     const Vec2 edge = b.place - a.place;
     const double length = glm::dot(edge, edge);
@@ -44,7 +44,7 @@ Nearest nearest_on(const std::array<Corner, 3>& triangle, const Vec2& at) {
 }
 
 /// Paints the texels of the chart that are at most the gutter away from the triangle, and not
-/// nearer to another one. `distance` of each texel to what it shows is squared [texels^2].
+/// nearer to another one. `distance` is that of each texel to what it shows, squared [texels^2].
 void paint(const LightmapChart& chart, const std::array<Corner, 3>& triangle, Image& image,
            std::vector<float>& distance) {
     const auto& [a, b, c] = triangle;

@@ -8,9 +8,9 @@
 
 namespace hemilux {
 
-/// A picture of size x size texels: in the middle of a texel is the light of the nearest point of
-/// its chart, interpolated within the triangles of write_glb() from `light`, which is by divided
-/// class of corners. Texels farther from every chart than the gutter are black.
+/// Paints a picture of size x size texels. The middle of a texel has the light of the nearest point
+/// of its chart, interpolated within the triangles of write_glb(). `light` is by divided class of
+/// corners. Texels farther from every chart than the gutter are black.
 [[nodiscard]] Image lightmap(const std::vector<LightmapChart>& charts, const ChartCorners& corners,
                              std::span<const Vec3> light, int size);
 

@@ -9,7 +9,7 @@
 
 namespace hemilux {
 
-/// As --ply-colours names them, in this order.
+/// The kinds of vertex colours, as --ply-colours names them in this order.
 enum class PlyColours {
     linear, ///< float red, green, blue: the light [W/m2]
     shown   ///< uchar red, green, blue: what a screen shows; then the luminance as float quality,
@@ -17,9 +17,9 @@ enum class PlyColours {
 };
 inline constexpr std::array<const char*, 2> ply_colour_names = {"linear", "shown"};
 
-/// Writes vertices x, y, z (double, world units) and their colours; faces are the patches, in the
-/// mesh's order; one on whose sides corners of others lie is several triangles. Patches share a
-/// vertex where they share its light. Throws OutputError.
+/// Writes vertices x, y, z (double, world units [m]) and their colours. Faces are the patches, in
+/// the mesh's order; a patch on whose sides corners of others lie becomes several triangles.
+/// Patches share a vertex where they share its light. Throws OutputError.
 void write_ply(const std::string& path, const Mesh& mesh, const CornerClasses& classes,
                const VertexLight& light, PlyColours colours = PlyColours::linear);
 

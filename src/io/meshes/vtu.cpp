@@ -32,7 +32,7 @@ class Grid {
         add(name, 3, numbers);
     }
 
-    /// Letters as numbers, each text with a 0 after it.
+    /// Adds letters as numbers, each text with a 0 after it.
     void add_texts(const std::string& name, const std::vector<std::string>& texts) {
         xml_ += "<DataArray type=\"String\" Name=\"" + name + "\" NumberOfTuples=\"" +
                 std::to_string(texts.size()) + "\" format=\"ascii\">";
@@ -74,7 +74,7 @@ class Cells {
 
     [[nodiscard]] std::size_t size() const { return patch_.size(); }
 
-    /// `value` of each patch, given its number.
+    /// Returns `value` of each patch that is a cell, given its number.
     template <class Value>
     auto column(Value value) const {
         std::vector<decltype(value(std::uint32_t{}))> values;

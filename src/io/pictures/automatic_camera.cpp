@@ -15,12 +15,12 @@ namespace {
 
 constexpr double outside_fov = 40, inside_fov = 60; // vertical [degrees]
 
-/// Whether the patch belongs to the scene and not to a sun or sky around it.
+/// Returns whether the patch belongs to the scene and not to a sun or sky around it.
 bool is_near(const Mesh& mesh, std::size_t patch) {
     return !mesh.material(static_cast<std::uint32_t>(patch)).is_far;
 }
 
-/// Around all that is near.
+/// Returns the box around all near patches.
 Box box_of_near(const Mesh& mesh) {
     Box box;
     for (std::size_t i = 0; i < mesh.patches().size(); ++i)
@@ -29,7 +29,7 @@ Box box_of_near(const Mesh& mesh) {
     return box;
 }
 
-/// A unit vector by its azimuth and elevation [degrees].
+/// Returns a unit vector from its azimuth and elevation [degrees].
 Vec3 direction(int up, double azimuth, double elevation) {
     const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
     Vec3 result;
@@ -39,7 +39,7 @@ Vec3 direction(int up, double azimuth, double elevation) {
     return result;
 }
 
-/// From outside, as near as the whole box fits into the picture.
+/// Returns a camera outside the box, as near as the whole box fits into the picture.
 Camera outside_camera(const Box& box, const Vec3& up, const Vec3& toward_eye, double aspect) {
     const double tan_y = std::tan(outside_fov * std::numbers::pi / 360), tan_x = aspect * tan_y;
     const Vec3 right = glm::normalize(glm::cross(up, toward_eye));
@@ -55,7 +55,8 @@ Camera outside_camera(const Box& box, const Vec3& up, const Vec3& toward_eye, do
     return {centre + distance * toward_eye, centre, up, outside_fov};
 }
 
-/// Views from outside, and from the middles of about 500 cells of the box. Local frame.
+/// Returns views from outside, and from the middles of about 500 cells of the box. All are in the
+/// local frame.
 std::vector<Camera> candidates(const Box& box, int up_axis, double aspect) {
     Vec3 up(0.0);
     up[up_axis] = 1;
@@ -79,7 +80,8 @@ std::vector<Camera> candidates(const Box& box, int up_axis, double aspect) {
     return cameras;
 }
 
-/// Lit is what has more than a tenth of the mean; all of a dark scene.
+/// Marks the near patches that have more than a tenth of the mean reflected light; in a dark scene
+/// it marks all of them.
 std::vector<bool> lit_patches(const Mesh& mesh, std::span<const Vec3> radiosity) {
     const auto light = [&](std::size_t i) { return glm::dot(radiosity[i], Vec3(1)); };
     double power = 0, area = 0;
@@ -96,13 +98,13 @@ std::vector<bool> lit_patches(const Mesh& mesh, std::span<const Vec3> radiosity)
     return lit;
 }
 
-/// Surfaces that look alike: of one material and turned to one side.
+/// Returns one number for surfaces that look alike: of one material and turned to one side.
 std::uint64_t kind_of(const Patch& patch) {
     const int axis = largest_axis(patch.normal), side = 2 * axis + (patch.normal[axis] > 0);
     return std::uint64_t{patch.material} * 6 + static_cast<std::uint64_t>(side);
 }
 
-/// How good a view is, by a few rays.
+/// The quality of a view, estimated by a few rays.
 struct Rating {
     double score = 0;
     double enclosed = 0; ///< the share of rays that meet a front of the scene
@@ -110,8 +112,8 @@ struct Rating {
 
 bool is_from_outside(const Camera& camera) { return camera.vertical_fov_degrees == outside_fov; }
 
-/// By how much of the picture shows lit fronts, how many kinds of them, and how far the near ones
-/// are.
+/// Rates a view by how much of the picture shows lit fronts, how many kinds of them, and how far
+/// the near ones are.
 Rating rate(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
             const std::vector<bool>& lit, double aspect) {
     constexpr int columns = 16, rows = 12;
@@ -152,7 +154,8 @@ Rating rate(const Camera& camera, const Mesh& mesh, const Tracer& tracer,
     return result;
 }
 
-/// Whether hardly a view from within the scene's box shows walls all around: a thing, not rooms.
+/// Returns whether hardly any view from within the scene's box shows walls all around. Such a scene
+/// is a thing, not a set of rooms.
 bool is_object(std::span<const Camera> cameras, std::span<const Rating> ratings) {
     constexpr double all_around = 0.8, least_of_rooms = 0.1;
     double enclosed = 0, views = 0;

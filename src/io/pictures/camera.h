@@ -12,10 +12,10 @@ namespace hemilux {
 
 class Mesh;
 
-/// Reads eye and target "ex,ey,ez,tx,ty,tz", to which the vertical angle ",fov" in degrees, or it
-/// and the direction upwards ",fov,ux,uy,uz", may be added, with blanks around the numbers. Empty
-/// for any other text, and where eye and target are one point, the angle is not between 0 and 180
-/// or the direction is 0.
+/// Reads eye and target, "ex,ey,ez,tx,ty,tz". The vertical angle in degrees, ",fov", or the angle
+/// and the direction upwards, ",fov,ux,uy,uz", may follow. Blanks may stand around the numbers. The
+/// result is empty for any other text. It is empty too where eye and target are one point, the
+/// angle is not between 0 and 180, or the direction is 0.
 [[nodiscard]] std::optional<Camera> parse_camera(std::string_view text);
 
 /// The rays of a camera, in the local frame of a mesh.
@@ -23,12 +23,12 @@ class CameraRays {
   public:
     /// `aspect` is width over height. Throws std::invalid_argument if eye and target are one point.
     CameraRays(const Camera& camera, const Mesh& mesh, double aspect);
-    /// The ray through a place of the picture: x from 0 (left) to 1, y from 0 (top) to 1. Its
-    /// direction has unit length.
+    /// Returns the ray through a place of the picture: x from 0 (left) to 1, y from 0 (top) to 1.
+    /// Its direction has unit length.
     [[nodiscard]] Ray ray(double x, double y) const;
     [[nodiscard]] const Vec3& eye() const { return eye_; }
-    /// The direction of that ray, not of unit length: it is linear in x and y, and its part along
-    /// the view is 1.
+    /// Returns the direction of that ray, not of unit length: it is linear in x and y, and its part
+    /// along the view is 1.
     [[nodiscard]] Vec3 direction(double x, double y) const {
         return forward_ + (2 * x - 1) * right_ + (1 - 2 * y) * up_;
     }
@@ -37,8 +37,8 @@ class CameraRays {
     Vec3 eye_, forward_, right_, up_; ///< the last two reach from the centre to the picture's edges
 };
 
-/// The first surface that a picture shows. The backs of one-sided facets are looked through: so an
-/// interior can be seen from outside.
+/// The first surface that a ray of a picture shows. The backs of one-sided facets are looked
+/// through, so that an interior can be seen from outside.
 struct Visible {
     Hit hit; ///< with t along the ray
     std::uint32_t patch;

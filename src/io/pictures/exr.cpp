@@ -52,8 +52,8 @@ std::string header(int width, int height, const std::vector<ExrChannel>& channel
     return text + '\0';
 }
 
-/// The bytes as the format compresses them: those of even places, then the others, each as its
-/// difference from the one before; as they are where that is no longer.
+/// Returns the bytes as the format compresses them: those at even places, then the others, each as
+/// its difference from the one before. Bytes that this does not shorten are returned as they are.
 std::string compressed(const std::string& bytes) {
     std::vector<unsigned char> parted;
     for (const std::size_t first : {0u, 1u})

@@ -20,8 +20,9 @@ struct ExrChannel {
 void add_exr_channels(std::vector<ExrChannel>& channels, const std::string& layer,
                       const Image& image);
 
-/// Writes a file with these channels in 32 bits, linear, in any order; the attributes `software`,
-/// `command` and `seed` where the provenance is known. Throws OutputError.
+/// Writes a file with these channels, which may be in any order, as linear numbers of 32 bits.
+/// Where the provenance is known, the file has the attributes `software`, `command` and `seed`.
+/// Throws OutputError.
 void write_exr(const std::string& path, int width, int height, std::vector<ExrChannel> channels,
                const Provenance& from = {});
 

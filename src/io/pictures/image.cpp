@@ -21,15 +21,15 @@
 namespace hemilux {
 namespace {
 
-/// What stb_image_write hands over piece by piece, kept in a std::string.
+/// Appends to a std::string what stb_image_write hands over piece by piece.
 void append(void* bytes, void* data, int size) {
     static_cast<std::string*>(bytes)->append(static_cast<const char*>(data),
                                              static_cast<std::size_t>(size));
 }
 
-/// Bytes of a PNG by table: powers take longer than all else of a picture. The floats of a cell
-/// agree in the sign, the exponent and six bits of the fraction; the byte of its lowest is at most
-/// two below that of any other.
+/// A table of the bytes of a PNG, as powers would take longer than all else of a picture. The
+/// floats of a cell agree in the sign, the exponent and six bits of the fraction. The byte of its
+/// lowest is at most two below that of any other.
 class ByteTable {
   public:
     ByteTable() {
@@ -52,7 +52,8 @@ class ByteTable {
   private:
     static constexpr int shift = 17;
     static long exact(float linear) { return std::lround(255.0f * srgb_from_linear(linear)); }
-    /// The least float with so large a byte, by halves of the bits, which grow with floats.
+    /// Finds the least float that has so large a byte, by bisection of the bits, which grow with
+    /// floats.
     static float least_with(int byte) {
         std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0f);
         while (low < high) {

@@ -6,7 +6,7 @@
 namespace hemilux {
 namespace {
 
-/// CRC-32 of ISO 3309, as PNG has it: bit by bit, as the texts are short.
+/// Computes the CRC-32 of ISO 3309, as PNG has it, bit by bit, as the texts are short.
 std::uint32_t crc32(std::string_view bytes) {
     std::uint32_t crc = ~0u;
     for (const char c : bytes) {
@@ -24,7 +24,7 @@ std::string big_endian(std::uint32_t value) {
     return bytes;
 }
 
-/// One line of ASCII.
+/// Returns the text as one line of ASCII, with '?' for other letters.
 std::string plain_line(std::string text) {
     std::ranges::replace_if(
         text, [](char c) { return c < ' ' || c > '~'; }, '?');

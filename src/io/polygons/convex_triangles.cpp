@@ -5,8 +5,8 @@
 
 namespace hemilux {
 
-/// Of the corners on one side of a chord, that which sees it under the largest angle makes the
-/// Delaunay triangle with it: no other lies within their circle.
+/// The Delaunay triangle on one side of a chord has the corner that sees the chord under the
+/// largest angle: no other corner lies within their circle.
 std::vector<std::array<std::uint32_t, 3>> convex_triangles(std::span<const Vec3> corners) {
     const auto angle_at = [&](std::uint32_t i, std::uint32_t from, std::uint32_t to) {
         const Vec3 a = corners[from] - corners[i], b = corners[to] - corners[i];

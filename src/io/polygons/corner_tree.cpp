@@ -12,8 +12,8 @@ using Triangle = std::array<Vec2, 3>;
 
 constexpr std::uint32_t no_leaf = std::numeric_limits<std::uint32_t>::max();
 
-/// All of the box lies behind one of the triangle's edges. Behind an edge, by more than rounding,
-/// is a convex set, so the box is in it where its corners are.
+/// Returns whether all of the box lies behind one of the triangle's edges. The places behind an
+/// edge, by more than rounding, form a convex set, so the box is in it where its corners are.
 bool is_apart(const Vec2& low, const Vec2& high, const Triangle& t, double rounding) {
     const Vec2 least = glm::min(glm::min(t[0], t[1]), t[2]) - rounding;
     const Vec2 most = glm::max(glm::max(t[0], t[1]), t[2]) + rounding;

@@ -13,18 +13,21 @@ namespace hemilux {
 
 class CornerTree {
   public:
-    /// Builds the tree of the corners with these numbers, all of which are there. O(n log n).
+    /// Builds the tree of the corners with these numbers, all of which are there. Takes O(n log n)
+    /// time.
     void build(std::span<const Vec2> corners, std::vector<std::uint32_t> numbers);
     void clear();
-    /// Whether the corner is there. Others than those of build() are never. O(log n).
+    /// Leaves the corner out or brings it back. Corners other than those of build() are never
+    /// there. Takes O(log n) time.
     void set(std::uint32_t number, bool is_there);
 
-    /// Whether one that is there lies in the counter-clockwise triangle or on its border, up to
-    /// `rounding`, but not at the very place of one of its corners. Most triangles of a polygon are
-    /// small, or hold some corner: O(log n). Slender ones along rows of corners take longer.
+    /// Returns whether a corner that is there lies in the counter-clockwise triangle or on its
+    /// border, up to `rounding`. Those at the very place of a corner of the triangle do not count.
+    /// Most triangles of a polygon are small, or hold some corner, and take O(log n) time. Slender
+    /// ones along rows of corners take longer.
     [[nodiscard]] bool any_inside(const std::array<Vec2, 3>& triangle, double rounding) const;
 
-    /// Nodes that any_inside() has visited since the tree was made.
+    /// Returns how many nodes any_inside() has visited since this object was made.
     [[nodiscard]] std::uint64_t visits() const { return visits_; }
 
   private:

@@ -99,8 +99,8 @@ void EarClipper::remove(std::uint32_t i) {
         enqueue_if_ear(neighbour);
 }
 
-/// Tips of spikes that come to light go too: they have no width, but would hide what is beside
-/// them.
+/// Cuts a corner from the polygon and returns its neighbours. Tips of spikes that come to light go
+/// too: they have no width, but would hide what is beside them.
 std::array<std::uint32_t, 2> EarClipper::unlink(std::uint32_t i) {
     for (;;) {
         const std::uint32_t previous = node_[i].previous, next = node_[i].next;
@@ -121,7 +121,7 @@ std::array<std::uint32_t, 2> EarClipper::unlink(std::uint32_t i) {
     }
 }
 
-/// One that lies near the last that was cut, else any.
+/// Returns a corner with this turn: one that lies near the last that was cut, else any.
 std::optional<std::uint32_t> EarClipper::find(Turn turn) {
     constexpr std::size_t near = 64;
     std::uint32_t i = some_;
@@ -134,8 +134,9 @@ std::optional<std::uint32_t> EarClipper::find(Turn turn) {
     return known.empty() ? std::nullopt : std::optional(known.back());
 }
 
-/// Without ears left: a straight corner goes without a triangle, as it has no area. In a polygon
-/// that crosses itself any convex corner is cut, else any at all, its triangle turned to the front.
+/// Cuts a corner where no ear is left. A straight corner goes without a triangle, as it has no
+/// area. In a polygon that crosses itself any convex corner is cut, else any at all, with its
+/// triangle turned to the front.
 void EarClipper::force_one() {
     if (const auto i = find(Turn::straight))
         return remove(*i);

@@ -1,11 +1,11 @@
 #pragma once
-// A simple polygon of the plane cut into triangles by clipping ears (Meisters 1975, "Polygons have
-// ears"): an ear is a convex corner whose triangle with its neighbours holds no other corner.
+// This cuts a simple polygon of the plane into triangles by clipping ears (Meisters 1975, "Polygons
+// have ears"). An ear is a convex corner whose triangle with its neighbours holds no other corner.
 //
-// When an ear is cut only its two neighbours can change, and a tree finds corners in a triangle: n
-// corners take O(n log n) time, but where triangles are long and thin. A cut corner's neighbours go
-// to the end of the queue: cutting every other corner in turn gives compact triangles where cutting
-// in order would give a fan of slivers.
+// When an ear is cut, only its two neighbours can change, and a tree finds corners in a triangle.
+// So n corners take O(n log n) time, except where triangles are long and thin. A cut corner's
+// neighbours go to the end of the queue. Cutting every other corner in turn gives compact
+// triangles, where cutting in order would give a fan of slivers.
 
 #include "geometry/vector.h"
 #include "io/polygons/corner_tree.h"
@@ -22,15 +22,15 @@ class EarClipper {
   public:
     using Triangle = std::array<std::uint32_t, 3>; ///< indices of corners, counter-clockwise
 
-    /// The triangles of a polygon that is counter-clockwise on the whole; valid until the next
-    /// call. Corners are within [-1,1]^2 and may be wrong by `rounding`. Straight corners become
-    /// corners of triangles too, wherever possible. Their signed areas sum to the polygon's.
-    /// Visits are counted in `work`, which ends the search for ears when it is 0; then triangles
-    /// may overlap.
+    /// Returns the triangles of a polygon that is counter-clockwise on the whole; they are valid
+    /// until the next call. Corners are within [-1,1]^2 and may be wrong by `rounding`. Straight
+    /// corners become corners of triangles too, wherever possible. Their signed areas sum to the
+    /// polygon's. Visits are taken from `work`. When it is 0, the search for ears ends, and
+    /// triangles may overlap.
     [[nodiscard]] std::span<const Triangle> clip(std::span<const Vec2> corners, double rounding,
                                                  std::uint64_t& work);
-    /// Whether the last polygon ran out of ears, as one that crosses itself does; then triangles
-    /// overlap.
+    /// Returns whether the last polygon ran out of ears, as one that crosses itself does; its
+    /// triangles then overlap.
     [[nodiscard]] bool ran_out_of_ears() const { return ran_out_; }
 
   private:
@@ -62,7 +62,7 @@ class EarClipper {
     double rounding_ = 0;
     std::vector<Node> node_;
     CornerTree blockers_; ///< corners that are not convex
-    /// Corners that once were straight, or convex: where no ear is left, one that still is goes.
+    /// Corners found to be straight, or convex: where no ear is left, one that still is so is cut.
     std::vector<std::uint32_t> straight_, left_turns_;
     std::uint64_t* work_ = nullptr;
     std::vector<Candidate> queue_;

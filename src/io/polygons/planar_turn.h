@@ -1,5 +1,5 @@
 #pragma once
-// Which way a path of the plane turns.
+// The turn of a path in the plane.
 
 #include "geometry/vector.h"
 
@@ -7,8 +7,9 @@
 
 namespace hemilux {
 
-/// +1 where the path a, b, c turns left, -1 to the right, 0 where it is straight, or turns back, as
-/// far as is known when coordinates may be wrong by `rounding`.
+/// Returns +1 where the path a, b, c turns left, -1 where it turns right, and 0 where it is
+/// straight or turns back. It returns 0 too where that is not certain, as coordinates may be wrong
+/// by `rounding`.
 [[nodiscard]] inline int turn_at(const Vec2& a, const Vec2& b, const Vec2& c, double rounding) {
     const Vec2 d = b - a, e = c - b;
     const double turn = cross(d, e);

@@ -41,7 +41,8 @@ void PolygonDivision::keep_distinct(std::span<const Vec3> corners) {
         kept_.pop_back();
 }
 
-/// False where the polygon is so small that products of its lengths would vanish.
+/// Moves the polygon to the origin and scales it; false where it is so small that products of its
+/// lengths would vanish.
 bool PolygonDivision::scale_to_unit(std::span<const Vec3> corners) {
     const Vec3 first = corners[kept_.front()];
     double size = 0, largest = 0;
@@ -66,7 +67,7 @@ bool PolygonDivision::scale_to_unit(std::span<const Vec3> corners) {
     return true;
 }
 
-/// False for a polygon without area: none is left of it but rounding errors.
+/// Projects the polygon along its normal; false where its area is none but rounding errors.
 bool PolygonDivision::project() {
     Vec3 twice_area(0.0);
     double perimeter = glm::length(point_.back());
@@ -115,7 +116,7 @@ bool PolygonDivision::is_collinear() const {
     });
 }
 
-/// All corners turn left, and the edges go round just once.
+/// Returns whether all corners turn left and the edges go round just once.
 bool PolygonDivision::Turns::strictly_convex() const {
     return right == 0 && straight == 0 && reversals == 2;
 }
@@ -152,7 +153,8 @@ void PolygonDivision::add_strips() {
         add_triangle(i, i + 1, j);
 }
 
-/// Along the first diagonal with both triangles on the front; false where there is none.
+/// Cuts the quad along the first diagonal with both triangles on the front; false where there is
+/// none.
 bool PolygonDivision::add_quad_cut_in_two() {
     for (std::uint32_t i = 0; i < 2; ++i) {
         const std::uint32_t a = i, b = i + 1, c = i + 2, d = (i + 3) % 4;

@@ -1,6 +1,6 @@
 #pragma once
-// A face of any shape as the shapes that a scene consists of: triangles and planar convex quads.
-// Its area is kept, and every corner stays a corner, so that neighbours still meet.
+// This divides a face of any shape into the shapes that a scene consists of: triangles and planar
+// convex quads. Its area is kept, and every corner stays a corner, so that neighbours still meet.
 //
 // Quads that are planar and convex stay; other quads are cut along a diagonal. Planar convex
 // polygons are cut into strips, each a quad. All others are cut into triangles in the plane of
@@ -20,7 +20,7 @@ namespace hemilux {
 /// non-planar.
 inline constexpr double planarity_tolerance = 1e-6;
 
-/// What is noteworthy about a face.
+/// The noteworthy properties of a face.
 struct PolygonFlags {
     bool degenerate = false; ///< no wider than the rounding of its coordinates: it has no pieces
     bool nonplanar = false;
@@ -30,8 +30,8 @@ struct PolygonFlags {
     bool unfinished = false; ///< too intricate: its pieces may overlap
 };
 
-/// How much work faces may cause, counted in visits of nodes and in pairs of edges. Simple faces
-/// of any number of corners take a few hundred per corner; the rest is for a few intricate ones.
+/// The work that faces may cause, counted in visits of nodes and in pairs of edges. Simple faces of
+/// any number of corners take a few hundred per corner; the rest is for a few intricate ones.
 struct DivisionWork {
     std::uint64_t divide = 50'000'000, compare = 100'000'000;
     static constexpr std::uint64_t divide_each = 1000, compare_each = 256; ///< more, for a corner
@@ -44,7 +44,7 @@ class PolygonDivision {
 
     /// Divides a polygon of any number of corners. Corners equal to the one before are left out.
     PolygonFlags divide(std::span<const Vec3> corners);
-    /// The pieces of the last polygon.
+    /// Returns the pieces of the last polygon.
     [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
     /// The work that all polygons together may still cause; each adds some of its own.
     DivisionWork work;

@@ -13,7 +13,7 @@ struct Edge {
     Vec2 low, high;
 };
 
-/// With x the axis on which the edges are shorter.
+/// Returns the edges in ascending order of low.x, with x the axis on which they are shorter.
 std::vector<Edge> edges_by_low_x(std::span<const Vec2> corners) {
     std::vector<Edge> edges;
     edges.reserve(corners.size());

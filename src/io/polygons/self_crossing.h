@@ -1,5 +1,5 @@
 #pragma once
-// Whether the edges of a polygon of the plane cross each other.
+// This finds out whether the edges of a polygon in the plane cross each other.
 
 #include "geometry/vector.h"
 
@@ -9,10 +9,10 @@
 
 namespace hemilux {
 
-/// Of four corners or more. Edges that only touch do not cross. Coordinates may be wrong by
-/// `rounding`. The edges are sorted along the axis on which they are shorter, so the usual time is
-/// far below the O(n^2) of the worst case. Pairs that are looked at are taken from `work`; empty
-/// where it does not suffice.
+/// Returns whether a polygon of four or more corners crosses itself. Edges that only touch do not
+/// cross. Coordinates may be wrong by `rounding`. The edges are sorted along the axis on which they
+/// are shorter, so the usual time is far below the O(n^2) of the worst case. Pairs that are
+/// compared are taken from `work`; the result is empty where it does not suffice.
 [[nodiscard]] std::optional<bool> crosses_itself(std::span<const Vec2> corners, double rounding,
                                                  std::uint64_t& work);
 

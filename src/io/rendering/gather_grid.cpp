@@ -14,7 +14,8 @@ constexpr Vec2 pixel_centre(.5);
 /// Surfaces whose normals differ by more than this cosine have light of their own.
 constexpr double alike = .9;
 
-/// So far from the other's plane, as a share of their distance, a point still is of its surface.
+/// A point belongs to the surface of another up to this distance from its plane, as a share of the
+/// distance between them.
 constexpr double flatness = .2;
 
 } // namespace

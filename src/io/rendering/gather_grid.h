@@ -13,18 +13,18 @@
 
 namespace hemilux {
 
-/// Whether two points with unit normals belong to one surface, which may be bent a little.
+/// Returns whether two points with unit normals belong to one surface, which may be bent a little.
 [[nodiscard]] bool is_same_surface(const Vec3& a, const Vec3& normal_a, const Vec3& b,
                                    const Vec3& normal_b);
 
-/// What the shadow rays of a point found: bits, so that both together say that some were blocked.
+/// The results of a point's shadow rays, as bits: both together say that some rays were blocked.
 enum Shadow : std::uint8_t { none_blocked = 1, all_blocked = 2 };
 
 struct GridPoint {
     SurfacePoint at;         ///< facet none: no surface is visible there
-    double nearness = 0;     ///< mean inverse distance of what the rays met, or of lamps
+    double nearness = 0;     ///< mean inverse distance of hits, or of emitters [1/local unit]
     double noise = 0;        ///< relative error of the mean of the points around
-    unsigned rays = 0;       ///< gathered by so many
+    unsigned rays = 0;       ///< number of rays that gathered the light
     Vec2 squares{0.0};       ///< of the light that the rays read, and of that of bright patches
     bool aims = false;       ///< further rays are partly aimed at bright patches
     std::uint8_t shadow = 0; ///< Shadow, of rays from here and from the points beside it
@@ -39,19 +39,20 @@ class GatherGrid {
     /// The distance between points [pixels].
     static constexpr int step = 2;
 
-    /// The points of a picture of this size. `check` may throw to end it; it is called by several
-    /// threads.
+    /// Finds the points of a picture of this size [pixels]. `check` may throw to end it; it is
+    /// called by several threads.
     GatherGrid(const Mesh& mesh, const CameraRays& camera, int width, int height,
                const std::function<void()>& check, const Workers& workers);
 
     [[nodiscard]] int columns() const { return columns_; }
-    /// All points by number, row after row, also those without a surface.
+    /// Returns the number of all points, also those without a surface. They are numbered row after
+    /// row.
     [[nodiscard]] std::size_t size() const { return points_.size(); }
     [[nodiscard]] GridPoint& operator[](std::size_t number) { return points_[number]; }
     [[nodiscard]] std::size_t number_of(const GridPoint& point) const {
         return static_cast<std::size_t>(&point - points_.data());
     }
-    /// None outside of the picture, and where no surface is visible.
+    /// Returns null outside of the picture, and where no surface is visible.
     [[nodiscard]] const GridPoint* point(int x, int y) const {
         if (x < 0 || y < 0 || x >= columns_ || y >= rows_)
             return nullptr;
@@ -60,8 +61,8 @@ class GatherGrid {
                     static_cast<std::size_t>(x)];
         return found.at.facet == none ? nullptr : &found;
     }
-    /// Calls visit(there) for the points of the same surface in the square that reaches so many
-    /// points from one, among them itself.
+    /// Calls visit(there) for the points of the same surface in a square around `here`, itself
+    /// included. The square reaches `reach` points to each side.
     template <class Visit>
     void for_each_around(const GridPoint& here, int x, int y, int reach, const Visit& visit) const {
         for (int dy = -reach; dy <= reach; ++dy)
@@ -70,8 +71,8 @@ class GatherGrid {
                     there && here.is_of_surface(there->at))
                     visit(*there);
     }
-    /// Calls visit(point, x, y) for each point with a surface, by several threads; before some rows
-    /// at a time check(), which may throw to end it.
+    /// Calls visit(point, x, y) for each point with a surface, in several threads. Calls check(),
+    /// which may throw to end it, before some rows at a time.
     template <class Visit, class Check = void (*)()>
     void for_each_point(
         const Workers& workers, const Visit& visit, const Check& check = [] {}) const {
@@ -84,7 +85,8 @@ class GatherGrid {
         });
     }
 
-    /// From a point with a surface to the next ones on it; the larger of both directions.
+    /// Returns the distance from a point with a surface to the farthest of its four neighbours on
+    /// it, in local units; 0 without any.
     [[nodiscard]] double spacing(int x, int y) const;
     /// Joins what each point knows of nearness and shadows with the points beside it: a few rays
     /// estimate nearness badly, and may miss a shadow.

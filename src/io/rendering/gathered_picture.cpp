@@ -12,7 +12,8 @@
 namespace hemilux {
 namespace {
 
-/// Over so many pixels, at both ends by half: their rays together are well distributed.
+/// The weights of the pixels along a window. Those at both ends count half, so that the rays of a
+/// window together are well distributed.
 constexpr std::array<float, 5> window{.5f, 1, 1, 1, .5f};
 constexpr int half_window = 2;
 
@@ -30,7 +31,7 @@ class GatheredPicture {
     [[nodiscard]] Image render(const std::function<void()>& check, const Workers& workers);
 
   private:
-    /// What a pixel shows of one facet, or a whole pixel where it shows nothing else.
+    /// The part of a pixel that shows one facet, or the whole pixel where it shows nothing else.
     struct Part {
         glm::vec3 position{0.0f};                 ///< local frame
         glm::vec3 direct{0.0f}, unshadowed{0.0f}; ///< by its own shadow rays
@@ -116,8 +117,8 @@ void GatheredPicture::gather_band(const VisibleFacets::Band& band, int first, in
     }
 }
 
-/// Parts of pixels count where the pixel itself is one: a strip narrower than a pixel shows nothing
-/// else.
+/// Parts of other pixels count only for a part of a pixel: a strip narrower than a pixel shows
+/// nothing else.
 glm::vec3 GatheredPicture::direct_light(const Part& part, int y) const {
     const Vec3& normal = mesh_.patches()[part.patch].normal;
     glm::vec3 arriving(0.0f), unshadowed(0.0f);

@@ -1,9 +1,10 @@
 #pragma once
 // A picture whose light is gathered at its pixels (picture_gather.h).
 //
-// Which share of the direct light arrives is found first for each pixel at the edge of a shadow, by
-// few shadow rays that differ from pixel to pixel; then a pixel takes the share of the four by four
-// pixels of its surface around it. Each such square has one well distributed set of shadow rays.
+// At the edge of a shadow, each pixel first traces a few shadow rays, which differ from pixel to
+// pixel. They say which share of the direct light arrives. Then a pixel takes the share of the four
+// by four pixels of its surface around it. Each such square has one well distributed set of shadow
+// rays.
 
 #include "io/pictures/image.h"
 #include "io/rendering/picture_gather.h"

@@ -11,23 +11,24 @@
 namespace hemilux {
 namespace {
 
-/// Light of a lamp changes as its inverse square or faster, other light more slowly.
+/// Light of an emitter changes as the inverse square of its distance or faster, other light more
+/// slowly.
 constexpr double of_emitters = 2;
 
 /// Points that average over fewer steps than these get more rays, or many.
 constexpr double steps_for_more = 7, steps_for_many = 3.5;
 
-/// Relative errors of means from which on points get more rays, or many.
+/// Relative errors of means from which points get more rays, or many.
 constexpr double noise_for_more = .05, noise_for_many = .1;
 
-/// Rays are aimed at bright patches from where these have this share of the squares of the light
-/// that rays at random read: such squares are the variance, all but the mean.
+/// Rays are aimed at bright patches from points where these have this share of the squares of the
+/// light that random rays read. Such squares are the variance but for the mean.
 constexpr double share_to_aim = .4;
 
-/// Of sums of the same light in another order.
+/// The rounding error of sums of the same light in another order.
 constexpr double rounding = 1e-9;
 
-/// The bits of x at even places.
+/// Spreads the bits of x to the even places.
 std::uint32_t spread_bits(std::uint32_t x) {
     x = (x | x << 4) & 0x0f0fu;
     x = (x | x << 2) & 0x3333u;
@@ -62,15 +63,16 @@ PictureGather::PictureGather(const Mesh& mesh, const Tracer& tracer, PatchLight 
         light_.fit(stride, options.check, workers);
 }
 
-/// Along a Z-curve, so that each aligned square of points has a net of the sequence (Ahmed and
-/// Wonka 2020). Each block of 256 x 256 points has a sequence of its own for each count.
+/// Takes the samples along a Z-curve, so that each aligned square of points has a net of the
+/// sequence (Ahmed and Wonka 2020). Each block of 256 x 256 points has a sequence of its own for
+/// each count.
 GatherSamples PictureGather::samples_of(int x, int y, unsigned count) {
     const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
     const std::uint32_t place = spread_bits(column & 255u) | spread_bits(row & 255u) << 1;
     return {hash_words({column >> 8, row >> 8, count}), place * count, count};
 }
 
-/// By rays_at(x, y) more rays at each point.
+/// Gathers by rays_at(x, y) more rays at each point.
 template <class Rays>
 void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& workers) {
     const auto columns = static_cast<std::size_t>(grid_.columns());
@@ -116,8 +118,8 @@ void PictureGather::gather(const Rays& rays_at, Shadows shadows, const Workers& 
         });
 }
 
-/// Where few points are near enough to average over, or where few rays find most of the light, as
-/// that of a sky through a window.
+/// Returns how many more rays a point needs. They help where few points are near enough to average
+/// over. They also help where few rays find most of the light, as that of a sky through a window.
 unsigned PictureGather::more_rays(int x, int y) const {
     const GridPoint& here = *grid_.point(x, y);
     const double width = grid_.spacing(x, y), reach = reach_of(here.nearness);
@@ -137,8 +139,8 @@ void PictureGather::judge_points(const Workers& workers) {
     });
 }
 
-/// Shadow rays are traced where some were blocked around, and some were not; all rays where no
-/// point is around.
+/// Traces shadow rays where some rays of the points around were blocked and some were not. Where no
+/// point is around, it traces all rays.
 std::vector<PictureGather::Light> PictureGather::irradiance(std::span<const Place> places) const {
     SomePoints alone, in_penumbra;
     std::vector<Light> found(places.size());

@@ -1,15 +1,15 @@
 #pragma once
-// The light on what a picture shows, gathered from a solution: shadows at their places, with the
-// edges that patches are too large for.
+// The light on what a picture shows, gathered from a solution. Shadows are at their places, with
+// the edges that patches are too large for.
 //
-// Light straight from small emitters has sharp edges: where some shadow rays of the points around
+// Light straight from small emitters has sharp edges. Where some shadow rays of the points around
 // are blocked and some are not, it is found by shadow rays at each pixel. All other light varies
-// slowly. It is gathered at the points of a grid (gather_grid.h), each of which takes other rays of
-// one well distributed sequence (interleaved sampling: Keller and Heidrich 2001), and smoothed over
-// the points around (slow_light.h; Wald et al. 2002). The fewer neighbours are near enough for
-// that, and the more they differ, the more rays a point takes. Where most of their noise is of
-// bright patches, half of these further rays are aimed at those (bright_patches.h). Pixels read the
-// functions around them that lie on the same surface.
+// slowly. It is gathered at the points of a grid (gather_grid.h). Each of them takes other rays of
+// one well distributed sequence (interleaved sampling: Keller and Heidrich 2001). Then the light is
+// smoothed over the points around (slow_light.h; Wald et al. 2002). The fewer neighbours are near
+// enough for that, and the more they differ, the more rays a point takes. Where most of their noise
+// comes from bright patches, half of these further rays are aimed at such patches
+// (bright_patches.h). Pixels read the functions around them that lie on the same surface.
 
 #include "geometry/vector.h"
 #include "io/rendering/gather_grid.h"
@@ -23,9 +23,9 @@
 namespace hemilux {
 
 struct PictureGatherOptions {
-    /// Cosine-distributed rays of a point: a quarter of them where it has many neighbours to
-    /// average over, up to five times as many where it has few. A pixel at the edge of a shadow
-    /// takes half as many shadow rays. Four times as many halve the noise.
+    /// The cosine-distributed rays of a point. It takes a quarter of them where it has many
+    /// neighbours to average over, and up to about four times as many where it has few. A pixel at
+    /// the edge of a shadow takes half as many shadow rays. Four times as many halve the noise.
     unsigned rays = 16;
     unsigned samples = 4;                ///< of a pixel
     std::function<void()> check = [] {}; ///< may throw to end it; is called by several threads
@@ -37,20 +37,20 @@ class PictureGather {
                   const CameraRays& camera, int width, int height,
                   const PictureGatherOptions& options, const Workers& workers);
 
-    /// Where samples of a pixel show a surface: `count` of them, the first of which is number
-    /// `sample` of the pixel.
+    /// A place where samples of a pixel show a surface: `count` of them, the first of which is
+    /// number `sample` of the pixel.
     struct Place {
         SurfacePoint at;
         Vec2 pixel; ///< in pixels
         unsigned sample, count;
     };
-    /// Direct light is slow.unshadowed times the share of it that arrives: the ratio of sums over
-    /// `direct` of places around, as the few rays of one place estimate it badly.
+    /// Direct light is slow.unshadowed times the share of it that arrives. This share is the ratio
+    /// of sums over `direct` of places around, as the few rays of one place estimate it badly.
     struct Light {
         EmitterLight direct;
         SlowLight slow;
     };
-    /// The light at each place. May be called by several threads.
+    /// Returns the light at each place. Several threads may call it.
     [[nodiscard]] std::vector<Light> irradiance(std::span<const Place> places) const;
 
   private:

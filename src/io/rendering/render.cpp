@@ -19,8 +19,8 @@
 namespace hemilux {
 namespace {
 
-/// Places in a pixel, both coordinates well spread: the set of Hammersley 1960, moved so that none
-/// lies on the border.
+/// Returns places in a pixel with both coordinates well spread: the set of Hammersley 1960, moved
+/// so that none lies on the border.
 std::vector<Vec2> pixel_samples(int count) {
     std::vector<Vec2> places;
     for (int i = 0; i < count; ++i) {
@@ -32,8 +32,8 @@ std::vector<Vec2> pixel_samples(int count) {
     return places;
 }
 
-/// Radiosity at a point of a patch. Where textures show, what is interpolated over their patches is
-/// the irradiance, which knows nothing of them.
+/// The radiosity at a point of a patch. Where textures show, the irradiance, which does not depend
+/// on them, is interpolated over their patches.
 class Shading {
   public:
     Shading(const Mesh& mesh, std::span<const Vec3> radiosity, const RenderOptions& options)
@@ -51,7 +51,7 @@ class Shading {
     Shading(const Shading&) = delete;
     Shading& operator=(const Shading&) = delete;
 
-    /// At what is shown of a half of a facet around a place.
+    /// Returns the radiosity of what a half of a facet shows around a place.
     Vec3 at(const VisibleFacets& visible, std::uint32_t half, const Vec2& place) const {
         const Vec3 direction = visible.direction(place);
         const Hit hit = visible.hit_at(half, direction);
@@ -98,7 +98,7 @@ class Shading {
     std::vector<Vec3> corner_radiosity_;
 };
 
-/// The light of the patches at what each pixel shows.
+/// Renders the light of the patches at what each pixel shows.
 Image shaded_picture(const VisibleFacets& visible, const Shading& shading,
                      const RenderOptions& options, const std::function<void()>& check) {
     Image image(options.width, options.height);

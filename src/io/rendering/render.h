@@ -16,12 +16,12 @@ struct Slope;
 struct RenderOptions {
     int width = 800, height = 600; ///< pixels
     int samples = 4; ///< places in a pixel; more: smoother edges, proportionally slower
-    /// Surfaces show their textures; else the means of patches, as values that are no light have no
+    /// Surfaces show their textures; else the means of patches. Values that are no light have no
     /// textures.
     bool textures = false;
     bool smooth = true; ///< interpolate over patches; else each shows its own radiosity
-    /// Rays that gather the light at points once more (picture_gather.h): shadows have their
-    /// places, for many times the time. 0: the patches' light is shown.
+    /// The number of rays that gather the light at points once more (picture_gather.h). Shadows are
+    /// then at their places, for many times the time. 0: the patches' light is shown.
     unsigned gather = 0;
     unsigned threads = 0;                   ///< 0: one per core. The picture does not depend on it
     const CornerClasses* classes = nullptr; ///< of the mesh, where they are known already
@@ -35,7 +35,7 @@ struct RenderOptions {
 [[nodiscard]] Image render(const Mesh& mesh, const Tracer& tracer, std::span<const Vec3> radiosity,
                            const Camera& camera, const RenderOptions& options = {});
 
-/// The exposure by auto_exposure() for a picture that render() made.
+/// Returns the exposure by auto_exposure() for a picture that render() made.
 [[nodiscard]] double exposure_of(const Image& picture, const Mesh& mesh, const Tracer& tracer,
                                  const Camera& camera, unsigned threads = 0);
 

@@ -9,18 +9,18 @@
 namespace hemilux {
 namespace {
 
-/// Of the harmonic mean distance: as far as that the light is taken to be about the same.
+/// The share of the harmonic mean distance within which the light is taken to be about the same.
 constexpr double reach_share = .25;
 
-/// A point has neighbours at so many times their spacing, whatever is near.
+/// A point has neighbours up to this many times their spacing, whatever is near.
 constexpr double least_steps = 2.5;
 
-/// Of the points of a window, those at its ends count half: the window is then as wide as squares
-/// of the sequence of samples are.
+/// Returns the weight of a step within a window. Points at its ends count half, so that the window
+/// is as wide as squares of the sequence of samples.
 double ends(int step) { return std::abs(step) == reach_points ? .5 : 1; }
 
-/// Of a point for the mean around another; 0 where it is too far away or of another surface.
-/// `most`: inverse of a distance within which none is too far.
+/// Returns the weight of a point for the mean around another; 0 or less where it is too far away or
+/// of another surface. `most` is the inverse of a distance within which none is too far.
 double weight_of(const GridPoint& here, const GridPoint* there, double most) {
     if (!there || !here.is_of_surface(there->at))
         return 0;
@@ -45,7 +45,7 @@ struct Fit {
         by_x.add(light, weight * offset.x);
         by_y.add(light, weight * offset.y);
     }
-    /// From sums to the function: its slope, and its value at the point in `sum`.
+    /// Turns the sums into the function: its slope, and its value at the point, in `sum`.
     void solve(std::array<SlowLight, 2>& slope) {
         mean /= n;
         squares -= n * mean * mean;

@@ -1,8 +1,8 @@
 #pragma once
-// The light of a picture that varies slowly: all but the shadows of small emitters. It was gathered
-// at the points of a grid by few rays, and is smoothed over those around on the same surface.
+// The light of a picture that varies slowly: all but the shadows of small emitters. It is gathered
+// at the points of a grid by few rays, and smoothed over those around on the same surface.
 //
-// Such light varies the more slowly the further surfaces are away (Ward, Rubinstein and Clear
+// The farther surfaces are away, the more slowly such light varies (Ward, Rubinstein and Clear
 // 1988). So a linear function is fitted to the points within a share of the harmonic mean distance
 // of what their rays met.
 
@@ -29,44 +29,46 @@ struct SlowLight {
     }
 };
 
-/// Points in each direction over which one averages.
+/// The number of points in each direction over which a point averages.
 inline constexpr int reach_points = 4;
 
-/// How far the light about a point is taken to be about the same, in local units.
+/// Returns the distance from a point within which the light is taken to be about the same, in local
+/// units.
 [[nodiscard]] double reach_of(double nearness);
 
 class SlowLightField {
   public:
-    /// The grid outlives this and may still change.
+    /// The grid must outlive this object and may still change.
     explicit SlowLightField(const GatherGrid& grid)
         : grid_(grid), light_(grid.size()), slope_(grid.size()) {}
 
-    /// That of a point of the grid, by its number.
+    /// Returns the light of a point of the grid, by its number.
     [[nodiscard]] SlowLight& at(std::size_t point) { return light_[point]; }
 
-    /// The relative error of the mean of indirect light around a point, by the spread of the points
-    /// around as if they were independent.
+    /// Returns the relative error of the mean of indirect light around a point. It follows from the
+    /// spread of the points around, as if they were independent.
     [[nodiscard]] double noise_around(const GridPoint& here, int x, int y) const;
 
-    /// Fits a linear function to the points around each, so that light which changes evenly stays
-    /// as it is up to the edge of a surface (local linear regression: Fan 1992). They are `stride`
-    /// apart: what was smoothed with stride 1 has little detail between such points (the algorithme
-    /// a trous: Dammertz et al. 2010). `check` may throw to end it.
+    /// Fits a linear function to the points around each (local linear regression: Fan 1992). Light
+    /// that changes evenly then stays as it is up to the edge of a surface. The points are `stride`
+    /// apart: light smoothed with stride 1 has little detail between such points (the algorithme a
+    /// trous: Dammertz et al. 2010). `check` may throw to end it.
     void fit(int stride, const std::function<void()>& check, const Workers& workers);
 
     struct Around {
         SlowLight light;
         std::uint8_t shadow = 0; ///< Shadow
     };
-    /// From the four points around a place of the picture [pixels], as far as they are of the same
-    /// surface; where none is, as on narrow strips, from the twelve around these.
+    /// Interpolates from the four points around a place of the picture [pixels], as far as they are
+    /// of the same surface. Where none is, as on narrow strips, it takes the twelve around these;
+    /// empty where none of them is either.
     [[nodiscard]] std::optional<Around> interpolate(const SurfacePoint& at,
                                                     const Vec2& pixel) const;
 
   private:
     const GatherGrid& grid_;
     std::vector<SlowLight> light_; ///< by point
-    /// What it changes by from a point to the next one on the right, and in the next row.
+    /// The change of the light from a point to the next one on the right, and in the next row.
     std::vector<std::array<SlowLight, 2>> slope_;
 };
 

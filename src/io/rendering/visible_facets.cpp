@@ -9,7 +9,7 @@
 
 namespace hemilux {
 
-/// Values that are linear across the picture: at sample (x, y) at + x column + y row.
+/// Values that are linear across the picture: at + x column + y row at sample (x, y).
 struct VisibleFacets::Triangle {
     struct Linear {
         double at, column, row;
@@ -52,7 +52,8 @@ VisibleFacets::VisibleFacets(const Mesh& mesh, const CameraRays& camera, const S
             halves_[next[static_cast<std::size_t>(band)]++] = half;
 }
 
-/// From the eye. What would be the second half of a triangle has one corner twice: its volume is 0.
+/// Returns the corners of a half, relative to the eye. The second half of a triangle has one corner
+/// twice, so that its volume is 0.
 VisibleFacets::Corners VisibleFacets::corners_of(std::uint32_t half) const {
     const FacetSoup soup = mesh_.soup_to_trace();
     const FacetCorners& all = soup.facets[half / 2];
@@ -61,12 +62,13 @@ VisibleFacets::Corners VisibleFacets::corners_of(std::uint32_t half) const {
             soup.vertices[all[second ? 3 : 2]] - eye_};
 }
 
-/// Six times the volume between the eye and the triangle: negative where its front faces the eye.
+/// Returns six times the volume between the eye and the triangle; it is negative where the
+/// triangle's front faces the eye.
 double VisibleFacets::volume(const Corners& corner) {
     return glm::dot(corner[0], glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
 }
 
-/// False where none of the rows shows the half.
+/// Finds the first and the last row that may show the half; false where no row does.
 bool VisibleFacets::rows_of(std::uint32_t half, int& first, int& last) const {
     const Corners corner = corners_of(half);
     const double volume_seen = volume(corner);
@@ -149,7 +151,8 @@ void VisibleFacets::for_each_band(
         });
 }
 
-/// `start`: of the first sample.
+/// Fills the samples of a row in which the half is the nearest so far. `start` is the place of the
+/// first sample.
 void VisibleFacets::fill_row(const Triangle& triangle, const Vec2& start, std::uint32_t half,
                              std::uint32_t* halves, double* nearness) const {
     int low = 0, high = grid_.columns - 1;

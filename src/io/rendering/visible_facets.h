@@ -1,10 +1,11 @@
 #pragma once
-// Which facet each sample of a picture shows first, for all samples of some rows at once.
+// This finds which facet each sample of a picture shows first, for all samples of some rows at
+// once.
 //
-// Rays of a pinhole camera have one origin, so that what a ray needs to know of a triangle is
-// linear across the picture: with corners a, b, c seen from the eye, the ray of direction d is
-// inside where det(a, b, d), det(b, c, d) and det(c, a, d) have one sign (Olano and Greer 1997),
-// and the inverse of its distance is linear in d as well. So triangles are filled row by row into a
+// Rays of a pinhole camera have one origin. So what a ray needs to know of a triangle is linear
+// across the picture. Let a, b, c be the corners seen from the eye. The ray of direction d is
+// inside where det(a, b, d), det(b, c, d) and det(c, a, d) have one sign (Olano and Greer 1997).
+// The inverse of its distance is linear in d as well. So triangles are filled row by row into a
 // depth buffer (Catmull 1974), with no ray traced. Neighbours evaluate their common edge with the
 // same rounding and opposite signs: nothing shows between them.
 
@@ -28,7 +29,8 @@ struct SampleGrid {
     double column_width, row_height; ///< as shares of the picture's width and height
 };
 
-/// Half of a facet that is a quad, or a whole triangle: facet * 2 + (second half ? 1 : 0).
+/// The mark of a sample that shows nothing. All other values are halves of facets that are quads,
+/// or whole triangles: facet * 2 + (second half ? 1 : 0).
 inline constexpr std::uint32_t nothing_visible = 0xffffffff;
 
 class VisibleFacets {
@@ -49,24 +51,24 @@ class VisibleFacets {
     };
     void fill(int band, Band& out) const;
     /// Calls visit(band, first, end) for each band once it is filled, with its rows of the picture,
-    /// by several threads; before each check(), which may throw to end it.
+    /// in several threads. Calls check(), which may throw to end it, before each band.
     void
     for_each_band(const Workers& workers, const std::function<void()>& check,
                   const std::function<void(const Band& band, int first, int end)>& visit) const;
-    /// CameraRays::direction through a place in samples.
+    /// Returns CameraRays::direction through a place in samples.
     [[nodiscard]] Vec3 direction(const Vec2& place) const {
         return origin_ + place.x * column_ + place.y * row_;
     }
     [[nodiscard]] const Vec3& eye() const { return eye_; }
 
     /// Calls visit(half, place, sample, count) for what pixel (x, y) of the band shows: `half` in
-    /// `count` samples from number `sample` on, around `place`. Where all show one half they are
-    /// visited together, unless `one_by_one`; and else each by itself.
+    /// `count` samples from number `sample` on, around `place`. Samples that all show one half are
+    /// visited together, unless `one_by_one` is set; else each is visited by itself.
     template <class Visit>
     void visit_pixel(const Band& band, int x, int y, bool one_by_one, const Visit& visit) const;
 
-    /// The hit record of the ray through a point of the picture on the plane of a facet's half that
-    /// it shows. t counts in lengths of CameraRays::direction.
+    /// Returns the hit of the ray through a point of the picture on the plane of a facet's half
+    /// that it shows. t counts in lengths of CameraRays::direction.
     [[nodiscard]] Hit hit_at(std::uint32_t half, const Vec3& direction) const;
 
   private:
@@ -85,7 +87,7 @@ class VisibleFacets {
     Vec2 centre_{0.0}; ///< of the offsets
     Vec3 eye_;
     int bands_;
-    /// Of the direction: at sample (0, 0), and what a column and a row add.
+    /// The direction at sample (0, 0), and what a column and a row add to it.
     Vec3 origin_, column_, row_;
     /// Halves that reach into band b: halves_[first_[b]] to halves_[first_[b + 1]], in order.
     std::vector<std::size_t> first_;

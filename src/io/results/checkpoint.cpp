@@ -31,7 +31,7 @@ void add_row(StateWriter& out, const StepRow& row) {
         out.add(value);
 }
 
-/// NaN: it is not known.
+/// Reads an error; NaN says that it is not known.
 double error_from(StateReader& in) {
     const double error = in.number();
     if (error < 0)
@@ -88,9 +88,9 @@ Checkpoint parse_content(std::string_view bytes) {
     return checkpoint;
 }
 
-/// FNV-1a with 64 bits (Fowler, Noll, Vo): shows any change of a single byte, and others but by a
-/// chance of 2^-64. No protection against somebody who means harm. `sum` is that of the bytes
-/// before.
+/// Computes FNV-1a with 64 bits (Fowler, Noll, Vo). It shows any change of a single byte, and
+/// misses others by a chance of 2^-64. It is no protection against somebody who means harm. `sum`
+/// is that of the bytes before.
 std::uint64_t checksum_of(std::string_view bytes, std::uint64_t sum = 0xcbf29ce484222325) {
     constexpr std::uint64_t prime = 0x100000001b3;
     for (const char c : bytes)

@@ -1,9 +1,9 @@
 #pragma once
 // A run that can be resumed: its options, its scene and what it had computed.
 //
-// The file: a line that names the format and its version, the length of what follows, the content
-// (radiosity/saving/state.h) and a checksum of all of it. It replaces the one before only when it
-// is on the disk, so there is always a good one.
+// The file begins with a line that names the format and its version. Then follow the length of the
+// content, the content (radiosity/saving/state.h) and a checksum of all of it. It replaces the one
+// before only when it is on the disk, so there is always a good one.
 
 #include "io/results/tables.h"
 
@@ -21,15 +21,15 @@ struct Checkpoint {
     /// Options that the result depends on, as on the command line: name and value.
     std::vector<std::pair<std::string, std::string>> options;
     std::uint64_t scene = 0;   ///< scene_hash()
-    double seconds = 0;        ///< of the solver until now
-    std::vector<StepRow> rows; ///< of the steps log until now
+    double seconds = 0;        ///< of the solver so far [s]
+    std::vector<StepRow> rows; ///< of the steps log so far
     std::string state;         ///< Solver::save()
 };
 
-/// A hash of all that the solvers see of a scene: positions, patches, materials.
+/// Returns a hash of all that the solvers see of a scene: positions, patches, materials.
 [[nodiscard]] std::uint64_t scene_hash(const Mesh& mesh);
 
-/// Any content as a whole file: with the first line, its length and the checksum.
+/// Returns any content as a whole file: with the first line, its length and the checksum.
 [[nodiscard]] std::string sealed_checkpoint(std::string_view content);
 [[nodiscard]] std::string to_bytes(const Checkpoint& checkpoint);
 /// Reads what to_bytes() made; throws InputError for anything else. `file` is for messages.

@@ -15,8 +15,8 @@ namespace {
 /// Positions nearer than this, in the local frame, are one.
 constexpr double weld_distance = 1e-9;
 
-/// The first of those that are one with each, by a sweep along a direction in which hardly any two
-/// other points are as near.
+/// Finds for each corner the first of those that are one with it. It sweeps along a direction in
+/// which hardly any two other points are as near.
 std::vector<std::uint32_t> first_of_point(std::span<const Vec3> corners) {
     constexpr Vec3 along(0.4896791743, -0.5781243907, 0.6526183259);
     std::vector<double> place;
@@ -36,7 +36,7 @@ std::vector<std::uint32_t> first_of_point(std::span<const Vec3> corners) {
     return first;
 }
 
-/// What is on the edge of the file that facets share, or at one of its ends.
+/// A point on an edge of the file that facets share, or at one of its ends.
 struct EdgePoint {
     double place; ///< along the edge
     std::uint32_t point;
@@ -71,7 +71,7 @@ class SideSearch {
                           patch.shape.corner[c], patch.shape.corner[(c + 1) % size_of(patch)], 1);
     }
 
-    /// Two facets may cut their common edge into other numbers of pieces.
+    /// Two facets may cut their common edge into different numbers of pieces.
     void search_between_facets() {
         const FacetSoup soup = mesh_.soup();
         const auto is_divided = [&](const Edge& edge) { return mesh_.is_divided(edge.facet); };
@@ -83,7 +83,7 @@ class SideSearch {
         });
     }
 
-    /// Both searches may have found the same.
+    /// Returns each point once: both searches may have found the same.
     [[nodiscard]] std::vector<PointOnSide> take() {
         std::ranges::sort(found_);
         const auto same = [](const PointOnSide& a, const PointOnSide& b) {
@@ -101,7 +101,7 @@ class SideSearch {
         return static_cast<std::size_t>(patch.shape.size());
     }
 
-    /// The points between a and b, which are `part` of the side from side.place on.
+    /// Finds the points between a and b, which are `part` of the side from side.place on.
     void halve(PointOnSide side, const Vec3& a, const Vec3& b, double part) {
         const Vec3 between = middle(a, b);
         const auto at = point_at_.find(between);

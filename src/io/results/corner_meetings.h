@@ -1,6 +1,6 @@
 #pragma once
-// Where corners of patches meet in a point, and where such a point lies on a side of another patch:
-// between patches that are divided differently.
+// This finds where corners of patches meet in a point. It also finds where such a point lies on a
+// side of another patch, between patches that are divided differently.
 
 #include "geometry/vector.h"
 
@@ -37,8 +37,9 @@ struct PointOnSide {
     [[nodiscard]] auto operator<=>(const PointOnSide&) const = default;
 };
 
-/// Points on the sides that the division of facets has made, and on the edges of the file that
-/// divided facets share: in the order of patches, and round each. Each is listed once.
+/// Finds points on the sides that the division of facets has made, and on the edges of the file
+/// that divided facets share. They are in the order of patches, and go round each patch. Each is
+/// listed once.
 [[nodiscard]] std::vector<PointOnSide> find_points_on_sides(const Mesh& mesh,
                                                             const CornerMeetings& meetings);
 

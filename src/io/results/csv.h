@@ -11,14 +11,14 @@
 
 namespace hemilux::csv {
 
-/// The shortest text that gives back the same double; `nan`, `inf`, `-inf`.
+/// Appends the shortest text that gives back the same double, or `nan`, `inf`, `-inf`.
 void append_number(std::string& line, double value);
 void append_number(std::string& line, std::uint64_t value);
-/// Three times a comma and a number.
+/// Appends a comma and a number three times.
 void append_fields(std::string& line, const Vec3& v);
-/// Quoted where the text needs it. A spreadsheet takes a cell for a formula that begins with = + -
-/// or @, or with a blank of another kind before: such a name gets an apostrophe in front. Numbers
-/// are written by append_number, which adds none.
+/// Appends a text, quoted where it needs that. A spreadsheet takes a cell for a formula that begins
+/// with = + - or @, or with a tab or line end. Such a name gets an apostrophe in front. Numbers are
+/// written by append_number, which adds none.
 void append_text(std::string& line, std::string_view text);
 
 /// Reads records one after the other. Accepts CRLF and a missing final newline.
@@ -27,9 +27,9 @@ class Reader {
     /// `file` is for messages. Both must outlive the reader.
     Reader(const std::string& file, std::string_view content);
 
-    /// The next record that is not an empty line; false at the end. Throws InputError.
+    /// Reads the next record that is not an empty line; false at the end. Throws InputError.
     bool next(std::vector<std::string>& fields);
-    /// Where the last record began, from 1.
+    /// Returns the line where the last record began, from 1.
     [[nodiscard]] std::size_t line() const { return line_; }
 
   private:

@@ -12,8 +12,8 @@
 namespace hemilux {
 namespace {
 
-/// Magic, version, length of the text, and the text, padded so that the numbers begin at a multiple
-/// of 64 bytes.
+/// Returns the magic, the version, the length of the text, and the text, padded so that the numbers
+/// begin at a multiple of 64 bytes.
 std::string npy_header(std::size_t rows) {
     const std::string n = std::to_string(rows);
     std::string text =

@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 11> wanted{
     "radiosity_g", "radiosity_b", "stderr_r", "stderr_g", "stderr_b"};
 using Record = std::array<double, wanted.size()>;
 
-/// Where each wanted column stands in the file.
+/// Finds where each wanted column stands in the file.
 std::array<std::size_t, wanted.size()> find_columns(const std::string& path, std::size_t line,
                                                     const std::vector<std::string>& header) {
     std::array<std::size_t, wanted.size()> column{};
@@ -48,7 +48,7 @@ double number_in(const std::string& path, std::size_t line, std::string_view nam
     return value;
 }
 
-/// Only a standard error may be unknown.
+/// Checks a record, in which only a standard error may be unknown.
 void check(const std::string& path, std::size_t line, const Record& record, std::size_t row) {
     if (record[0] != static_cast<double>(row))
         throw InputError(path, line, "expected patch " + std::to_string(row));

@@ -22,7 +22,7 @@ constexpr std::string_view points_header =
     "point,x,y,z,nx,ny,nz,irradiance_r,irradiance_g,irradiance_b,radiosity_r,radiosity_g,"
     "radiosity_b,stderr_r,stderr_g,stderr_b\n";
 
-/// The next word of a row, which a comma or blanks end; empty where there is none.
+/// Takes the next word of a row, which a comma or blanks end; empty where there is none.
 std::string_view next_field(std::string_view& row) {
     row = trimmed(row);
     const std::size_t size = std::min(row.find_first_of(", \t\v\f"), row.size());
@@ -33,7 +33,8 @@ std::string_view next_field(std::string_view& row) {
     return field;
 }
 
-/// Words, and no number among them: `nan,0,0,0,0,1` is a row that is wrong.
+/// Returns whether a row has words and no number among them: `nan,0,0,0,0,1` is a row that is
+/// wrong.
 bool is_header(std::string_view row) {
     while (!row.empty()) {
         const std::string_view field = next_field(row);

@@ -21,14 +21,14 @@ struct NamedPoint {
     std::size_t line;  ///< in the file
 };
 
-/// Rows of six numbers x,y,z,nx,ny,nz with commas or blanks between them. A # begins a comment, and
-/// the first row may be a header. A pipe is read too. Throws InputError with file and line for any
-/// other row, for a normal without a direction and for a file without points.
+/// Reads rows of six numbers x,y,z,nx,ny,nz with commas or blanks between them. A # begins a
+/// comment, and the first row may be a header. A pipe is read too. Throws InputError with file and
+/// line for any other row, for a normal without a direction and for a file without points.
 [[nodiscard]] std::vector<NamedPoint> read_points(const std::string& path);
 
-/// Writes one row per point: number from 0, position and normal as they were read, irradiance,
-/// radiosity of the face that the point lies on, standard error of the irradiance. Throws
-/// OutputError.
+/// Writes one row per point: its number from 0, and its position and normal as they were read. Then
+/// follow the irradiance, the radiosity of the face that the point lies on, and the standard error
+/// of the irradiance [W/m2]. Throws OutputError.
 void write_points_table(const std::string& path, const Mesh& mesh,
                         std::span<const NamedPoint> points, std::span<const Sensor> sensors,
                         std::span<const PointLight> lights);

@@ -26,7 +26,7 @@ class Classifier {
   public:
     void clear() { delegates_.clear(); }
 
-    /// The delegate of a patch. Two with the same `root` are in one class.
+    /// Returns the delegate of a patch. Two with the same `root` are in one class.
     std::uint32_t add(const Patch& patch) {
         for (std::uint32_t d = 0; d < delegates_.size(); ++d)
             if (cosine(delegates_[d], patch) > same_)
@@ -65,7 +65,7 @@ class OutlineBuilder {
     OutlineBuilder(const Mesh& mesh, const CornerMeetings& meetings, CornerClasses& classes)
         : patches_(mesh.patches()), meetings_(meetings), classes_(classes) {}
 
-    /// `points`: all those on the sides of one patch.
+    /// Adds the outline of one patch; `points` are all those on its sides.
     void add(std::span<const PointOnSide> points) {
         const std::uint32_t patch = points.front().patch;
         const auto size = static_cast<std::uint32_t>(patches_[patch].shape.size());
@@ -86,7 +86,7 @@ class OutlineBuilder {
     }
 
   private:
-    /// The classes from the corner `from` to the one before the corner `to`.
+    /// Appends the classes from the corner `from` to the one before the corner `to`.
     void add_side(std::vector<std::uint32_t>& outline, std::span<const PointOnSide> points,
                   std::uint32_t from, std::uint32_t to) {
         std::vector<std::uint32_t> classes;
@@ -109,8 +109,8 @@ class OutlineBuilder {
         }
     }
 
-    /// The class at a point of the corner whose surface is most like the patch's; none where there
-    /// is a crease to all.
+    /// Returns the class at a point of the corner whose surface is most like the patch's; none
+    /// where there is a crease to all.
     [[nodiscard]] std::uint32_t class_at(const PointOnSide& point) const {
         double most = crease_cosine;
         std::uint32_t best = none;
@@ -147,7 +147,7 @@ class OutlineBuilder {
     std::unordered_map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> added_;
 };
 
-/// The interior angle at a corner [rad].
+/// Returns the interior angle at a corner [rad].
 double corner_angle(const Polygon& shape, std::size_t c) {
     const auto n = static_cast<std::size_t>(shape.size());
     const Vec3 a = shape.corner[(c + 1) % n] - shape.corner[c];

@@ -2,11 +2,11 @@
 // Radiosity at the corners of patches, for smooth pictures (Gouraud 1971, as used for radiosity by
 // Goral et al. 1984).
 //
-// Corners of patches that meet in one point form classes: two belong together when their patches
-// have the same material and normals that differ by less than the crease angle, or through others
-// for which that is so. Light does not bleed over a crease, to another material or to the other
-// side of a sheet. A class has one material, so its mean radiosity is the mean of the reflected
-// part plus that material's emission, and a lamp keeps a sharp edge.
+// Corners of patches that meet in one point form classes. Two belong together when their patches
+// have the same material and normals that differ by less than the crease angle. They belong
+// together too where that is so through others. Light does not bleed over a crease, to another
+// material or to the other side of a sheet. A class has one material, so its mean radiosity is the
+// mean of the reflected part plus that material's emission. An emitter keeps a sharp edge.
 
 #include "geometry/polygon.h"
 
@@ -21,8 +21,8 @@ namespace hemilux {
 class Mesh;
 struct Slope;
 
-/// A patch on whose sides corners of others lie, as meshes are written and drawn: so its
-/// neighbours and it have the same vertices, and no crack shows between them.
+/// A patch on whose sides corners of others lie, as meshes are written and drawn. So the patch and
+/// its neighbours have the same vertices, and no crack shows between them.
 struct Outline {
     std::uint32_t patch;
     std::vector<std::uint32_t> classes; ///< round the patch, from its first corner on
@@ -46,11 +46,11 @@ struct CornerClasses {
 
 [[nodiscard]] CornerClasses find_corner_classes(const Mesh& mesh);
 
-/// Null where a patch has no vertices but its corners.
+/// Returns the outline of a patch; null where it has no vertices but its corners.
 [[nodiscard]] const Outline* outline_of(const CornerClasses& classes, std::uint32_t patch);
 
-/// Calls visit(a, b, c) with the classes of each triangle of a patch. Those of all patches have no
-/// T-junction where facets were divided.
+/// Calls visit(a, b, c) with the classes of each triangle of a patch. The triangles of all patches
+/// have no T-junction where facets are divided.
 template <class Visit>
 void for_each_triangle(const CornerClasses& classes, std::uint32_t patch, const Visit& visit) {
     if (const Outline* const outline = outline_of(classes, patch)) {
@@ -64,27 +64,28 @@ void for_each_triangle(const CornerClasses& classes, std::uint32_t patch, const 
         visit(a, c, d);
 }
 
-/// Which patches take part in the mean of a class.
+/// The patches that take part in the mean of a class.
 enum class MeanOver {
     corners, ///< those with a corner in it: pictures interpolate each patch between its corners
     outlines ///< those too on whose sides it lies: meshes have it as a vertex there
 };
 
-/// The mean radiosity of each class of corners [W/m2], weighted by the angles at the corners.
-/// `slope`: empty, or by patch, what its light is in its corners.
+/// Returns the mean radiosity of each class of corners [W/m2], weighted by the angles at the
+/// corners. `slope` is empty, or says by patch what its light is in its corners.
 [[nodiscard]] std::vector<Vec3> smooth(const Mesh& mesh, const CornerClasses& classes,
                                        std::span<const Vec3> radiosity,
                                        std::span<const Slope> slope = {},
                                        MeanOver over = MeanOver::outlines);
 
-/// The same of any value that patches have in their corners.
+/// Returns the same for any value that patches have in their corners.
 [[nodiscard]] std::vector<Vec3>
 smooth(const Mesh& mesh, const CornerClasses& classes,
        const std::function<Vec3(std::uint32_t patch, const Vec3& corner)>& value,
        MeanOver over = MeanOver::outlines);
 
-/// Weights of the corners for a point of the polygon: barycentric in a triangle, the inverse of the
-/// bilinear map in a quad. Linear along edges, so that neighbours agree there.
+/// Returns the weights of the corners for a point of the polygon: barycentric in a triangle, the
+/// inverse of the bilinear map in a quad. They are linear along edges, so that neighbours agree
+/// there.
 [[nodiscard]] std::array<double, 4> corner_weights(const Polygon& shape, const Vec3& point);
 
 } // namespace hemilux

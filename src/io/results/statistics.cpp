@@ -9,14 +9,14 @@
 namespace hemilux {
 namespace {
 
-/// In the order of ErrorOf.
+/// The names of errors, in the order of ErrorOf.
 constexpr std::array names_of_errors = {"patches", "surfaces", "gathered", "target"};
 
 using Json = nlohmann::ordered_json;
 
 Json channels(const Vec3& power) { return Json::array({power.x, power.y, power.z}); }
 
-/// Names without their dashes; true for a flag, several values as an array.
+/// Returns the options by their names without dashes: true for a flag, several values as an array.
 Json settings(const std::vector<GivenOption>& options) {
     Json object = Json::object();
     for (const auto& [name, values] : options) {

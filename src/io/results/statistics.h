@@ -18,12 +18,13 @@ struct GivenOption {
     std::vector<std::string> values; ///< none: a flag
 };
 
-/// Of what light the estimated error is: of the patches' means; of the light on the surfaces, as
-/// functions on patches have it; of the light that is gathered at points or for pictures; of that
-/// on the target of --for.
+/// The light that the estimated error is about. `patches` stands for the patches' means, and
+/// `surfaces` for the light on the surfaces, as functions on patches have it. `gathered` stands for
+/// the light that is gathered at points or for pictures, and `target` for that on the target of
+/// --for.
 enum class ErrorOf { patches, surfaces, gathered, target };
 
-/// Of one rank.
+/// The figures of one rank.
 struct RankFigures {
     RankWork work;
     std::uint64_t bytes_peak;
@@ -44,8 +45,8 @@ struct Statistics {
     std::uint64_t rays_divide = 0;
     double seconds_division_error = unknown; ///< to find out error_division
     std::uint64_t rays_division_error = 0;
-    /// Between the stages above and below: what the scene does not need, what is read besides it,
-    /// where light is lost.
+    /// The time between the stages above and below [s]: for what the scene does not need, what is
+    /// read besides it, and where light is lost.
     double seconds_analysis = unknown;
     double seconds_gather = 0;      ///< of light at points, and of pictures unless interpolated
     double seconds_picture = 0;     ///< all else of pictures: views, interpolation, files
@@ -64,27 +65,27 @@ struct Statistics {
     /// all patches alike. Where there are any, the error of all that has no weight stands beside
     /// it.
     std::vector<std::string> target = {};
-    double estimated_error_elsewhere = unknown;
-    double error_sampling = unknown; ///< relative, of the patches' means
+    double estimated_error_elsewhere = unknown; ///< relative
+    double error_sampling = unknown;            ///< relative, of the patches' means
     /// The relative error of the light on the surfaces because it changes within patches
     /// (division_error.h).
     double error_division = unknown, error_division_uncertainty = unknown;
     EnergyBalance energy;
-    /// Of the emitted power that of suns and skies, whose light mostly passes the scene by, and
-    /// what all other surfaces reflect [W]. In the JSON where there are suns or skies.
+    /// The emitted power of suns and skies, whose light mostly passes the scene by, and the power
+    /// that all other surfaces reflect [W]. Both are in the JSON where there are suns or skies.
     double emitted_far = 0, reflected = 0;
     std::vector<LeftOut> left_out;
     std::uint64_t bytes_spilled = 0; ///< the size of the file of --spill; in the JSON where it is
-    /// What each rank has done, where there are several.
+    /// The figures of each rank, where there are several.
     std::vector<RankFigures> ranks = {};
     std::string program; ///< with its version, whose defaults hold for options that are not given
     std::vector<GivenOption> settings;
 };
 
-/// The object's text, one key a line, in the order of the struct.
+/// Returns the object's text, one key a line, in the order of the struct.
 [[nodiscard]] std::string to_json(const Statistics& statistics);
 
-/// The most memory that this process has held so far [bytes].
+/// Returns the most memory that this process has held so far [bytes].
 [[nodiscard]] std::uint64_t peak_memory_bytes();
 
 } // namespace hemilux

@@ -23,10 +23,11 @@ constexpr std::string_view gradient_header =
     ",gradient_r_x,gradient_r_y,gradient_r_z,gradient_g_x,gradient_g_y,gradient_g_z,gradient_b_x,"
     "gradient_b_y,gradient_b_z";
 
-/// Some rows are written to the file while others are put into words: so many at once, about 4 MB.
+/// The rows of a text, and the texts at a time, about 4 MB. Some rows are written to the file while
+/// others are put into words.
 constexpr std::size_t rows_per_text = 256, texts_at_a_time = 64;
 
-/// Fields that follow a comma.
+/// Appends a field that follows a comma.
 template <class Number>
 void add(std::string& line, Number value) {
     line += ',';

@@ -19,15 +19,15 @@ namespace hemilux {
 class Mesh;
 
 /// Writes one row per patch in the mesh's order, in world units. An empty `standard_error` is
-/// written as zeros, a NaN as `nan`. The same bytes for any number of threads. Where there are
-/// slopes, nine more columns hold the gradient of each channel [W/m2 per m]: the light at x is that
-/// of the patch and the gradient times (x - centre). Where there
-/// are weights (Solution::weight), a last column `target` holds them. Throws OutputError.
+/// written as zeros, a NaN as `nan`. The bytes are the same for any number of threads. Where there
+/// are slopes, nine more columns hold the gradient of each channel [W/m2 per m]. The light at x is
+/// that of the patch plus the gradient times (x - centre). Where there are weights
+/// (Solution::weight), a last column `target` holds them. Throws OutputError.
 void write_patch_table(const std::string& path, const Mesh& mesh, std::span<const Vec3> radiosity,
                        std::span<const Vec3> standard_error, const Workers& workers = Workers(1),
                        std::span<const Slope> slope = {}, std::span<const double> weight = {});
 
-/// What `solve --reference` needs of a patch table; one entry per patch, world units.
+/// The part of a patch table that `solve --reference` needs: one entry per patch, in world units.
 struct PatchTable {
     std::vector<Vec3> centre;         ///< [m]
     std::vector<double> area;         ///< [m2]

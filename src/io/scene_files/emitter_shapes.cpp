@@ -19,7 +19,7 @@ constexpr double sun_radius = 0.00465; // [rad]
 
 double size_of(const Box& bounds) { return glm::length(bounds.extent()); }
 
-/// The axis along which a vector is the shortest.
+/// Returns the axis along which a vector is the shortest.
 Vec3 axis_across(const Vec3& v) {
     const Vec3 a = glm::abs(v);
     if (a.x <= a.y && a.x <= a.z)
@@ -100,7 +100,8 @@ void add_sun(Scene& scene, const std::string& name, const Box& within, const Vec
     const double distance = to_sun * size_of(within);
     const EmitterShape shape =
         disc(within.centre() - distance * along, along, distance * sun_radius);
-    // What a small disc sends to a surface opposite is its radiosity times its area over pi d^2.
+    // The irradiance of a surface opposite a small disc is the disc's radiosity times its area over
+    // pi d^2.
     add_emitter(scene, shape, name, irradiance * (pi * distance * distance / shape.area()), true);
 }
 

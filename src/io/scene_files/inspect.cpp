@@ -31,7 +31,7 @@ std::string counted(std::size_t n, const char* one, const char* many) {
     return text_of(n) + ' ' + (n == 1 ? one : many);
 }
 
-/// A doubt is worth a line only where there is one.
+/// Adds a line only where there is something to doubt.
 void add_doubt(std::string& text, const std::string& name, std::size_t count,
                const std::string& noun, const std::string& meaning) {
     if (count > 0)
@@ -59,7 +59,7 @@ void sum_areas(const Scene& scene, SceneInfo& info) {
     }
 }
 
-/// As Mesh does.
+/// Finds covered facets in the way that Mesh does.
 void find_covered(Scene scene, SceneInfo& info) {
     const std::vector<Vec3> vertices = LocalFrame::of(scene).to_local(scene.vertices);
     unite_near_twins(scene, vertices);

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene is, and what is doubtful about it.
+// The figures of a scene, and what is doubtful about it.
 
 #include "geometry/box.h"
 #include "io/scene_files/read_result.h"
@@ -33,17 +33,19 @@ struct SceneInfo {
 
 [[nodiscard]] SceneInfo inspect(const ReadResult& read);
 
-/// A message for each material in use whose reflectance is outside [0,1]: its name, the value and
-/// where it was defined, as far as known. No solution exists with such materials.
+/// Returns a message for each material in use whose reflectance is outside [0,1]. It has the name,
+/// the value and, as far as known, where the material is defined. No solution exists with such
+/// materials.
 [[nodiscard]] std::vector<std::string> find_bad_reflectances(const ReadResult& read);
 
-/// A line of a report: a name on the left, its value from this column on.
+/// The column from which on a line of a report has its value; the name is on the left.
 inline constexpr std::size_t info_value_column = 20;
 [[nodiscard]] std::string info_line(std::string name, const std::string& value);
 
-/// Lines of text: names on the left, figures on the right.
+/// Returns lines of text: names on the left, figures on the right.
 [[nodiscard]] std::string describe(const SceneInfo& info);
-/// What the scene does not need, in the same form, a line each; empty if it needs everything.
+/// Returns what the scene does not need in the same form, a line each; empty if it needs
+/// everything.
 [[nodiscard]] std::string describe(std::span<const LeftOut> left_out);
 
 } // namespace hemilux

@@ -46,8 +46,9 @@ std::uint32_t MaterialTable::use(const std::string& name, std::size_t line) {
     return index;
 }
 
-/// The file as named, relative to the OBJ file's folder; else, as paths of other machines are
-/// common, its last part in that folder. Empty where neither is a regular file.
+/// Returns the path of the file as named, relative to the OBJ file's folder. As paths of other
+/// machines are common, it then looks for the last part of the name in that folder. The result is
+/// empty where neither is a regular file.
 std::string MaterialTable::find_library(std::string_view name) const {
     std::string plain = without_quotes(name);
     std::replace(plain.begin(), plain.end(), '\\', '/');
@@ -95,7 +96,7 @@ void MaterialTable::read_library(const std::string& file, const std::string& whe
     if (!identity || !libraries_read_.insert(*identity).second)
         return;
     warn_of_outside(file, where);
-    /// Of the shortest statements that make a material.
+    /// The memory per character of the shortest statements that make a material.
     constexpr double bytes_per_character = 16;
     std::error_code error;
     if (const std::uintmax_t size = std::filesystem::file_size(file, error);
@@ -110,8 +111,8 @@ void MaterialTable::read_library(const std::string& file, const std::string& whe
         result_.textures.push_back((folder / texture).string());
 }
 
-/// Links are followed. The scene's author chose the file, and the reader of a scene from elsewhere
-/// may not expect it.
+/// Warns of a library outside the scene's folder, with links followed. The scene's author chose the
+/// file, and the reader of a scene from elsewhere may not expect it.
 void MaterialTable::warn_of_outside(const std::string& file, const std::string& where) {
     namespace fs = std::filesystem;
     std::error_code error;

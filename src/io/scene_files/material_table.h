@@ -21,19 +21,19 @@ namespace hemilux {
 
 class MaterialTable {
   public:
-    /// `path` of the OBJ file; libraries are looked for in its folder. `result`, which must outlive
-    /// the table, gets materials and where they stand, textures, warnings and what was read.
-    /// Before a library is read `before_library` is called with about the bytes that it will take;
-    /// what that throws ends the reading. Without `read_textures` colours are Kd and Ke alone.
+    /// `path` is that of the OBJ file; libraries are looked for in its folder. `result`, which must
+    /// outlive the table, gets materials and where they stand, textures, warnings and what was
+    /// read. Before a library is read, `before_library` is called with about the bytes that it will
+    /// take; what it throws ends the reading. Without `read_textures`, colours are Kd and Ke alone.
     MaterialTable(const std::string& path, ReadResult& result,
                   std::function<void(double bytes)> before_library = {}, bool read_textures = true)
         : path_(path), result_(result), before_library_(std::move(before_library)),
           texture_files_(before_library_), read_textures_(read_textures) {}
 
-    /// The material's index. `line` of the OBJ file is for messages.
+    /// Returns the material's index. `line` of the OBJ file is for messages.
     [[nodiscard]] std::uint32_t use(const std::string& name, std::size_t line);
-    /// Reads what follows mtllib: a file name that may have blanks in it, or else several names.
-    /// A library that is missing is a warning. Throws InputError for one with errors.
+    /// Reads what follows mtllib: a file name that may have blanks in it, or else several names. A
+    /// library that is missing gives a warning. Throws InputError for one with errors.
     void read_libraries(std::string_view names, std::size_t line);
     /// Reads the textures of materials in use, and adds to the warnings what is only known at the
     /// end.
@@ -43,7 +43,7 @@ class MaterialTable {
     struct Entry {
         std::size_t first_use = 0; ///< line of the OBJ file
         bool used = false;
-        std::string redefined_in;              ///< file, which was said
+        std::string redefined_in;              ///< file, which was reported
         std::string folder;                    ///< of its library
         std::optional<MtlMaterial> definition; ///< the first
     };
@@ -63,7 +63,7 @@ class MaterialTable {
     std::function<void(double bytes)> before_library_;
     std::set<FileIdentity> libraries_read_;
     bool outside_ = false;                   ///< a library outside the scene's folder was reported
-    std::set<std::string> libraries_missed_; ///< which was said
+    std::set<std::string> libraries_missed_; ///< which were reported
     std::unordered_map<std::string, std::uint32_t> index_;
     std::vector<Entry> entries_;
     TextureFiles texture_files_;

@@ -12,7 +12,7 @@
 namespace hemilux {
 namespace {
 
-/// Three numbers, or one for all channels.
+/// Reads three numbers, or one for all channels.
 Vec3 read_colour(const std::string& path, const Statement& statement) {
     const std::string expected =
         "expected 1 or 3 numbers of at least 0 after " + std::string(statement.keyword) + ", ";
@@ -60,8 +60,8 @@ void add_textures(std::string_view rest, std::set<std::string, std::less<>>& nam
     }
 }
 
-/// Numbers after an option, up to three; the first two are taken, and the first alone stands for
-/// both where `same`.
+/// Takes up to three numbers after an option. The first two count, and the first alone stands for
+/// both where `same` is set.
 void take_numbers(std::string_view& rest, Vec2& values, bool same) {
     for (int i = 0; i < 3; ++i) {
         std::string_view after = rest;
@@ -76,8 +76,8 @@ void take_numbers(std::string_view& rest, Vec2& values, bool same) {
     }
 }
 
-/// The options that change where the picture lies; other known ones are passed over with their
-/// words. Empty where no name follows.
+/// Reads the name and the options that change where the picture lies. Other known options are
+/// passed over with their words. The result is empty where no name follows.
 std::optional<MtlTexture> read_texture(std::string_view rest) {
     constexpr std::array<std::string_view, 9> one_word{
         "-blendu", "-blendv", "-boost", "-bm", "-cc", "-imfchan", "-texres", "-type", "-clamp"};

@@ -1,6 +1,6 @@
 #pragma once
-// Wavefront material libraries (MTL): what of them is light. Kd is the reflectance and Ke the
-// emission; all other statements are passed over, wherever they stand.
+// Wavefront material libraries (MTL), as far as they are about light. Kd is the reflectance and Ke
+// the emission; all other statements are passed over, wherever they stand.
 
 #include "geometry/vector.h"
 
@@ -28,8 +28,8 @@ struct MtlMaterial {
 
 struct MtlFile {
     std::vector<MtlMaterial> materials; ///< in the order of the file, also those with equal names
-    /// Names of the files that it refers to, each once. After options such as `-s 2 2 1` every
-    /// end of the line is one, as only some options have a known number of words.
+    /// Names of the files that it refers to, each once. After options such as `-s 2 2 1` every tail
+    /// of the line counts as a name, as only some options have a known number of words.
     std::vector<std::string> textures;
 };
 

@@ -84,7 +84,7 @@ ReadResult ObjReader::read() {
     return std::move(result_);
 }
 
-/// Of all facets, once it is known that some carry a texture.
+/// Adds the texture coordinates of all facets, once it is known that some carry a texture.
 void ObjReader::add_texcoords() {
     Scene& scene = result_.scene;
     if (scene.textures.of_material.empty())
@@ -168,7 +168,8 @@ void ObjReader::warn(const LineTally& tally, const std::string& one, const std::
                                    " (this is the first)");
 }
 
-/// A vector that grows keeps the old one until the new one is filled.
+/// Calls the guard with the memory in use. A vector that grows keeps the old one until the new one
+/// is filled.
 void ObjReader::check_memory() const {
     if (!guard_)
         return;
@@ -184,8 +185,8 @@ void ObjReader::check_memory() const {
                                            result_.scene.materials.size()));
 }
 
-/// What there is to say where doubles hardly distinguish the scene's places from each other,
-/// because it is so far from the origin; else nothing.
+/// Returns a warning where the scene is so far from the origin that doubles hardly distinguish its
+/// places from each other; else nothing.
 std::string ObjReader::rounding_of_places() const {
     constexpr double noticeable = 1e-7; // of the scene's size
     Box bounds;

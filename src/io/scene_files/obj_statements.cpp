@@ -58,9 +58,9 @@ void ObjStatements::read_face(const Statement& statement) {
                          "expected three or more vertices after f, " + found_instead(""));
 }
 
-/// v, v/t, v//n or v/t/n; v and t count from 1, or backwards from the last one so far where
-/// negative. v may be of a vertex to come: check_corners. A texture coordinate that does not exist
-/// is none.
+/// Reads a corner: v, v/t, v//n or v/t/n. The numbers v and t count from 1 or, where negative,
+/// backwards from the last one so far. The vertex v may be one to come, which check_corners looks
+/// at. A texture coordinate that does not exist is none.
 void ObjStatements::read_corner(std::string_view word, std::size_t line) {
     const char* at = word.data();
     const char* const end = at + word.size();

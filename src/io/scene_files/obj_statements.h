@@ -17,7 +17,7 @@
 
 namespace hemilux {
 
-/// How often something occurred, and where first.
+/// The number of times that something occurred, and its first line.
 struct LineTally {
     std::size_t count = 0, first_line = 0;
     void add(std::size_t line) {
@@ -26,7 +26,7 @@ struct LineTally {
     }
 };
 
-/// What a file says, in its order.
+/// The content of a file, in its order.
 struct ObjContents {
     /// A face as it stands in the file.
     struct Face {
@@ -74,7 +74,7 @@ class ObjStatements {
     MaterialTable& materials_;
     ObjContents& contents_;
     std::unordered_map<std::string, std::uint32_t> group_index_;
-    /// The latest ones, and their numbers once a face has used them.
+    /// The latest names, and their numbers once a face has used them.
     std::string material_name_ = default_name, group_name_ = default_name;
     std::size_t material_line_ = 0;
     std::uint32_t material_ = none, group_ = none;

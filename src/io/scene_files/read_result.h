@@ -1,5 +1,5 @@
 #pragma once
-// What reading a scene file gives, whatever its format.
+// The result of reading a scene file, whatever its format.
 
 #include "io/scene_files/camera_of_file.h"
 #include "radiosity/scene/scene.h"
@@ -27,8 +27,8 @@ struct ReadResult {
     std::string camera_name;
 };
 
-/// Called now and then while a scene is read, with about the bytes that reading it takes so far or
-/// will take next. What it throws ends the reading.
+/// A function that is called now and then while a scene is read, with about the bytes that reading
+/// takes so far or will take next. What it throws ends the reading.
 using ReadGuard = std::function<void(double bytes)>;
 
 } // namespace hemilux

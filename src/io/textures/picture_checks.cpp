@@ -26,7 +26,8 @@ void check_chunks(std::string_view bytes, const std::string& place) {
     }
 }
 
-/// The end of the tables that begin at `at`, behind a length of `left` bytes (ITU T.81, B.2.4.2).
+/// Checks the tables that begin at `at`, behind a length of `left` bytes (ITU T.81, B.2.4.2), and
+/// returns their end.
 std::size_t check_tables(std::string_view bytes, std::size_t at, std::ptrdiff_t left,
                          const std::string& place) {
     constexpr std::size_t lengths = 16;
@@ -43,10 +44,11 @@ std::size_t check_tables(std::string_view bytes, std::size_t at, std::ptrdiff_t 
     return at;
 }
 
-/// Ten are usual. stb_image walks through all blocks of the size claimed for each.
+/// More scans than these are refused; ten are usual. stb_image walks through all blocks of the size
+/// claimed for each.
 constexpr unsigned most_scans = 100;
 
-/// From marker to marker as stb_image goes: what stands between them is data.
+/// Goes from marker to marker as stb_image does: what stands between them is data.
 void check_segments(std::string_view bytes, const std::string& place) {
     constexpr unsigned define_huffman_table = 0xc4, first_restart = 0xd0, start = 0xd8, scan = 0xda;
     unsigned scans = 0;

@@ -33,11 +33,11 @@ void* bounded_realloc(void* bytes, std::size_t size) {
 namespace hemilux {
 namespace {
 
-/// Texels of a picture: a small file may claim any number.
+/// The most texels of a picture: a small file may claim any number.
 constexpr double most_texels = 1 << 26;
-/// While it is decoded: the file's samples, and three bytes each.
+/// The memory per texel while a picture is decoded: the file's samples, and three bytes each.
 constexpr double bytes_per_texel = 12;
-/// Of a buffer, for the largest samples.
+/// The bytes per texel of a buffer, for the largest samples.
 constexpr double bytes_unpacked_per_texel = 32;
 
 struct Size {
@@ -65,7 +65,7 @@ Size size_of(std::string_view bytes, const std::string& place) {
     return size;
 }
 
-/// Whether the bytes begin like a PNG or a JPEG file.
+/// Returns whether the bytes begin like a PNG or a JPEG file.
 bool is_picture_file(std::string_view bytes) {
     return bytes.starts_with(png_signature) || bytes.starts_with("\xff\xd8\xff");
 }
@@ -76,7 +76,7 @@ Texture decode_texture(std::string_view bytes, const std::string& place) {
     Size size = size_of(bytes, place);
     int channels = 0;
     constexpr int rgb = 3;
-    // Eight bytes a texel at the most, and one a row; buffers grow by doubling.
+    // A picture takes eight bytes a texel at the most, and one a row; buffers grow by doubling.
     most_bytes_unpacked =
         static_cast<std::size_t>(bytes_unpacked_per_texel * size.texels()) + (std::size_t{1} << 16);
     const std::unique_ptr<stbi_uc, decltype(&std::free)> pixels(

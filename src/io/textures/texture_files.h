@@ -17,20 +17,20 @@ namespace hemilux {
 
 class TextureFiles {
   public:
-    /// The guard is asked before each picture is decoded, with what all of them take.
+    /// The guard is called before each picture is decoded, with the bytes that all of them take.
     explicit TextureFiles(const std::function<void(double bytes)>& guard) : guard_(guard) {}
 
-    /// What was read of this path, or decoded with this key; empty where nothing was.
+    /// Returns what was read from this path, or decoded with this key; empty where nothing was.
     [[nodiscard]] std::optional<std::shared_ptr<const Texture>>
     known(const std::string& key) const {
         const auto found = known_.find(key);
         return found == known_.end() ? std::nullopt : std::optional(found->second);
     }
 
-    /// Empty where there is no such file or it is of another kind. Throws InputError for a picture
-    /// that is broken.
+    /// Reads a texture; empty where there is no such file or it is of another kind. Throws
+    /// InputError for a picture that is broken.
     [[nodiscard]] std::shared_ptr<const Texture> read(const std::string& path);
-    /// The same of bytes that are there, whose key is not known.
+    /// Does the same with bytes that are there, whose key is not known.
     [[nodiscard]] std::shared_ptr<const Texture> decode(std::string_view bytes,
                                                         const std::string& key);
 

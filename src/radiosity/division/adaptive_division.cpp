@@ -23,34 +23,37 @@ namespace {
 
 constexpr unsigned most_rounds = 20;
 
-/// A round makes so many times more patches at the most, as what varies is known but roughly.
-/// At the least, as it costs as much as the patches that it would spare.
+/// A round makes at most `most_growth` times as many patches, as what varies is only known roughly.
+/// It makes at least `least_growth` times as many, as it costs as much as the patches that it would
+/// spare.
 constexpr double most_growth = 4, least_growth = 1.1;
 constexpr std::size_t least_room = 256;
 
-/// Of points on large patches: when they are new, and in further rounds.
+/// The rows of points on large patches: when they are new, and in further rounds.
 constexpr unsigned rows_at_first = 6, rows_again = 3;
 
-/// In each round one in so many of the other patches is measured again.
+/// One in so many of the other patches is measured again in each round.
 constexpr std::uint64_t one_again_in = 4;
 
 /// The light is solved anew when there are so many times more patches than were solved.
 constexpr double solved_at_growth = 6;
 
-/// The rough solution's error: most of it is gone once the light is reflected.
+/// The limits on the rough solution's error: most of it is gone once the light is reflected.
 constexpr double least_rough_error = .02, most_rough_error = .05;
 
-/// Noise that is large beside what is allowed would divide patches for nothing.
+/// Returns the rays of an estimate: noise that is large beside what is allowed would divide patches
+/// for nothing.
 unsigned rays_of_estimate(double error) {
     constexpr double at_error_of_one = .11, least = 4, most = 16;
     return static_cast<unsigned>(std::clamp(std::round(at_error_of_one / error), least, most));
 }
 
-/// Patches that hold so little light are not measured: if it varied by as much as it is, all that
+/// Patches that hold very little light are not measured. If it varied by as much as it is, all that
 /// they leave would be this share of what is allowed.
 constexpr double negligible_share = .05;
 
-/// Of what is allowed, what the noise of slopes may be; and rounds of rays for it.
+/// The share of what is allowed that the noise of slopes may be; and the most rounds of rays for
+/// it.
 constexpr double share_of_noise = .2;
 constexpr double most_rounds_of_slopes = 8;
 
@@ -109,7 +112,7 @@ bool Division::divide(Solution& light, double error,
     return mesh_.patches().size() > patches;
 }
 
-/// False where no solution was found.
+/// Solves the light anew if that is due. Returns false if no solution was found.
 bool Division::solve_if_due(Solution& light) {
     const std::size_t patches = mesh_.patches().size();
     if (double(patches) < solved_at_growth * double(solved_))
@@ -123,7 +126,7 @@ bool Division::solve_if_due(Solution& light) {
     return true;
 }
 
-/// For a target, also what lights it counts.
+/// Finds the weights of patches for a target: what lights it counts too.
 void Division::weigh(const Solution& light) {
     if (!light.weight.empty())
         weight_ = division_weights(mesh_, tracer_, light.weight,
@@ -152,7 +155,7 @@ void Division::measure(const Solution& light, double goal) {
     fresh_ = fresh_squares_ = 0;
     measure(light, {due.begin(), known}, 1, rows_at_first);
     measure(light, {known, due.end()}, 1, rows_again);
-    // Those that were chosen for what was measured there are not a fair sample of all; these are.
+    // Patches that were chosen for what was measured there are not a fair sample of all; these are.
     std::vector<std::uint32_t> some;
     for (std::uint32_t i = 0; i < is_due_.size(); ++i)
         if (counts(i) > 0 && times_[i] > 0 && measured_at_[i] < round_ &&
@@ -161,7 +164,7 @@ void Division::measure(const Solution& light, double goal) {
     measure(light, some, 1, rows_again, one_again_in);
 }
 
-/// By new points each time.
+/// Measures some patches, by new points each time.
 void Division::measure(const Solution& light, std::span<const std::uint32_t> some, unsigned rounds,
                        unsigned most_rows, double stand_for) {
     const LightWithinPatches found =
@@ -192,14 +195,14 @@ void Division::measure(const Solution& light, std::span<const std::uint32_t> som
     }
 }
 
-/// Whether the division is done, and that is known: few points may miss what few patches hold,
-/// whose squares then scatter.
+/// Returns whether the division is done, and that is known: few points may miss what few patches
+/// hold, whose squares then scatter.
 bool Division::is_done(double goal) const {
     constexpr double doubt = .5;
     return fresh_ + doubt * std::sqrt(fresh_squares_) <= goal;
 }
 
-/// False where nothing can be divided.
+/// Divides patches. Returns false if nothing can be divided.
 bool Division::cut(Solution& light, double goal) {
     const std::size_t before = mesh_.patches().size();
     const auto times = [&](double growth) {

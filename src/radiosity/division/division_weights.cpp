@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t points_of_target = 4096, points_per_chunk = 64, rays_of_point = 4;
 
-/// What a ray from a point of the target meets.
+/// This is what a ray from a point of the target meets.
 struct Read {
     std::uint32_t patch = none;
     double counts = 0; ///< of the point's weight

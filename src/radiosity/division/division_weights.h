@@ -1,5 +1,5 @@
 #pragma once
-// What light that varies within a patch counts for a target.
+// The weight for a target of light that varies within a patch.
 
 #include "bvh/tracer.h"
 #include "parallel/workers.h"
@@ -12,13 +12,14 @@ namespace hemilux {
 
 class Mesh;
 
-/// By patch, for a target of weights w (target.h): w, and for the points of the target that the
-/// patch lights, what it counts there.
+/// Returns by patch, for a target of weights w (target.h): w, and for the points of the target that
+/// the patch lights, what it counts there.
 ///
-/// An error e(x) within patch k moves the light at a point y of the target by rho_y sum F_yk e,
-/// whose square is at most rho_y^2 F_yk e^2 (Jensen). Where the mean of k is right e has no mean,
-/// and only what the kernel of F changes over the patch is left: a patch of area A at the distance
-/// r counts A / r^2 of that, and all of it from nearer. Found by rays from points of the target.
+/// An error e(x) within patch k moves the light at a point y of the target by rho_y sum F_yk e. The
+/// square of this is at most rho_y^2 F_yk e^2 (Jensen). If the mean of k is right, e has no mean,
+/// and only what the kernel of F changes over the patch is left. A patch of area A at the distance
+/// r counts A / r^2 of that, and all of it from nearer. The weights are found by rays from points
+/// of the target.
 [[nodiscard]] std::vector<double> division_weights(const Mesh& mesh, const Tracer& tracer,
                                                    std::span<const double> weight,
                                                    std::uint64_t seed, const Workers& workers);

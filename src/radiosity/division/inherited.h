@@ -1,5 +1,5 @@
 #pragma once
-// What pieces have from the patch that they were cut from.
+// Pieces inherit values from the patch that they were cut from.
 
 #include "radiosity/solution/solution.h"
 
@@ -20,8 +20,8 @@ template <class Value>
     return of_pieces;
 }
 
-/// A solution of the divided mesh that is the same function on the surfaces. Sums over the area
-/// stay as they are.
+/// Makes a solution of the divided mesh that is the same function on the surfaces. Sums over the
+/// area stay as they are.
 void inherit(Solution& solution, std::span<const std::uint32_t> parents);
 
 } // namespace hemilux

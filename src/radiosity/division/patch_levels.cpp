@@ -8,11 +8,11 @@ namespace {
 
 constexpr std::uint8_t most_levels = 2;
 
-/// What a level leaves of a squared error: a quarter where light changes evenly, a half along the
-/// edge of a shadow.
+/// The share of a squared error that a level leaves: a quarter where light changes evenly, a half
+/// along the edge of a shadow.
 constexpr double left_by_level = .4, pieces_of_level = 4;
 
-/// Levels until no piece errs more than `bound`.
+/// Returns the levels until no piece has an error of more than `bound`.
 std::uint8_t levels_to(double square, double bound) {
     std::uint8_t levels = 0;
     for (; levels < most_levels && square > bound; ++levels)
@@ -50,7 +50,8 @@ std::vector<std::uint8_t> levels_of_division(std::span<const double> square,
             break;
         bound = next;
         const bool is_enough = outcome.square <= options.goal ||
-                               // All pieces together, if each errs so much.
+                               // This is the error of all pieces together, if each has that of the
+                               // bound.
                                bound * outcome.pieces <= options.goal;
         if (is_enough && outcome.pieces >= static_cast<double>(options.least_pieces))
             break;

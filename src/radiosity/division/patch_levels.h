@@ -1,5 +1,6 @@
 #pragma once
-// Which patches are to be divided, and how often, so that the light on them is known well enough.
+// This decides which patches are divided, and how often, so that the light on them is known well
+// enough.
 
 #include <cstdint>
 #include <span>
@@ -9,14 +10,14 @@ namespace hemilux {
 
 struct LevelOptions {
     double goal; ///< of the sum of all squared errors
-    /// Bound how many pieces the patches are to become.
+    /// These bound how many pieces the patches become.
     std::size_t least_pieces, most_pieces;
 };
 
-/// Levels of division by patch, 0 to 2: each level makes four of one. `square` is the squared error
-/// of each patch, in any unit; estimates, which may be negative. Errors are made even: a patch is
-/// divided while a piece of it errs more than a bound that is as large as the goal allows
-/// (equidistribution: Babuska and Rheinboldt 1978).
+/// Returns the levels of division by patch, 0 to 2: each level makes four pieces of one. `square`
+/// is the squared error of each patch, in any unit; these are estimates, which may be negative.
+/// Errors are made even: a patch is divided while a piece of it has more than a certain error. This
+/// bound is as large as the goal allows (equidistribution: Babuska and Rheinboldt 1978).
 [[nodiscard]] std::vector<std::uint8_t> levels_of_division(std::span<const double> square,
                                                            const LevelOptions& options);
 

@@ -1,11 +1,11 @@
 #pragma once
 // The light that comes straight from small emitters, by shadow rays.
 //
-// Rays at random find a small emitter by luck. Here a sample is a point of the receiver, an
-// emitter, and a point of that: well-distributed in five dimensions (sobol.h). The emitter is drawn
-// by the light that it would send without obstacles (emitter_choice.h); its contribution is the
-// kernel of form factors times the visibility along one ray (point_to_patch.h): the closed form of
-// point and polygon, or of two points where the emitter looks small.
+// Random rays find a small emitter by luck. Here a sample is a point of the receiver, an emitter,
+// and a point of that: well-distributed in five dimensions (sobol.h). The emitter is drawn by the
+// light that it would send without obstacles (emitter_choice.h). Its contribution is the kernel of
+// form factors times the visibility along one ray (point_to_patch.h). The kernel is the closed form
+// of point and polygon, or of two points where the emitter looks small.
 
 #include "bvh/tracer.h"
 #include "geometry/vector.h"
@@ -26,36 +26,37 @@ class StateReader;
 class StateWriter;
 struct Monitor;
 
-/// Several estimates at once, independent of each other.
+/// Several estimates of this light at once, independent of each other.
 class DirectLight {
   public:
-    /// An estimate for each seed. `emitters`: patches, in their order; a facet's are either all
-    /// among them or none. What is referred to outlives this. Each of the ranks traces the rays of
-    /// its patches.
+    /// Makes an estimate for each seed. `emitters` are patches, in their order; those of a facet
+    /// are either all among them or none. What is referred to must outlive this object. Each of the
+    /// ranks traces the rays of its patches.
     DirectLight(const Mesh& mesh, const Tracer& tracer, const Needs& needs,
                 std::span<const std::uint32_t> emitters, std::vector<std::uint64_t> seeds,
                 const Ranks& ranks = one_rank());
 
     /// Goes on until each patch for which that pays has so many samples in each estimate. Returns
-    /// the number of rays traced now. Where the monitor was interrupted meanwhile some patches have
-    /// fewer, and another call takes up the rest. Called by all ranks; the rays are those of all.
+    /// the number of rays traced by this call, those of all ranks. If the monitor was interrupted
+    /// meanwhile, some patches have fewer samples, and another call takes up the rest. All ranks
+    /// must call this.
     std::uint64_t sample_up_to(std::span<const std::uint32_t> samples, const Workers& workers,
                                Monitor& monitor);
 
     [[nodiscard]] std::size_t estimates() const { return seeds_.size(); }
-    /// Mean over the samples of one estimate [W/m2 arriving].
+    /// Returns the mean over the samples of one estimate [W/m2 arriving].
     [[nodiscard]] Vec3 irradiance(std::uint32_t patch, std::size_t estimate) const {
         const std::uint32_t n = samples_[patch];
         return n > 0 ? sum_[patch * seeds_.size() + estimate] / static_cast<double>(n) : Vec3(0.0);
     }
-    /// Mean over all.
+    /// Returns the mean over all estimates [W/m2 arriving].
     [[nodiscard]] Vec3 irradiance(std::uint32_t patch) const;
-    /// Counts those of this patch in each estimate; 0 also where rays at random find more
-    /// (EmitterChoice::Cut::pays).
+    /// Returns the number of samples of this patch in each estimate; 0 also where random rays find
+    /// more (EmitterChoice::Cut::pays).
     [[nodiscard]] std::uint32_t samples(std::uint32_t patch) const { return samples_[patch]; }
-    /// Samples of this patch that brought light.
+    /// Returns the number of samples of this patch that brought light.
     [[nodiscard]] std::uint32_t hits(std::uint32_t patch) const { return hits_[patch]; }
-    /// The irradiance if nothing blocked any sample [W/m2, mean of channels].
+    /// Returns the irradiance if nothing blocked any sample [W/m2, mean of channels].
     [[nodiscard]] double unblocked(std::uint32_t patch) const {
         const double n = double(samples_[patch]) * double(seeds_.size());
         return n > 0 ? unblocked_[patch] / n : 0;

@@ -15,11 +15,12 @@
 namespace hemilux {
 namespace {
 
-/// Emitters that a patch weighs one by one; else so many clusters.
+/// The most emitters that a patch weighs one by one; if there are more, it weighs so many clusters.
 constexpr std::size_t most_emitters = 1024, most_clusters = 128;
 
-/// The light of each emitter, as the mean of its channels relative to the most that any has in that
-/// channel: an emitter that is faint, but the only one in its channel, is as important as any.
+/// Returns the light of each emitter, as the mean of its channels relative to the most that any has
+/// in that channel. So an emitter that is faint, but the only one in its channel, is as important
+/// as any.
 std::vector<double> balanced_light(const Mesh& mesh, std::span<const Patch> emitters) {
     Vec3 most(0.0);
     for (const Patch& patch : emitters)
@@ -34,7 +35,7 @@ std::vector<double> balanced_light(const Mesh& mesh, std::span<const Patch> emit
     return light;
 }
 
-/// Of no size.
+/// Returns a receiver of no size.
 EmitterReceiver receiver_of(const Vec3& centre, const Vec3& normal,
                             const std::array<Vec3, 4>& corners) {
     EmitterReceiver receiver{};
@@ -79,7 +80,7 @@ void EmitterChoice::list_emitters() {
     }
 }
 
-/// Without those before place k.
+/// Returns the arrays without those before place k.
 EmitterArrays EmitterChoice::arrays_from(std::size_t k) const {
     EmitterArrays arrays{};
     auto array = arrays_.begin();
@@ -119,7 +120,7 @@ std::uint32_t EmitterChoice::add(std::uint32_t begin, std::uint32_t end) {
     return static_cast<std::uint32_t>(clusters_.size() - 1);
 }
 
-/// At the median across the widest extent, down to single emitters.
+/// Divides a cluster at the median across the widest extent, down to single emitters.
 void EmitterChoice::divide(std::uint32_t cluster) {
     const auto [begin, end] = std::pair(clusters_[cluster].begin, clusters_[cluster].end);
     if (end - begin == 1)
@@ -135,7 +136,7 @@ void EmitterChoice::divide(std::uint32_t cluster) {
     divide(right);
 }
 
-/// How much a cluster's emitters differ to the receiver; 0 where there is but one.
+/// Returns how much a cluster's emitters differ to the receiver; 0 if there is but one.
 double EmitterChoice::nearness(const EmitterReceiver& to, const Cluster& cluster) {
     const Vec3 centre(to.centre[0], to.centre[1], to.centre[2]);
     const double gap = glm::distance(centre, cluster.centre) - to.radius - cluster.radius;
@@ -172,7 +173,7 @@ void EmitterChoice::weigh_all(const EmitterReceiver& to, Cut& cut) const {
     cut.sums.resize(std::bit_ceil(cut.sums.size()), std::numeric_limits<double>::infinity());
 }
 
-/// The cluster that is nearest for its size is divided as long as there is room.
+/// Divides the cluster that is nearest for its size, as long as there is room.
 void EmitterChoice::choose_clusters(const EmitterReceiver& to, Cut& cut) const {
     using Near = std::pair<double, std::uint32_t>;
     thread_local std::vector<Near> heap;
@@ -204,7 +205,7 @@ void EmitterChoice::choose_clusters(const EmitterReceiver& to, Cut& cut) const {
     }
 }
 
-/// Rather too large than too small, and 0 only where no light can come from.
+/// Makes weights rather too large than too small, and 0 only where no light can come from.
 void EmitterChoice::weigh_clusters(const EmitterReceiver& to, Cut& cut) const {
     const auto& [x, y, z, radius, power, area, light] = cut.of_many;
     cut.sums.resize(cut.clusters.size() + 1);
@@ -237,7 +238,7 @@ void EmitterChoice::choose(const Cut& cut, const double* u, Choices& choices) co
     }
 }
 
-/// By the power of its emitters.
+/// Chooses an emitter of the cluster by its power.
 EmitterChoice::Choice EmitterChoice::choose_within(const Cluster& cluster, double share) const {
     const double* powers = &power_sums_[cluster.begin]; // of all before each
     const double power = powers[cluster.end - cluster.begin] - powers[0];

@@ -1,16 +1,17 @@
 #pragma once
-// Which emitter a shadow ray of a patch goes to: drawn by the light that each would send there if
-// nothing stood between. Drawn with equal chances, 1 % takes 36 to 93 times as many rays.
+// The choice of the emitter that a shadow ray of a patch goes to. It is drawn by the light that
+// each would send there if nothing stood between. With equal chances, an error of 1 % takes 36 to
+// 93 times as many rays.
 //
-// With up to 1024 emitters each is weighed by itself. Where there are more, they form a tree of
-// clusters, and each patch weighs 128 of these: near ones are divided, far ones are not (as in
-// Walter et al. 2005, "Lightcuts"); within a cluster emitters are drawn by their power. So the work
-// for a patch does not grow with the emitters. Any emitter that may send light there has a chance,
-// so what is found is right on average.
+// With up to 1024 emitters each is weighed by itself. If there are more, they form a tree of
+// clusters, and each patch weighs 128 of these. Near ones are divided, far ones are not (as in
+// Walter et al. 2005, "Lightcuts"). Within a cluster, emitters are drawn by their power. So the
+// work for a patch does not grow with the emitters. Any emitter that may send light there has a
+// chance, so what is found is right on average.
 //
-// The best chance is as the root of the mean square of what a ray would bring: an emitter beside a
-// large patch brings little on the whole but much to the points that touch it, and if it were
-// drawn by the mean alone, those few rays would make most of the error.
+// The best chance is proportional to the root of the mean square of what a ray would bring. An
+// emitter beside a large patch brings little on the whole but much to the points that touch it. If
+// it were drawn by the mean alone, those few rays would make most of the error.
 
 #include "geometry/vector.h"
 #include "radiosity/sampling/sampling_kernels.h"
@@ -27,25 +28,26 @@ struct Patch;
 
 class EmitterChoice {
   public:
-    /// `emitters`: what emits; they and the mesh outlive this.
+    /// `emitters` are what emits; they and the mesh must outlive this object.
     EmitterChoice(const Mesh& mesh, std::span<const Patch> emitters);
 
-    /// What a patch weighs: emitters or clusters, and running sums of their weights.
+    /// This is what a patch weighs: emitters or clusters, and running sums of their weights.
     struct Cut {
         std::vector<std::uint32_t> clusters; ///< empty: it is all emitters, in their order
-        /// Centre, radius, power, area and light of those that are not single emitters, which stand
-        /// first.
+        /// The centre, radius, power, area and light of those that are not single emitters, which
+        /// stand first.
         std::array<std::vector<double>, 7> of_many;
-        /// One more than there are weights, from 0; then infinity, up to a power of two.
+        /// The running sums: one more than there are weights, from 0; then infinity, up to a power
+        /// of two.
         std::vector<double> sums;
         double sum = 0;
         std::vector<double> found; ///< by ray at random, of each: its mean square
         double square_found = 0;   ///< sum of these
-        /// No light can come from anywhere.
+        /// Returns whether no light can come from anywhere.
         [[nodiscard]] bool dark() const { return !(sum > 0); }
-        /// Whether a shadow ray lowers the error about as much as one at random, or more. Where
-        /// many emitters touch a surface each fills the view of a few points, but is seldom drawn
-        /// for just those: what such a ray brings varies more than what one finds by chance.
+        /// Returns whether a shadow ray lowers the error about as much as a random one, or more.
+        /// Where many emitters touch a surface, each fills the view of a few points, but is seldom
+        /// drawn for just those. What such a ray brings varies more than what one finds by chance.
         [[nodiscard]] bool pays() const { return sum * sum <= 4 * square_found; }
     };
     /// Prepares choose() for a receiver, a patch.
@@ -57,7 +59,7 @@ class EmitterChoice {
         double chance;         ///< with which it is drawn [-]
     };
     using Choices = std::array<Choice, samples_per_block>;
-    /// One for each of sixteen numbers in [0, 1), from a cut that is not dark.
+    /// Chooses one for each of sixteen numbers in [0, 1), from a cut that is not dark.
     void choose(const Cut& cut, const double* u, Choices& choices) const;
 
   private:
@@ -87,7 +89,7 @@ class EmitterChoice {
     std::vector<double> power_sums_;   ///< by order_, one more: of all before
     std::vector<Cluster> clusters_;    ///< the first is all of them
     std::vector<double> light_;        ///< of each emitter, see balanced_light
-    /// Holds, in the order of order_, the centre, normal, four corners, area, side, light.
+    /// These are, in the order of order_, the centre, normal, four corners, area, side, light.
     std::array<std::vector<double>, 21> arrays_;
 };
 

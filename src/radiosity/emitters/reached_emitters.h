@@ -1,5 +1,5 @@
 #pragma once
-// The emitters that points reach by shadow rays, and these rays: each goes to an emitter that is
+// The emitters that points reach by shadow rays, and these rays. Each goes to an emitter that is
 // drawn by its light (emitter_choice.h), and brings it by its exact factor (point_to_patch.h).
 
 #include "bvh/tracer.h"
@@ -19,34 +19,35 @@ namespace hemilux {
 
 class Rng;
 
-/// What an emitter brings.
+/// This is what an emitter brings.
 struct LightAtPlace {
     std::uint32_t place; ///< of the estimate
     Vec3 light;          ///< [W/m2]
 };
 
-/// The chances of emitters, for a point or for those of a patch. Dark before they are weighed.
+/// The chances of emitters, for a point or for those of a patch. They are dark before they are
+/// weighed.
 struct WeighedEmitters {
     EmitterChoice::Cut cut;
     std::uint32_t patch = none; ///< none: of a point
 
-    /// Whether shadow rays are better than to leave emitters to rays at random.
+    /// Returns whether shadow rays are better than leaving emitters to random rays.
     [[nodiscard]] bool pays() const { return !cut.dark() && cut.pays(); }
 };
 
 class ReachedEmitters {
   public:
-    /// The small emitters of a mesh (small_emitters.h), which outlives this.
+    /// Takes the small emitters of a mesh (small_emitters.h), which must outlive this object.
     explicit ReachedEmitters(const Mesh& mesh);
 
-    /// These emitters, of which a facet's are either all among them or none.
+    /// Takes these emitters; those of a facet are either all among them or none.
     ReachedEmitters(const Mesh& mesh, std::span<const std::uint32_t> emitters);
 
     [[nodiscard]] bool empty() const { return emitters_.empty(); }
     [[nodiscard]] const EmitterChoice& choice() const { return choice_; }
-    /// What a patch emits that shadow rays find [W/m2].
+    /// Returns what a patch emits that shadow rays find [W/m2].
     [[nodiscard]] const Vec3& emission(std::uint32_t patch) const { return emission_[patch]; }
-    /// Prepares shadow rays of a point. It has the chances of its patch, where it names that.
+    /// Prepares shadow rays of a point. It has the chances of its patch, if it names that.
     void weigh(const SurfacePoint& point, WeighedEmitters& weighed) const;
     /// Adds rays for `count` points of the sequence, `first` and those after it; some see nothing
     /// of their emitter and are left out. The light of each is its share of their mean.
@@ -58,12 +59,12 @@ class ReachedEmitters {
                  const Vec3& share, std::uint32_t place, ShadowRays<LightAtPlace>& rays) const;
 
     /// A shadow ray to a point of an emitter, and the light that it brings [W/m2] over the chance
-    /// of the emitter; nothing where the point does not face it.
+    /// of the emitter. aim() returns nothing if the point does not face it.
     struct Aimed {
         Ray ray;
         std::uint32_t target; ///< the emitter's facet
         double factor;        ///< [-], of the emission
-        const Vec3& emission;
+        const Vec3& emission; ///< [W/m2]
     };
     [[nodiscard]] std::optional<Aimed> aim(const EmitterChoice::Choice& chosen,
                                            const SurfacePoint& point, Vec2 u) const;

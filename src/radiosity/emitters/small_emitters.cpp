@@ -15,11 +15,10 @@
 namespace hemilux {
 namespace {
 
-/// Emitters that together fill more than this share of the view are found by rays at random.
+/// Emitters that together fill more than this share of the view are found by random rays.
 constexpr double largest_share = .3;
 
-/// Points from which the view is judged; each emitter from as many, as long as these products are
-/// not more.
+/// The most points from which the view is judged, and the most products of points and emitters.
 constexpr std::size_t most_points = 512, most_views = 400'000;
 
 /// One side of a facet that emits, as if it were not divided.
@@ -56,8 +55,8 @@ std::vector<EmittingSide> sides_of(const Mesh& mesh, const std::vector<std::uint
     return sides;
 }
 
-/// Where the view is judged: points of patches that reflect, each as likely as its share of the
-/// area, in equal steps along it.
+/// The points from which the view is judged. They lie on patches that reflect, each as likely as
+/// its share of the area, in equal steps along it.
 class Views {
   public:
     Views(const Mesh& mesh, std::size_t points) : mesh_(mesh) {
@@ -77,7 +76,7 @@ class Views {
         }
     }
 
-    /// Mean share of the view that a side fills if nothing stands between.
+    /// Returns the mean share of the view that a side fills if nothing stands between.
     [[nodiscard]] double share_of(const Patch& side) const {
         const PolygonSampler target(side.shape);
         double sum = 0;
@@ -103,8 +102,8 @@ class Views {
     std::vector<Point> points_;
 };
 
-/// What each side fills of the view: by its share of all area, which costs nothing, where that is
-/// little for all of them together.
+/// Returns what each side fills of the view. It is taken by its share of all area, which costs
+/// nothing, if that is little for all of them together.
 std::vector<double> shares_of(const Mesh& mesh, const std::vector<EmittingSide>& sides,
                               const std::vector<std::uint32_t>& emitters) {
     double total = 0, emitting = 0;

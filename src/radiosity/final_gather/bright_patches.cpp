@@ -9,10 +9,10 @@
 namespace hemilux {
 namespace {
 
-/// Of the surface of all patches.
+/// The share of the surface of all patches that bright ones may cover.
 constexpr double share_of_surface = 1. / 16;
 
-/// More chances than these take longer than the rays of the points that share them.
+/// The most bright patches: more chances take longer than the rays of the points that share them.
 constexpr std::size_t most_patches = 4096;
 
 } // namespace
@@ -44,7 +44,7 @@ BrightPatches::BrightPatches(const Mesh& mesh, std::span<const Vec3> radiosity,
     }
 }
 
-/// A patch that is near for its size is left to rays at random.
+/// Leaves a patch that is near for its size to random rays.
 void BrightPatches::aim(const SurfacePoint& point, Aim& aim) const {
     aim.ends.resize(patches_.size());
     double sum = 0;

@@ -1,7 +1,7 @@
 #pragma once
-// The brightest patches of a solution, for gathers to aim rays at: what a hidden lamp lights first,
-// as the ceiling above it, sends most of the light of a room from a small part of its surface, and
-// few cosine-distributed rays find it.
+// The brightest patches of a solution, at which gathers aim rays. What a hidden emitter lights
+// first, as the ceiling above it, sends most of the light of a room from a small part of its
+// surface. Few cosine-distributed rays find it.
 
 #include "geometry/polygon_sampler.h"
 #include "radiosity/emitters/reached_emitters.h"
@@ -15,8 +15,9 @@ namespace hemilux {
 
 class BrightPatches {
   public:
-    /// Of the patches, by what is left of their radiosity [W/m2] without what emitters send, the
-    /// brightest that cover a sixteenth of all surfaces, at most 4096. `mesh` outlives this.
+    /// Takes the patches that are brightest by their radiosity [W/m2] without what emitters send.
+    /// They cover a sixteenth of all surfaces and are 4096 at most. `mesh` must outlive this
+    /// object.
     BrightPatches(const Mesh& mesh, std::span<const Vec3> radiosity,
                   const ReachedEmitters& emitters);
 
@@ -34,11 +35,11 @@ class BrightPatches {
         Vec3 direction; ///< unit
         std::uint32_t patch;
     };
-    /// A point uniform over the patch that u.x draws, for u uniform in [0,1)^3, from a point that
-    /// sees any.
+    /// Returns the direction to a point uniform over the patch that u.x draws, for u uniform in
+    /// [0,1)^3, from a point that sees any.
     [[nodiscard]] Target draw(const SurfacePoint& point, const Aim& aim, const Vec3& u) const;
-    /// The density of targets on a patch [1/sr], where a ray of this direction met it at distance
-    /// t. 0 for other patches.
+    /// Returns the density of targets on a patch [1/sr], where a ray of this direction met it at
+    /// distance t (local frame). It is 0 for other patches.
     [[nodiscard]] double density(const Aim& aim, std::uint32_t patch, double t,
                                  const Vec3& direction) const;
 

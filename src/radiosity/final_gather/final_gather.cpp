@@ -15,8 +15,8 @@
 namespace hemilux {
 namespace {
 
-/// Rays that are traced together; fewer take longer each. A thread or rank takes as many points as
-/// have so many, or 16.
+/// The number of rays that are traced together; fewer take longer each. A thread or rank takes as
+/// many points as have so many rays, 16 at most.
 constexpr std::size_t rays_per_batch = 4096, most_points_per_chunk = 16;
 
 } // namespace
@@ -63,7 +63,7 @@ std::vector<Vec3> FinalGather::irradiance(std::span<const SurfacePoint> points,
     return found;
 }
 
-/// Those of all estimates at one point.
+/// Adds the rays of all estimates at one point.
 void FinalGather::add_rays(const SurfacePoint& point, std::uint64_t seed, std::size_t estimates,
                            std::uint32_t place, PathRays& rays) const {
     const ReachedEmitters& emitters = paths_.emitters();

@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::size_t rays_traced_together = 4096;
 
-/// So many points on one facet that follow each other aim rays by the chances of the first.
+/// The number of successive points on one facet that aim rays by the chances of the first.
 constexpr std::uint32_t shared_aim = 16;
 
-/// Points on one facet whose samples are of one block of so many use the same chances of emitters:
-/// they lie near each other.
+/// Points on one facet whose samples belong to one block of so many use the same chances of
+/// emitters: they lie near each other.
 constexpr std::uint32_t shared_weights = 64;
 
 } // namespace
@@ -62,8 +62,8 @@ std::vector<EmitterLight> GatherInParts::direct(std::span<const SurfacePoint> po
     return found;
 }
 
-/// Adds what each ray meets. A ray that was aimed counts where it meets its patch; then, and where
-/// a ray at random meets the same patch, it counts by the densities of both (balance heuristic:
+/// Adds what each ray meets. A ray that was aimed counts only where it meets its patch. Then, and
+/// where a random ray meets the same patch, it counts by the densities of both (balance heuristic:
 /// Veach and Guibas 1995).
 void GatherInParts::read_patches(std::span<const SurfacePoint> points, const Rays& rays,
                                  std::span<IndirectLight> found) const {

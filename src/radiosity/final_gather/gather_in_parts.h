@@ -1,7 +1,7 @@
 #pragma once
-// The light that arrives at points in two parts, for pictures, which filter them differently:
-// straight from small emitters, with the sharp edges of shadows; and all other, which varies
-// slowly.
+// The light that arrives at points in two parts, for pictures, which filter them differently. One
+// comes straight from small emitters, with the sharp edges of shadows; the other is all other
+// light, which varies slowly.
 
 #include "bvh/tracer.h"
 #include "radiosity/emitters/reached_emitters.h"
@@ -17,16 +17,15 @@ namespace hemilux {
 
 class Mesh;
 
-/// Random numbers of a point: `count` points of the Sobol sequence of a seed, `first` and those
-/// after it.
+/// The random numbers of a point: `count` points of the Sobol sequence of a seed, from `first` on.
 struct GatherSamples {
     std::uint64_t seed;
     std::uint32_t first, count;
     bool partly_aimed = false; ///< half of the indirect rays are aimed at bright patches
 };
 
-/// Light straight from small emitters [W/m2]. What varies from sample to sample varies in both
-/// alike, but for shadows.
+/// The light straight from small emitters [W/m2]. What varies from sample to sample varies in both
+/// alike, except for shadows.
 struct EmitterLight {
     Vec3 arriving{0.0};
     Vec3 unshadowed{0.0}; ///< what would arrive if nothing stood between
@@ -37,30 +36,31 @@ enum class Shadows { traced, left_out };
 struct IndirectLight {
     Vec3 irradiance{0.0}; ///< [W/m2]
     double nearness = 0;  ///< mean inverse distance of what the rays met; local frame
-    /// Sums over rays of the square of the light that they read, and of those that met bright
-    /// patches: rays at random find the more noise there, the nearer both are.
+    /// The sums over rays of the square of the light that they read, of all rays and of those that
+    /// met bright patches. The nearer both are, the more noise random rays find there.
     double squares = 0, bright_squares = 0;
 };
 
 class GatherInParts {
   public:
-    /// `light`: what patches send. All of it outlives this.
+    /// `light` is what patches send. All that is referred to must outlive this object.
     GatherInParts(const Mesh& mesh, const Tracer& tracer, PatchLight light)
         : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh),
           bright_(mesh, light.radiosity, emitters_) {}
 
-    /// At each point by its own samples, on the calling thread: a shadow ray for each. Where
-    /// shadows are left out no ray is traced, and nothing arrives.
+    /// Returns the light of emitters at each point by its own samples, on the calling thread, with
+    /// a shadow ray for each. If shadows are left out, no ray is traced, and nothing arrives.
     [[nodiscard]] std::vector<EmitterLight> direct(std::span<const SurfacePoint> points,
                                                    std::span<const GatherSamples> samples,
                                                    Shadows shadows) const;
-    /// In the same way by a cosine-distributed ray for each sample, which reads the patch that it
-    /// meets, however near; or half of the samples by rays to bright patches (bright_patches.h).
+    /// Returns the other light in the same way, by a cosine-distributed ray for each sample, which
+    /// reads the patch that it meets, however near. Half of the samples may be rays to bright
+    /// patches instead (bright_patches.h).
     [[nodiscard]] std::vector<IndirectLight> indirect(std::span<const SurfacePoint> points,
                                                       std::span<const GatherSamples> samples) const;
 
   private:
-    /// That are not traced yet. Aimed ones are of points that share chances.
+    /// The rays that are not traced yet. Aimed ones belong to points that share chances.
     struct Rays {
         struct Sample {
             std::uint32_t point;

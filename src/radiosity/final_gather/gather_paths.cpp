@@ -11,14 +11,14 @@
 namespace hemilux {
 namespace {
 
-/// A patch whose light is met from so near, in sides of a square of its area, is not taken to send
-/// the same, or a linear function, all over: the light that it reflects there is gathered too. So
-/// often at the most.
+/// The distance, in sides of a square of a patch's area, below which the patch is not taken to send
+/// the same light, or a linear function, all over. The light that it reflects there is gathered
+/// too, `most_bounces` times at most.
 constexpr double near_sides = .5;
 constexpr unsigned most_bounces = 8;
 
-/// So many paths go on at the most where they end by chance alone: else they would not end in a
-/// closed room of reflectance 1.
+/// The largest share of paths that go on where they end by chance alone: otherwise they would not
+/// end in a closed room of reflectance 1.
 constexpr double most_kept = .9;
 
 } // namespace
@@ -41,7 +41,7 @@ GatherPaths::Traced GatherPaths::trace(PathRays rays, std::span<Vec3> found) con
             if (end_ray(rays.states[k], met, bounce, found))
                 further.push_back(met);
         }
-        // Those on one patch after each other, as emitters are weighed for it.
+        // Rays on one patch follow each other, as emitters are weighed for it.
         std::ranges::stable_sort(further, {}, &Met::patch);
         PathRays next;
         for (const Met& met : further) {
@@ -87,7 +87,7 @@ bool GatherPaths::end_ray(const PathRays::State& ray, const Met& met, unsigned b
     return reflects && !ray.ends;
 }
 
-/// One ray at random, and one to an emitter where such are taken, of a path that goes on.
+/// Adds one random ray of a path that goes on, and one to an emitter where such are taken.
 void GatherPaths::go_on(const PathRays::State& from, const Met& met, bool in_gather, PathRays& next,
                         std::span<Vec3> found) const {
     const Patch& on = mesh_.patches()[met.patch];
@@ -106,7 +106,8 @@ void GatherPaths::go_on(const PathRays::State& from, const Met& met, bool in_gat
     add_rays(at, state, next);
     if (find_ == Find::light || in_gather)
         return;
-    // The light of another point of the patch, which is as right on average, by the same numbers.
+    // This is the light of another point of the patch, which is as right on average, by the same
+    // numbers.
     SurfacePoint other = at;
     Rng rng(hash_words({from.seed, 3}));
     const double u = rng.uniform(), v = rng.uniform();

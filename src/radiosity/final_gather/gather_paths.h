@@ -1,12 +1,12 @@
 #pragma once
-// What the rays of a gather find. A ray reads the light of the patch that it meets. Where that is
-// so near that what it sends may not be what it sends on average, as in corners and in gaps, the
-// ray goes on as a path (Christensen 1999): it gathers the light that is reflected there too.
+// The paths that follow from the rays of a gather. A ray reads the light of the patch that it
+// meets. A near patch may not send there what it sends on average, as in corners and in gaps. The
+// ray then goes on as a path (Christensen 1999): it gathers the light that is reflected there too.
 //
 // The same paths find what a gather lacks because light varies within patches. Then they go on from
-// everywhere, and at each vertex y they find the light that arrives there by the means of patches,
-// less that at another point y' of its patch by the same random numbers: what y has more than the
-// mean of its patch.
+// everywhere. At each vertex y they find the light that arrives there by the means of patches, less
+// that at another point y' of its patch by the same random numbers. This is what y has more than
+// the mean of its patch.
 
 #include "bvh/tracer.h"
 #include "radiosity/emitters/reached_emitters.h"
@@ -22,9 +22,9 @@ namespace hemilux {
 
 class Mesh;
 
-/// Rays at random that are not traced yet, and shadow rays from the same points.
+/// The random rays that are not traced yet, and shadow rays from the same points.
 struct PathRays {
-    /// What a ray at random carries.
+    /// This is what a random ray carries.
     struct State {
         std::uint64_t seed;  ///< of what follows from it
         std::uint32_t place; ///< of the estimate
@@ -46,11 +46,11 @@ struct PathRays {
 
 class GatherPaths {
   public:
-    /// What is to be found: the light that arrives; or what it lacks, in gathers that go on where
+    /// What is to be found is the light that arrives; or what it lacks, in gathers that go on where
     /// patches are near, or that read them however near.
     enum class Find { light, spread, spread_however_near };
 
-    /// `light`: what patches send. All of it outlives this.
+    /// `light` is what patches send. All that is referred to must outlive this object.
     GatherPaths(const Mesh& mesh, const Tracer& tracer, PatchLight light)
         : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh) {}
 
@@ -66,17 +66,17 @@ class GatherPaths {
     Traced trace(PathRays rays, std::span<Vec3> found) const;
 
   private:
-    /// What a ray at random meets.
+    /// This is what a random ray meets.
     struct Met {
         std::size_t ray; ///< among the rays
         std::uint32_t patch;
-        Vec3 point;
+        Vec3 point;      ///< local frame
         double distance; ///< local frame
     };
-    /// Whether a gather takes the light of a patch that is met from so near as a path.
+    /// Returns whether a gather takes the light of a patch that is met from so near as a path.
     [[nodiscard]] bool is_near(const Met& met, unsigned bounce) const;
     [[nodiscard]] Met where_met(const PathRays& rays, std::size_t k, std::uint32_t patch) const;
-    /// Adds what is found where a ray ends. True: its path goes on.
+    /// Adds what is found where a ray ends. Returns whether its path goes on.
     bool end_ray(const PathRays::State& ray, const Met& met, unsigned bounce,
                  std::span<Vec3> found) const;
     void go_on(const PathRays::State& from, const Met& met, bool in_gather, PathRays& next,

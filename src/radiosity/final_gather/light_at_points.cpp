@@ -15,14 +15,16 @@
 namespace hemilux {
 namespace {
 
-/// Gathers of a point, independent of each other, whose spread is the error of their mean.
+/// The number of gathers of a point, independent of each other, whose spread is the error of their
+/// mean.
 constexpr unsigned gathers = 8;
 
-/// So many rays are traced before give_up is asked again: a fraction of a second.
+/// The number of rays traced before give_up is asked again: a fraction of a second.
 constexpr std::size_t rays_per_block = 1 << 20;
 
-/// The variance of the light that the rays of a point read, by the standard errors of the patches.
-/// Patches err each for itself, but for a share of 1 / freedom, by which all err together.
+/// Returns the variance of the light that the rays of a point read, by the standard errors of the
+/// patches. Patches have errors of their own, except for a share of 1 / freedom, by which all err
+/// together.
 Vec3 variance_of_patches(std::span<std::uint32_t> met, const Solution& solution, double freedom) {
     std::ranges::sort(met);
     Vec3 together(0.0), alone(0.0);

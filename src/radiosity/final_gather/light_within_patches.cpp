@@ -13,7 +13,7 @@
 namespace hemilux {
 namespace {
 
-/// So many are gathered at a time: points and their light take memory.
+/// The number of patches gathered at a time: points and their light take memory.
 constexpr std::size_t patches_at_a_time = 16'384;
 
 } // namespace

@@ -66,7 +66,8 @@ Vec3 radiosity_at(const Mesh& mesh, const PatchLight& light, std::uint32_t patch
                     mesh.material(on).emission);
 }
 
-/// By the middles of edges: exact for triangles; of a parallelogram's mean square it is 3 / 2.
+/// Sums over the middles of edges: exact for triangles; of a parallelogram's mean square it is 3 /
+/// 2.
 double variance_of(const Patch& patch, const Slope& slope) {
     const Frame frame = Frame::from_normal(patch.normal);
     const bool triangle = patch.shape.is_triangle();
@@ -86,7 +87,7 @@ AgreedSlope agreed_slope(const Patch& patch, const std::array<Slope, 2>& estimat
     const auto& [a, b] = estimates;
     const Slope mean{.5 * (a.x + b.x), .5 * (a.y + b.y)};
     const Slope off{.5 * (a.x - b.x), .5 * (a.y - b.y)};
-    // The product of the estimates, free of noise, beside the square of their mean.
+    // The product of the estimates is free of noise; it is compared with the square of their mean.
     const double square = variance_of(patch, mean), noise = variance_of(patch, off);
     const double agreed = square > 0 ? std::clamp(1 - noise / square, 0.0, 1.0) : 0;
     return {{agreed * mean.x, agreed * mean.y}, agreed * agreed * patch.area * noise};

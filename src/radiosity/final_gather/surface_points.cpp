@@ -88,7 +88,7 @@ std::vector<PatchPoint> points_on_patches(const Mesh& mesh, std::span<const std:
             continue;
         const PolygonSampler sampler(patches[i].shape);
         Rng rng(hash_words({seed, i}));
-        // By the side of a square of the patch's area, against one of the mean.
+        // The number goes by the side of a square of the patch's area, against one of the mean.
         const double rows =
             std::clamp(std::round(least_rows * std::sqrt(patches[i].area * count / area)),
                        least_rows, double(most_rows));

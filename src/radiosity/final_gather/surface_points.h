@@ -16,18 +16,19 @@ class Mesh;
 struct PatchPoint {
     SurfacePoint at;
     std::uint32_t patch;
-    double area;
+    double area; ///< local units
 };
 
 /// Draws points over the area of the patches that reflect.
 class PointsOverSurface {
   public:
-    /// Uniform, or with a density relative to that, by patch; where it is 0 no point is drawn.
+    /// The density is uniform, or relative to that, by patch; where it is 0 no point is drawn.
     explicit PointsOverSurface(const Mesh& mesh, std::span<const double> density = {});
 
-    /// Each stands for as much as it is drawn from. Systematic: what is drawn from is laid end to
-    /// end in the order of the patches, and a comb with one random offset picks the patches (Madow
-    /// and Madow 1944). Empty where nothing reflects.
+    /// Draws points, each of which stands for as much as it is drawn from. The sampling is
+    /// systematic (Madow and Madow 1944): what is drawn from is laid end to end in the order of the
+    /// patches, and a comb with one random offset picks the patches. The result is empty if nothing
+    /// reflects.
     [[nodiscard]] std::vector<PatchPoint> draw(std::size_t count, std::uint64_t seed) const;
 
   private:
@@ -36,21 +37,21 @@ class PointsOverSurface {
     std::vector<double> ends_; ///< by patch, the sum up to it
 };
 
-/// By patch, its area and reflected radiosity squared: what errors are relative to, and what holds
-/// most of the noise of gathers.
+/// Returns by patch its area times its reflected radiosity squared: what errors are relative to,
+/// and what holds most of the noise of gathers.
 [[nodiscard]] std::vector<double> reflected_squares(const Mesh& mesh,
                                                     std::span<const Vec3> radiosity);
 
-/// A density for these points. Alike many lie over the area, on each patch, as patches are small
-/// where light changes, and in proportion to each of some quantities, by patch, that are not empty;
-/// all of it times `weight`, by patch, or 1 where that is empty.
+/// Returns a density for these points. Equally many lie over the area, on each patch, as patches
+/// are small where light changes, and in proportion to each of some quantities, by patch, that are
+/// not empty. All of it is times `weight`, by patch, or 1 if that is empty.
 [[nodiscard]] std::vector<double>
 mixed_density(const Mesh& mesh, std::span<const double> weight,
               std::initializer_list<std::span<const double>> quantities);
 
-/// Of each of some patches, if it reflects, `rows` x `rows` points, 3 x 3 to `most_rows` squared,
-/// one after the other, each uniform over an equal piece of it: more where the patch is large
-/// beside the mean of all.
+/// Returns `rows` x `rows` points of each of some patches, if it reflects, 3 x 3 to `most_rows`
+/// squared. They follow each other, each uniform over an equal piece of the patch. There are more
+/// where the patch is large beside the mean of all.
 [[nodiscard]] std::vector<PatchPoint> points_on_patches(const Mesh& mesh,
                                                         std::span<const std::uint32_t> some,
                                                         unsigned most_rows, std::uint64_t seed);

@@ -17,7 +17,7 @@ namespace {
 constexpr double plane_rounding = 1e-9; ///< of the scene's size: what is nearer to a plane is in it
 constexpr double sampled = -1;          ///< marks an entry
 
-/// Whether they share more than their boundaries.
+/// Returns whether two boxes share more than their boundaries.
 bool overlap(const Box& a, const Box& b) {
     for (int axis = 0; axis < 3; ++axis)
         if (!(a.low[axis] < b.high[axis] - plane_rounding &&
@@ -26,7 +26,7 @@ bool overlap(const Box& a, const Box& b) {
     return true;
 }
 
-/// Lowest and highest point of outlines along a direction.
+/// Returns the lowest and the highest place of outlines along a direction.
 Vec2 range_along(const Vec3& direction, std::initializer_list<const Outline*> outlines) {
     Vec2 range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
     for (const Outline* const outline : outlines)
@@ -37,8 +37,8 @@ Vec2 range_along(const Vec3& direction, std::initializer_list<const Outline*> ou
     return range;
 }
 
-/// Whether a plane of one of a few directions lies between a facet's part and the hull of a pair,
-/// in which all lines of sight run.
+/// Returns whether a plane of one of a few directions separates a facet's part from the hull of a
+/// pair. All lines of sight run in this hull.
 bool separated(const Outline& part, const Vec3& normal, const FacingPair& pair) {
     const std::array<Vec3, 11> directions{{normal,
                                            {1, 1, 0},
@@ -58,8 +58,8 @@ bool separated(const Outline& part, const Vec3& normal, const FacingPair& pair) 
     });
 }
 
-/// Whether no facet can stand between: none has a part that is in front of both planes, within the
-/// box of both and not separated from their hull.
+/// Returns whether no facet can stand between two patches. None may have a part that is in front of
+/// both planes, within the box of both and not separated from their hull.
 bool nothing_between(const Mesh& mesh, std::span<const Box> facet_boxes, const FacingPair& pair,
                      const Patch& from, const Patch& to) {
     const Plane first{from.shape.corner[0], from.normal}, second{to.shape.corner[0], to.normal};
@@ -88,7 +88,7 @@ ExactFormFactors::ExactFormFactors(const Mesh& mesh, const Workers& workers, con
         for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
             find_row(static_cast<std::uint32_t>(i), boxes);
     });
-    // By reciprocity, the lower half.
+    // The lower half follows by reciprocity.
     const auto patches = mesh.patches();
     for (std::uint32_t i = 0; i < rows_.size(); ++i) {
         for (const Entry& entry : rows_[i]) {

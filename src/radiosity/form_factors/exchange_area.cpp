@@ -13,7 +13,7 @@ namespace {
 
 Plane plane_of(const Polygon& polygon) { return {polygon.corner[0], polygon.normal()}; }
 
-/// Integral of ln |x - y| for y along an edge of unit direction e.
+/// Integrates ln |x - y| for y along an edge of unit direction e.
 double log_integral(const Vec3& x, const Vec3& start, const Vec3& e, double length) {
     const Vec3 d = x - start;
     const double along = glm::dot(d, e), h = glm::length(glm::cross(d, e));
@@ -26,7 +26,7 @@ double log_integral(const Vec3& x, const Vec3& start, const Vec3& e, double leng
     return primitive(length - along) - primitive(-along);
 }
 
-/// Eight points (Abramowitz and Stegun 1964, table 25.4).
+/// Integrates f over [a, b] by the rule of eight points (Abramowitz and Stegun 1964, table 25.4).
 template <class Function>
 double gauss(const Function& f, double a, double b) {
     static constexpr std::array<Vec2, 4> rule{{{0.1834346424956498, 0.3626837833783620},
@@ -40,7 +40,8 @@ double gauss(const Function& f, double a, double b) {
     return half * sum;
 }
 
-/// How exact an integral over [0,1] is asked to be, and can be: errors over parts of it add up.
+/// The accuracy that an integral over [0,1] is asked for and can have: errors over parts of it add
+/// up.
 struct Accuracy {
     double tolerance, rounding;
 };
@@ -86,7 +87,7 @@ Outline outline_of(const Polygon& polygon) {
     return {polygon.corner.begin(), polygon.corner.begin() + polygon.size()};
 }
 
-// Sutherland and Hodgman 1974.
+// The clipping follows Sutherland and Hodgman 1974.
 Outline in_front(const Outline& outline, const Plane& plane, double rounding) {
     Outline part;
     double highest = 0;
@@ -111,8 +112,8 @@ FacingPair facing_parts(const Polygon& from, const Polygon& to, double rounding)
 }
 
 double exchange_area(const Outline& from, const Outline& to, double smaller_area) {
-    // In a unit of length that makes both outlines and their distance about 1: ln r may have any
-    // unit, as the edges of an outline sum to zero.
+    // The unit of length makes both outlines and their distance about 1. In ln r any unit will do,
+    // as the edges of an outline sum to zero.
     Box box = box_of(from);
     box.include(box_of(to));
     const Vec3 origin = box.centre();

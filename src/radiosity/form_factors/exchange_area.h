@@ -1,12 +1,13 @@
 #pragma once
-// What two polygons exchange with nothing in between, by contour integration.
+// Computes what two polygons exchange with nothing in between, by contour integration.
 //
 // By Stokes' theorem (Sparrow 1963; Goral et al. 1984)
 //
 //     2 pi A F = | sum over edges e of one, f of the other of  e.f  int_e int_f  ln r  df de |,
 //
-// e.f being the cosine between the edges. The inner integral is elementary, the outer one is done
-// by adaptive Gauss-Legendre quadrature; common edges and corners are integrable singularities.
+// where e.f is the cosine between the edges. The inner integral is elementary, and the outer one is
+// done by adaptive Gauss-Legendre quadrature. Common edges and corners are integrable
+// singularities.
 
 #include "geometry/polygon.h"
 
@@ -19,10 +20,10 @@ struct Plane {
     [[nodiscard]] double height(const Vec3& p) const { return glm::dot(p - point, normal); }
 };
 
-/// Corners of a convex polygon.
+/// The corners of a convex polygon.
 using Outline = std::vector<Vec3>;
 [[nodiscard]] Outline outline_of(const Polygon& polygon);
-/// The part in front of a plane; empty where nothing rises above it by more than `rounding`
+/// Returns the part in front of a plane; empty where nothing rises above it by more than `rounding`
 /// [length].
 [[nodiscard]] Outline in_front(const Outline& outline, const Plane& plane, double rounding);
 
@@ -32,8 +33,8 @@ struct FacingPair {
 };
 [[nodiscard]] FacingPair facing_parts(const Polygon& from, const Polygon& to, double rounding);
 
-/// A F [the unit of the polygons' areas] from the front of one to the front of the other. The error
-/// is below 1e-10 of the smaller area.
+/// Returns A F [the unit of the polygons' areas] from the front of one to the front of the other.
+/// The error is below 1e-10 of the smaller area.
 [[nodiscard]] double exchange_area(const Polygon& from, const Polygon& to);
 /// Computes the same for parts that face each other.
 [[nodiscard]] double exchange_area(const Outline& from, const Outline& to, double smaller_area);

@@ -11,16 +11,16 @@
 namespace hemilux {
 namespace {
 
-/// Each takes most of what is missing away. In open scenes no symmetric matrix may agree with all
-/// that was lost, and no number would be enough.
+/// The number of scalings of a batch's matrix; each takes most of what is missing away. In open
+/// scenes no symmetric matrix may agree with all that was lost, and no number would be enough.
 constexpr int scalings = 6;
-/// Of the whole, from the mean of what its batches were scaled by.
+/// The number of scalings of the whole, which start from the mean of the batches' scales.
 constexpr int scalings_of_all = 3;
 
-/// Fewer entries are read sooner than other threads would be called.
+/// One thread reads fewer entries sooner than other threads would be called.
 constexpr std::size_t entries_for_one_thread = 60'000;
 
-/// Sum of value times x[column], in four sums that do not wait for each other.
+/// Sums value times x[column], in four sums that do not wait for each other.
 double row_sum(std::span<const MatrixEntry> row, std::span<const double> x) {
     const auto term = [&](const MatrixEntry& entry) {
         return static_cast<double>(entry.value) * x[entry.column];
@@ -79,13 +79,14 @@ void ExchangeMatrix::find_lost(std::span<const ExchangeMatrix> batches) {
         }
 }
 
-/// What rays of other ranks' patches have hit of this rank's, by rank.
+/// The hits of rays from other ranks' patches on this rank's patches, by rank.
 struct ExchangeMatrix::HitsOfOthers {
     std::vector<std::vector<RayCounts::Count>> hits; ///< patch after patch that they come from,
     std::vector<std::vector<std::uint32_t>> sizes;   ///< and how many from each
 };
 
-/// `sizes`: of another rank's patch, how many hits go there.
+/// Exchanges hits among the ranks. For a patch of another rank, `sizes` says how many hits go
+/// there.
 ExchangeMatrix::HitsOfOthers
 ExchangeMatrix::hits_of_others(const RayCounts& batch, std::span<const std::uint32_t> sizes) const {
     const unsigned count = own_.ranks().count(), own = own_.ranks().index();
@@ -116,7 +117,7 @@ ExchangeMatrix::hits_of_others(const RayCounts& batch, std::span<const std::uint
     return {own_.ranks().exchange(sent.hits), own_.ranks().exchange(sent.sizes)};
 }
 
-/// First in each row stands what the patch saw, then by what it was seen.
+/// Stores the rows. Each begins with what the patch saw; what saw the patch follows.
 void ExchangeMatrix::store(const RayCounts& batch) {
     const auto n = static_cast<std::uint32_t>(area_.size());
     std::vector<double> rays_per_area(n);
@@ -166,12 +167,14 @@ Workers ExchangeMatrix::readers(const Workers& workers) const {
     return rows_.entries() < entries_for_one_thread ? Workers(1) : workers;
 }
 
-/// What the rows are to sum to; less than 0: unknown, as the patch itself has not looked.
+/// Returns what the rows are to sum to [local area]. A value less than 0 means that it is unknown,
+/// as the patch itself has not looked.
 ///
-/// A patch's own rays estimate it by how many of them met no patch; the rays between it and others,
-/// those of the others included, estimate it too. Each counts by the inverse of its variance. In a
-/// closed room the first is known to be all. But a ground under a lamp with a narrow shade loses
-/// nearly all of its rays, and what little is left is known much better from the lamp's side.
+/// Two estimates are combined, each weighted by the inverse of its variance. One is how many of a
+/// patch's own rays met no patch. The other is the rays between it and others, those of the others
+/// included. In a closed room the first is known to be all. But a ground under an emitter with a
+/// narrow shade loses nearly all of its rays. What little is left is known much better from the
+/// emitter's side.
 std::vector<double> ExchangeMatrix::due(const Workers& workers) const {
     const std::size_t n = area_.size();
     std::vector<double> due(n, -1.0), rays_per_area(n);
@@ -189,7 +192,7 @@ std::vector<double> ExchangeMatrix::due(const Workers& workers) const {
             due[i] = area_[i] * kept;
             if (!(lost > 0))
                 continue;
-            // As if one ray more had met what rays meet on average.
+            // The share counts as if one more ray had met what rays meet on average.
             const double share = (rays_[i] * (1 - kept) + lost / all) / (rays_[i] + 1);
             const double variance = area_[i] * area_[i] * share * (1 - share) / rays_[i];
             double sum = 0, variance_of_sum = 0;
@@ -205,8 +208,9 @@ std::vector<double> ExchangeMatrix::due(const Workers& workers) const {
     return due;
 }
 
-/// Rows are closed by c = due / (S r), then by r = due / (S c), and so on (Sinkhorn and Knopp
-/// 1967). As S is symmetric, r and c end as multiples of each other, and g is their geometric mean.
+/// Rows are closed by c = due / (S r), then by r = due / (S c), and so on (row normalisation;
+/// Sinkhorn and Knopp 1967). As S is symmetric, r and c end as multiples of each other, and g is
+/// their geometric mean.
 void ExchangeMatrix::find_scale(std::span<const double> due, int times, const Workers& workers) {
     const std::size_t n = area_.size();
     std::array<GatheredVector<double>, 2> in_turn{GatheredVector<double>(own_),

@@ -1,15 +1,15 @@
 #pragma once
-// What all patches exchange with each other, from the rays of all.
+// Holds what all patches exchange with each other, from the rays of all.
 //
-// S_ij = A_i F_ij is symmetric, so rays from i to j and from j to i estimate the same number;
-// weighted by the inverse of its variance, S_ij = (c_ij + c_ji) / (N_i / A_i + N_j / A_j), c being
-// counts and N the rays of a patch. Rows must sum to A_i less what the patch's own rays lost.
-// Scaling S_ij by g_i g_j makes them so and leaves S symmetric (Sinkhorn and Knopp 1967). The
-// little that is still missing after some scalings, or too much, is what a patch exchanges with
-// itself: so rows are closed and S is symmetric to the last bits, no energy is made or lost between
-// patches, however reflective, and furnaces are exact.
+// S_ij = A_i F_ij is symmetric, so rays from i to j and from j to i estimate the same number.
+// Weighted by the inverse of its variance, S_ij = (c_ij + c_ji) / (N_i / A_i + N_j / A_j), where c
+// are counts and N the rays of a patch. Rows must sum to A_i less what the patch's own rays lost.
+// Scaling S_ij by g_i g_j makes them so and leaves S symmetric (row normalisation; Sinkhorn and
+// Knopp 1967). After some scalings a little is still missing, or too much; this is what a patch
+// exchanges with itself. So rows are closed and S is symmetric to the last bits. No energy is made
+// or lost between patches, however reflective, and furnaces are exact.
 //
-// Stored is S before it is scaled, so that the S of several batches is their mean.
+// The matrix stores S before it is scaled, so that the S of several batches is their mean.
 
 #include "parallel/ranks.h"
 #include "radiosity/form_factors/ray_counts.h"
@@ -26,22 +26,23 @@ namespace hemilux {
 class ExchangeMatrix {
   public:
     ExchangeMatrix() = default;
-    /// Makes the matrix from the rays of one batch. `area`: of each patch, in local units; it
-    /// outlives this. All ranks that have rays of it call this, as all functions that take workers.
+    /// Makes the matrix from the rays of one batch. `area` gives the area of each patch in local
+    /// units; it outlives this. All ranks that have rays of the batch call this, as all functions
+    /// that take workers.
     ExchangeMatrix(std::span<const double> area, const RayCounts& batch,
                    const Workers& workers = Workers(1));
     /// Makes the matrix from several batches, in each of which a patch shot the same number of
     /// rays.
     ExchangeMatrix(std::vector<ExchangeMatrix> batches, const Workers& workers);
 
-    /// y_i = sum_j F_ij x_j, by patch; y has the unit of x.
+    /// Computes y_i = sum_j F_ij x_j, by patch; y has the unit of x.
     void multiply(std::span<const Vec3> x, std::span<Vec3> y, const Workers& workers) const;
 
-    /// The same in parts: the element j of a vector as rows take it,
+    /// Returns the element j of a vector as rows take it, to compute the same in parts.
     [[nodiscard]] Lanes scaled(std::size_t j, const Vec3& x) const {
         return {{scale_[j] * x.x, scale_[j] * x.y, scale_[j] * x.z, 0}};
     }
-    /// and its product with the row i.
+    /// Returns the product of the row i with a vector of such elements.
     [[nodiscard]] Vec3 row_times(std::size_t i, std::span<const Lanes> scaled) const {
         const std::span<const MatrixEntry> row = rows_.row(i);
         Lanes sum;
@@ -51,11 +52,11 @@ class ExchangeMatrix {
         };
         return {channel(0), channel(1), channel(2)};
     }
-    /// F_ii, which closes the row i: what chance has left, of either sign.
+    /// Returns F_ii [-], which closes the row i: what chance has left, of either sign.
     [[nodiscard]] double self_factor(std::size_t i) const {
         return per_area_[i] * self_[i] * scale_[i];
     }
-    /// Calls body(begin, end) for chunks of this rank's rows, by as many threads as pay,
+    /// Calls body(begin, end) for chunks of this rank's rows, by as many threads as pay.
     template <class Body>
     void for_rows(const Workers& workers, const Body& body) const {
         readers(workers).for_chunks(own_.count(), rows_per_chunk,
@@ -63,7 +64,7 @@ class ExchangeMatrix {
                                         body(own_.item(begin), own_.item(begin) + (end - begin));
                                     });
     }
-    /// and counts the work of a product with each row.
+    /// Does the same and counts the work of a product with each row.
     template <class Body>
     void for_products(const Workers& workers, const Body& body) const {
         count_products(1);
@@ -75,17 +76,17 @@ class ExchangeMatrix {
     }
     static constexpr std::size_t rows_per_chunk = SparseRows::rows_per_chunk;
     static_assert(OwnBlocks::least_block % rows_per_chunk == 0, "a chunk is one rank's");
-    /// Those that this rank has; of one rank alone all.
+    /// Returns the rows that this rank has; a single rank has all.
     [[nodiscard]] const OwnBlocks& own_rows() const { return own_; }
 
-    /// What patch i exchanges with others; a value is S before it is scaled [local area]. Empty
-    /// where the row is another rank's.
+    /// Returns what patch i exchanges with others; a value is S before it is scaled [local area].
+    /// The row is empty where it is another rank's.
     [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const { return rows_.row(i); }
-    /// Has an entry for each patch.
+    /// Returns an entry for each patch.
     [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }
-    /// Counts, by patch, the rays that it shot itself.
+    /// Returns, by patch, the number of rays that it shot itself.
     [[nodiscard]] std::span<const double> rays() const { return rays_; }
-    /// Of the rows of all ranks, which all call this.
+    /// Returns the memory of the rows of all ranks, which all call this.
     [[nodiscard]] std::uint64_t bytes() const {
         return own_.ranks().sum(rows_.entries()) * sizeof(MatrixEntry);
     }
@@ -104,14 +105,14 @@ class ExchangeMatrix {
 
     const SamplingKernels* kernels_ = &sampling_kernels();
     OwnBlocks own_{one_rank(), 0};
-    std::span<const double> area_;
-    /// S_ij, the same number in both rows. A column may come twice in a row of a batch: as one
-    /// patch saw the other, and was seen by it.
+    std::span<const double> area_; ///< local units
+    /// The values S_ij; both rows hold the same number. A column may come twice in a row of a
+    /// batch: as one patch saw the other, and was seen by it.
     SparseRows rows_;
     std::vector<double> scale_;    ///< g_i
     std::vector<double> per_area_; ///< g_i / A_i
     std::vector<double> self_;     ///< S_ii, which closes the row, not scaled
-    std::vector<double> rays_;
+    std::vector<double> rays_;     ///< by patch
     std::vector<EscapeFraction> lost_;
 };
 

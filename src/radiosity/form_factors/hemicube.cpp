@@ -12,12 +12,12 @@
 namespace hemilux {
 namespace {
 
-/// From the origin, z being the normal.
+/// Returns the form factor from the origin, where z is the normal.
 double factor_to(const Polygon& pixel) {
     return ProjectedPolygon(Vec3(0.0), {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, pixel).factor();
 }
 
-/// The patches that the pixels show, `escaped` or `absorbed`.
+/// Returns the patches that the pixels show, `escaped` or `absorbed`.
 std::vector<std::uint32_t> item_buffer(const Hemicube& cube, const Mesh& mesh, const Tracer& tracer,
                                        std::uint32_t patch, const Workers& workers,
                                        const StopFlag& interrupted) {

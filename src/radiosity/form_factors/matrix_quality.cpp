@@ -9,7 +9,7 @@ namespace hemilux {
 
 namespace {
 
-/// F_ij; columns of a row ascend.
+/// Returns F_ij; columns of a row ascend.
 double entry(const SparseMatrix& matrix, std::uint32_t i, std::uint32_t j) {
     const auto begin = matrix.column.begin() + static_cast<std::ptrdiff_t>(matrix.row_begin[i]);
     const auto end = matrix.column.begin() + static_cast<std::ptrdiff_t>(matrix.row_begin[i + 1]);

@@ -1,5 +1,5 @@
 #pragma once
-// How well a matrix of form factors obeys what all form factors obey.
+// Measures how well a matrix of form factors obeys what all form factors obey.
 
 #include "radiosity/form_factors/sampled_form_factors.h"
 
@@ -15,13 +15,13 @@ struct MatrixQuality {
     double closure_mean = 0;    ///< of |row sum - 1 + lost|
     double closure_most = 0;
     double lost_mean = 0; ///< share of rays that met no patch
-    /// Sum of |A_i F_ij - A_j F_ji| over the sum of both terms.
+    /// The sum of |A_i F_ij - A_j F_ji| over the sum of both terms.
     double reciprocity_mean = 0;
-    /// Largest |A_i F_ij - A_j F_ji| / max(A_i, A_j): an error of the smaller factor.
+    /// The largest |A_i F_ij - A_j F_ji| / max(A_i, A_j): an error of the smaller factor.
     double reciprocity_most = 0;
 };
 
-/// `lost`: by row.
+/// Assesses a matrix; `lost` is given by row.
 [[nodiscard]] MatrixQuality assess_matrix(const SparseMatrix& matrix, const Mesh& mesh,
                                           std::span<const EscapeFraction> lost);
 

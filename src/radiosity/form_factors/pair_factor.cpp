@@ -15,20 +15,21 @@
 namespace hemilux {
 namespace {
 
-/// A pair that deserves fewer rays gets just these, in two batches of points: too few to judge by.
+/// A pair of less importance gets as many rays as its importance, in two batches of points: they
+/// are too few to judge by.
 constexpr double least_importance_to_adapt = 32;
 
-/// Others get from a quarter to four times what they deserve, in four batches, whose agreement is
-/// seldom chance: until the variance is that of `importance` points with this relative variance
-/// each.
+/// Other pairs get from a quarter to four times their importance in rays, in four batches, whose
+/// agreement is seldom chance. Rays are added until the variance is that of `importance` points
+/// with this relative variance each.
 constexpr double least_share = 0.25, most_share = 4;
 constexpr std::uint32_t adaptive_batches = 4;
 constexpr double relative_variance = 0.03;
 
-/// Whatever a pair deserves.
+/// The largest number of rays of a pair, whatever its importance.
 constexpr double most_rays = 8192;
 
-/// Points of each batch, a power of two, for which they are best distributed.
+/// Returns the number of points of each batch, a power of two, for which they are best distributed.
 std::uint32_t points_per_batch(double rays, std::uint32_t batches) {
     const double points = std::clamp(rays, 2.0, most_rays) / batches;
     return std::bit_ceil(static_cast<std::uint32_t>(std::max(points, 1.0)));
@@ -46,8 +47,8 @@ void PairFactor::average(std::span<const double> sums, double points_each) {
 }
 
 bool may_see(const Patch& a, const Patch& b) {
-    // Neighbours in one plane are in front of each other by rounding errors only: those of their
-    // places, which may be coarse far from a file's origin. Walls may be nearer than that.
+    // Neighbours in one plane are in front of each other by rounding errors only. These are errors
+    // of their places, which may be coarse far from a file's origin. Walls may be nearer than that.
     constexpr double least_slope = 1e-7;
     const double least_height = 1e-12 + least_slope * glm::distance(a.centre, b.centre);
     const auto reaches_above = [&](const Patch& patch, const Patch& plane) {
@@ -97,7 +98,7 @@ PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t fro
     for (;; begin = end, end *= 2) {
         look_at_points(begin, end);
         // There may be a gap all the same. Pairs that met something go on to `most` points, of
-        // which these are a share; other points, as many, stand for the rest.
+        // which these are a share. As many other points stand for the rest.
         if (result.hits == 0 && end < most) {
             first_batch = batches;
             look_at_points(0, end);
@@ -108,8 +109,8 @@ PairFactor pair_factor(const Mesh& mesh, const Tracer& tracer, std::uint32_t fro
         }
         const double allowed = relative_variance * result.factor * result.factor / importance;
         if (end >= most || result.variance <= allowed) {
-            // To stop when the batches agree is to stop when they happen to: not better than
-            // allowed.
+            // Stopping when the batches agree means stopping when they happen to, so the variance
+            // is not taken to be less than allowed.
             if (adaptive)
                 result.variance = std::max(result.variance, allowed);
             return result;

@@ -9,7 +9,7 @@
 namespace hemilux {
 namespace {
 
-/// Short of the target by what rounding may do: a coplanar facet is not in front of it.
+/// A ray ends short of the target by what rounding may do: a coplanar facet is not in front of it.
 constexpr double short_of_target = 1 - 1e-10;
 
 } // namespace

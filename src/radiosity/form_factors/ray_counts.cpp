@@ -17,10 +17,10 @@
 namespace hemilux {
 namespace {
 
-/// A row with more of them is traced in parts.
+/// The largest number of rays of a row that are traced at once; longer rows are traced in parts.
 constexpr std::uint32_t rays_in_batch = 1u << 14;
 
-/// Some of a block's rays. Of the four dimensions the first two are the best distributed.
+/// Draws some of a block's rays. Of the four dimensions the first two are the best distributed.
 void draw(const PatchStart& start, const SobolBlocks<4>& points, std::size_t first,
           std::size_t count, std::vector<Ray>& rays) {
     std::array<double, samples_per_block> x, y, z;
@@ -37,12 +37,12 @@ RayCounts::RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed,
     : mesh_(mesh), tracer_(tracer), seed_(seed), own_(ranks, mesh.patches().size()),
       rows_(mesh.patches().size()), blocks_((rows_.size() + rows_per_block - 1) / rows_per_block) {}
 
-/// A block of rows, written anew with what was hit since.
+/// A block of rows that is built anew from its counts and what was hit since.
 class RayCounts::Tally {
   public:
     explicit Tally(std::size_t patches) : place_(patches) {}
 
-    /// One row more, which has these already.
+    /// Begins another row, which has these counts already.
     void begin_row(std::span<const Count> counted) {
         end_row();
         for (const Count& count : counted) {
@@ -51,7 +51,7 @@ class RayCounts::Tally {
         }
         ends_.push_back(size());
     }
-    /// To the last row.
+    /// Adds a hit to the last row.
     void add(std::uint32_t patch) {
         std::uint32_t& place = place_[patch];
         if (place == 0) {
@@ -72,7 +72,7 @@ class RayCounts::Tally {
         ends_.clear();
     }
     [[nodiscard]] std::span<const Count> counts() const { return counts_; }
-    /// By row.
+    /// Returns, by row, the end of its counts.
     [[nodiscard]] std::span<const std::uint32_t> ends() const { return ends_; }
 
   private:
@@ -83,7 +83,7 @@ class RayCounts::Tally {
     std::vector<std::uint32_t> place_; ///< by patch, in the last row: one more than its index, or 0
 };
 
-/// Rays of some rows of a block that are not traced yet, and what those before have hit.
+/// The rays of some rows of a block that are not traced yet, and the hits of those before.
 struct RayCounts::RayBatch {
     explicit RayBatch(std::size_t patches) : tally(patches) {}
 
@@ -125,7 +125,7 @@ std::uint64_t RayCounts::trace_up_to(std::span<RayCounts> batches,
     return own.ranks().sum(traced);
 }
 
-/// All ranks know how many rays there are, but not what those of others have hit.
+/// Tells all ranks how many rays there are, but not what those of others have hit.
 void RayCounts::gather_rows() {
     own_.gather(rows_);
     for (std::size_t i = 0; i < rows_.size(); ++i)

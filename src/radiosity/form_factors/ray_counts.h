@@ -1,7 +1,7 @@
 #pragma once
-// Which patches the cosine-distributed rays of each patch hit, and how often: what stored
-// transport keeps of them. One sequence of well-distributed points per patch (sobol.h), which can
-// be prolonged.
+// Counts which patches the cosine-distributed rays of each patch hit, and how often: what stored
+// transport keeps of them. Each patch has one sequence of well-distributed points (sobol.h), which
+// can be prolonged.
 
 #include "bvh/tracer.h"
 #include "parallel/ranks.h"
@@ -20,50 +20,53 @@ struct Monitor;
 
 class RayCounts {
   public:
-    /// A patch that was hit, and how often.
+    /// A patch that was hit, and the number of hits.
     struct Count {
         std::uint32_t patch, hits;
     };
 
-    /// Different seeds: independent batches. What is referred to outlives this. Each of the ranks
-    /// traces the rays of its patches and keeps what they hit.
+    /// Makes counts without rays. Different seeds give independent batches. The mesh, the tracer
+    /// and the ranks outlive this. Each of the ranks traces the rays of its patches and keeps what
+    /// they hit.
     RayCounts(const Mesh& mesh, const Tracer& tracer, std::uint64_t seed,
               const Ranks& ranks = one_rank());
 
-    /// Goes on until each patch has so many rays. Returns the number traced now. Where the monitor
-    /// was interrupted meanwhile some patches have fewer, and another call takes up the rest.
+    /// Traces until each patch has so many rays. Returns the number of rays that this call traced.
+    /// Where the monitor was interrupted meanwhile some patches have fewer, and another call takes
+    /// up the rest.
     std::uint64_t trace_up_to(std::span<const std::uint32_t> rays, const Workers& workers,
                               Monitor& monitor) {
         return trace_up_to({this, 1}, rays, workers, monitor, 0);
     }
-    /// The same in several batches of one mesh, so that no thread waits at the end of each.
-    /// `share`: what part of a step this is. Called by all ranks; the rays are those of all.
+    /// Does the same in several batches of one mesh, so that no thread waits at the end of each.
+    /// `share` is the part of a step that this is. All ranks call it; the rays are those of all.
     static std::uint64_t trace_up_to(std::span<RayCounts> batches,
                                      std::span<const std::uint32_t> rays, const Workers& workers,
                                      Monitor& monitor, double share);
 
     [[nodiscard]] std::uint32_t patches() const { return static_cast<std::uint32_t>(rows_.size()); }
-    /// Counts the rays of this patch.
+    /// Returns the number of rays of this patch.
     [[nodiscard]] std::uint32_t rays(std::uint32_t patch) const { return rows_[patch].rays; }
-    /// Those whose row() this rank has.
+    /// Returns the patches whose row() this rank has.
     [[nodiscard]] const OwnBlocks& own_rows() const { return own_; }
-    /// Each patch once, in the order in which they were first hit. Empty where the row is
-    /// another rank's.
+    /// Returns each patch that was hit, listed once, in the order of first hits. The row is empty
+    /// where it is another rank's.
     [[nodiscard]] std::span<const Count> row(std::uint32_t patch) const {
         const std::uint32_t begin = patch % rows_per_block > 0 ? rows_[patch - 1].end : 0;
         return std::span(blocks_[patch / rows_per_block]).subspan(begin, rows_[patch].end - begin);
     }
-    /// Rays that met no patch: that left the scene, that fell on the back of a face.
+    /// Returns the number of rays that left the scene and so met no patch. Those of absorbed() fell
+    /// on the back of a face.
     [[nodiscard]] std::uint32_t escaped(std::uint32_t patch) const { return rows_[patch].escaped; }
     [[nodiscard]] std::uint32_t absorbed(std::uint32_t patch) const {
         return rows_[patch].absorbed;
     }
-    /// Of all ranks, which all call this and the following ones.
+    /// Returns the memory of all ranks, which all call this and the following functions.
     [[nodiscard]] std::uint64_t bytes() const;
 
-    /// The state is whole on the first rank.
+    /// Saves the state, which is whole on the first rank.
     void save(StateWriter& state) const;
-    /// Throws StateError for what save() cannot have written of this mesh.
+    /// Loads the state; throws StateError for what save() cannot have written of this mesh.
     void load(StateReader& state);
 
   private:

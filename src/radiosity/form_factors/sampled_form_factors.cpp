@@ -38,7 +38,8 @@ SampledFormFactors::SampledFormFactors(const Mesh& mesh, const Tracer& tracer,
         is_emitter_[e] = true;
 }
 
-/// Together the emitters get as many rays as the hemisphere, each at least one.
+/// Returns the number of rays to each emitter. Together the emitters get as many rays as the
+/// hemisphere, each at least one.
 std::uint32_t SampledFormFactors::emitter_samples(std::uint32_t rays) const {
     if (emitters_.empty() || rays == 0)
         return 0;
@@ -95,7 +96,7 @@ bool SampledFormFactors::all_receive() const {
     return true;
 }
 
-/// c_ij + c_ji, by row and patch.
+/// Returns c_ij + c_ji, by row and patch.
 std::vector<std::vector<RayCounts::Count>> SampledFormFactors::merged_counts() const {
     const auto patches = static_cast<std::uint32_t>(mesh_.patches().size());
     std::vector<std::vector<RayCounts::Count>> merged(patches);
@@ -118,7 +119,7 @@ std::vector<std::vector<RayCounts::Count>> SampledFormFactors::merged_counts() c
     return merged;
 }
 
-/// F_ij for each hit by the rays of both, or of the one that shoots.
+/// Returns F_ij for each hit by the rays of both, or of the one that shoots.
 double SampledFormFactors::factor_per_hit(std::uint32_t i, std::uint32_t j) const {
     const double a_i = mesh_.patches()[i].area, a_j = mesh_.patches()[j].area, n = rays_;
     if (!needs_.power(j))

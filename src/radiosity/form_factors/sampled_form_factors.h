@@ -1,13 +1,14 @@
 #pragma once
-// Form factors of all patches by well-distributed rays, with what each pair of patches saw of the
-// other put together.
+// Computes form factors of all patches by well-distributed rays, and puts together what each pair
+// of patches saw of the other.
 //
-// From every patch N rays follow the cosine law, origin and direction together a scrambled Sobol
-// point. By reciprocity, A_i F_ij = A_j F_ji, the rays from i to j and from j to i estimate the
-// same number; weighted by the inverse of its variance, F_ij = A_j (c_ij + c_ji) / (N (A_i + A_j)),
-// c being the counts. Few rays find a small emitter: the columns of emitters come from the closed
-// form of point and polygon (Lambert) times the visibility along a ray drawn inside it. Rows are
-// then closed: they sum to 1 minus the share of the row's own rays that met no patch.
+// From every patch N rays follow the cosine law; origin and direction together are a scrambled
+// Sobol point. By reciprocity, A_i F_ij = A_j F_ji, the rays from i to j and from j to i estimate
+// the same number. Weighted by the inverse of its variance, F_ij = A_j (c_ij + c_ji) / (N (A_i +
+// A_j)), where c are the counts. Few rays find a small emitter. So the columns of emitters come
+// from the closed form of point and polygon (Lambert) times the visibility along a ray drawn inside
+// it. Rows are then closed: they sum to 1 minus the escape fraction, the share of the row's own
+// rays that met no patch.
 
 #include "bvh/tracer.h"
 #include "parallel/workers.h"
@@ -25,21 +26,21 @@ namespace hemilux {
 class Mesh;
 struct Monitor;
 
-/// Sparse matrix by rows; the entries of a row are in any order, each column once [-]. The
-/// reference is solved to a residual of 1e-12 and written to files, so its values are doubles and
+/// A sparse matrix by rows; the entries of a row are in any order, each column once [-]. The
+/// reference is solved to a residual of 1e-12 and written to files. So its values are doubles, and
 /// what two patches saw of each other is merged. Stored transport has rows of floats without
 /// merging (sparse_rows.h): its rays err more than floats round.
 struct SparseMatrix {
     std::vector<std::size_t> row_begin; ///< one more than rows
     std::vector<std::uint32_t> column;
-    std::vector<double> value;
+    std::vector<double> value; ///< F [-]
 
     [[nodiscard]] std::size_t rows() const { return row_begin.size() - 1; }
-    /// y = M x
+    /// Computes y = M x.
     void multiply(std::span<const double> x, std::span<double> y, const Workers& workers) const;
 };
 
-/// Shares of a patch's rays [-] that met no patch.
+/// The shares of a patch's rays [-] that met no patch.
 struct EscapeFraction {
     double escaped = 0;  ///< left the scene
     double absorbed = 0; ///< fell on the back of a one-sided face
@@ -49,26 +50,27 @@ struct EscapeFraction {
 
 class SampledFormFactors {
   public:
-    /// `emitters`: the patches whose columns are computed in closed form; may be empty. All
-    /// referred things must outlive this. Patches that never hold power shoot no rays; their rows
-    /// come from the rays of others and are not closed.
+    /// Makes factors without rays. The columns of `emitters` are computed in closed form; there may
+    /// be none. The mesh, the tracer and the needs must outlive this. Patches that never hold power
+    /// shoot no rays; their rows come from the rays of others and are not closed.
     SampledFormFactors(const Mesh& mesh, const Tracer& tracer, std::vector<std::uint32_t> emitters,
                        std::uint64_t seed, const Needs& needs = everything_needed);
 
-    /// Goes on until `rays` rays per patch are traced (and about as many to the emitters). Returns
-    /// the number of rays traced now; the factors are void if the monitor was interrupted
-    /// meanwhile.
+    /// Traces until there are `rays` rays per patch (and about as many to the emitters). Returns
+    /// the number of rays that this call traced; the factors are void if the monitor was
+    /// interrupted meanwhile.
     std::uint64_t trace_up_to(std::uint32_t rays, const Workers& workers, Monitor& monitor);
 
-    /// F, merged and closed.
+    /// Returns F, merged and closed.
     [[nodiscard]] SparseMatrix matrix() const;
-    /// By patch.
+    /// Returns the escape fractions by patch.
     [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }
     [[nodiscard]] std::span<const std::uint32_t> emitters() const { return emitters_; }
-    /// The share of the light of one of them that arrives, by the closed form; only right if
-    /// all_receive().
+    /// Returns the share of an emitter's light that arrives [-], by the closed form; `emitter` is
+    /// an index in emitters(). It is only right if all_receive().
     [[nodiscard]] double arriving_from(std::size_t emitter) const;
-    /// Whether no patch is black, as one that reflects and emits nothing may look to no emitter.
+    /// Returns whether no patch is black; one that reflects and emits nothing may look at no
+    /// emitter.
     [[nodiscard]] bool all_receive() const;
 
   private:

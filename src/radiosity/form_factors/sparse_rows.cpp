@@ -8,7 +8,7 @@ namespace hemilux {
 namespace {
 
 /// Adds up rows. The order of the columns is that in which they come. Some floats of similar size
-/// sum up to a double without rounding: the sums are symmetric too.
+/// sum up to a double without rounding, so the sums are symmetric too.
 class Accumulator {
   public:
     explicit Accumulator(std::size_t columns) : sum_(columns), touched_(columns + 1) {}
@@ -19,7 +19,7 @@ class Accumulator {
         count_ += !(sum > 0);
         sum += static_cast<double>(entry.value);
     }
-    /// Adds all sums, times a factor, to the entries; and is empty again.
+    /// Adds all sums, times a factor, to the entries, and empties the accumulator.
     void flush(double factor, std::vector<MatrixEntry>& entries) {
         for (std::size_t k = 0; k < count_; ++k) {
             const double sum = std::exchange(sum_[touched_[k]], 0.0);
@@ -43,7 +43,7 @@ SparseRows::SparseRows(std::vector<std::uint32_t> sizes)
     entries_ = std::accumulate(size_.begin(), size_.end(), std::size_t{0});
 }
 
-/// For rows whose sizes are known.
+/// Allocates rows whose sizes are known.
 void SparseRows::allocate(std::size_t chunk) {
     const std::size_t begin = chunk * rows_per_chunk;
     const std::size_t end = std::min(begin + rows_per_chunk, size_.size());

@@ -1,5 +1,5 @@
 #pragma once
-// A sparse matrix by its rows.
+// Stores a sparse matrix by its rows.
 
 #include "parallel/workers.h"
 #include "radiosity/sampling/sampling_kernels.h"
@@ -11,28 +11,29 @@
 
 namespace hemilux {
 
-/// Of a sparse matrix of form factors at its peak: column, value, and the counts that they come
-/// from, with room to grow.
+/// The bytes per entry of a sparse matrix of form factors at its peak: column, value, and the
+/// counts that they come from, with room to grow.
 inline constexpr double bytes_per_factor = 32;
 
 class SparseRows {
   public:
     SparseRows() = default;
-    /// Room for so many entries in each row; they are still to be written.
+    /// Allocates room for so many entries in each row; they are still to be written.
     explicit SparseRows(std::vector<std::uint32_t> sizes);
-    /// The mean of a few of the same shape, each column once in a row: symmetric to the last bit if
-    /// they are. Takes little more memory than they have, as it takes the place of their rows.
+    /// Makes the mean of a few of the same shape, each column once in a row; it is symmetric to the
+    /// last bit if they are. It takes little more memory than they have, as it takes the place of
+    /// their rows.
     SparseRows(std::vector<SparseRows> parts, const Workers& workers);
 
     [[nodiscard]] std::size_t rows() const { return begin_.size(); }
     [[nodiscard]] std::size_t entries() const { return entries_; }
-    /// Its entries have any order, and a column may come twice.
+    /// Returns a row. Its entries have any order, and a column may come twice.
     [[nodiscard]] std::span<const MatrixEntry> row(std::size_t i) const {
         return {begin_[i], size_[i]};
     }
     [[nodiscard]] MatrixEntry* to_write(std::size_t i) { return begin_[i]; }
 
-    /// Rows that a thread takes at a time.
+    /// The number of rows that a thread takes at a time.
     static constexpr std::size_t rows_per_chunk = 64;
 
   private:

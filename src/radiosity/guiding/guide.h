@@ -1,5 +1,5 @@
 #pragma once
-// --guide: what the method `hemisphere` is guided by.
+// The option --guide says what guides the method `hemisphere`.
 
 #include "radiosity/solving/solve_options.h"
 
@@ -14,11 +14,11 @@ enum class Guide {
     learned  ///< the same, from the hits of the steps before
 };
 
-/// As --guide names them, in this order.
+/// The names of the guides for --guide, in the order of the enum.
 inline constexpr std::array<const char*, 4> guide_names = {"density", "pyramid", "visible",
                                                            "learned"};
 
-/// With `literal` it is the density.
+/// Returns the guide of the options; with `literal` it is the density.
 [[nodiscard]] inline Guide guide_of(const SolveOptions& options) {
     return options.literal ? Guide::density : options.own.of<Guide>();
 }

@@ -12,11 +12,11 @@
 namespace hemilux {
 namespace {
 
-/// Light that is too much or too little is not spread evenly, which makes its square larger. With 1
-/// a room of reflectance .99 lost some hundredths outside of its details.
+/// Light that is too much or too little is not spread evenly, which makes its square larger. With
+/// 1, a room of reflectance .99 loses some hundredths outside of its details.
 constexpr double weight_of_energy = 2;
 
-/// How many hits the importance of the parent counts for.
+/// The number of hits that the importance of the parent counts for.
 constexpr double hits_of_parent = 4;
 
 } // namespace
@@ -44,7 +44,7 @@ double HemisphereImportance::sum_of(std::uint32_t patch) const {
     return sum;
 }
 
-/// From the leaves to the roots.
+/// Sums from the leaves to the roots.
 void HemisphereImportance::collect(std::uint32_t patch, std::vector<Known>& tree) const {
     const auto& cells = hemisphere_.cells();
     tree.assign(cells.size(), {});

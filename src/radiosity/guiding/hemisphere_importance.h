@@ -4,7 +4,7 @@
 //
 // A triangle's own hits say little when they are few. Its estimate is therefore moved towards that
 // of its parent, which counts for a few hits more, and so on up to the patch and the scene
-// (empirical Bayes): triangles between which the hits show no spread share their parent's
+// (empirical Bayes). Triangles between which the hits show no spread share their parent's
 // importance.
 
 #include "radiosity/hemisphere/hemisphere.h"
@@ -21,12 +21,12 @@ class StateWriter;
 
 class HemisphereImportance {
   public:
-    /// The hemisphere outlives this.
+    /// The hemisphere must outlive this object.
     HemisphereImportance(const Hemisphere& hemisphere, std::size_t patches);
 
-    /// Adds to what is known of a leaf, the `leaf`-th triangle of the last level: the sum over hits
-    /// of value / (rays per area and share), and the number of these hits. It counts once it has
-    /// been committed.
+    /// Adds the sum over hits of value / (rays per area and share), and the number of these hits,
+    /// to what is known of a leaf. This is the `leaf`-th triangle of the last level. What is added
+    /// counts once it has been committed.
     void add(std::uint32_t patch, std::size_t leaf, float sum, float hits) {
         pending_[patch * leaves() + leaf] += Known{sum, hits};
     }
@@ -36,15 +36,16 @@ class HemisphereImportance {
     void drop_pending();
 
     [[nodiscard]] std::size_t leaves() const { return leaves_; }
-    /// The share of a patch's power that a leaf has.
+    /// Returns the share of a patch's power that a leaf has [-].
     [[nodiscard]] double share(std::size_t leaf) const { return shares_[first_leaf_ + leaf]; }
     [[nodiscard]] std::vector<double> shares() const {
         return {shares_.end() - static_cast<std::ptrdiff_t>(leaves_), shares_.end()};
     }
-    /// Integral of the importance over a patch's hemisphere by its own hits, times its area.
+    /// Returns the integral of the importance over a patch's hemisphere by its own hits, times its
+    /// area.
     [[nodiscard]] double sum_of(std::uint32_t patch) const;
-    /// The importance of each leaf, for sums that are to be multiplied by `scale`; `prior_mean` is
-    /// the importance where nothing is known.
+    /// Writes the importance of each leaf, for sums that are to be multiplied by `scale`.
+    /// `prior_mean` is the importance where nothing is known.
     void estimate(std::uint32_t patch, double scale, double prior_mean,
                   std::span<double> importance) const;
 
@@ -61,7 +62,7 @@ class HemisphereImportance {
         float sum = 0, hits = 0;
         void operator+=(const Known& more) { sum += more.sum, hits += more.hits; }
     };
-    /// All triangles of a patch, leaf or not.
+    /// Writes the sums of all triangles of a patch, leaf or not, to `tree`.
     void collect(std::uint32_t patch, std::vector<Known>& tree) const;
 
     const Hemisphere& hemisphere_;
@@ -70,11 +71,11 @@ class HemisphereImportance {
     std::vector<Known> known_, pending_; ///< by patch and leaf
 };
 
-/// Rays of unequal power do not carry exactly the power to be shot. What is too much or too little
-/// goes on over all bounces and spreads over all patches, so every ray has an importance besides
-/// what it hits: about 2 (rho M)^2 / N relative to the mean of N patches, M being all power shot
-/// over that emitted. In most rooms it is next to nothing; at reflectance .99 it is above all
-/// else, and all rays are to be nearly equal.
+/// Returns the importance that every ray has besides what it hits. Rays of unequal power do not
+/// carry exactly the power to be shot. What is too much or too little goes on over all bounces and
+/// spreads over all patches. This importance is about 2 (rho M)^2 / N relative to the mean of N
+/// patches, where M is all power shot over that emitted. In most rooms it is next to nothing; at
+/// reflectance .99 it is above all else, and all rays should be nearly equal.
 [[nodiscard]] double importance_of_energy(const Mesh& mesh, std::span<const Vec3> radiosity);
 
 } // namespace hemilux

@@ -1,9 +1,9 @@
 #pragma once
 // A tree of boxes over the patches of a scene, halved at the median of their centres until one is
-// left: to find those in a region, and to count them where a whole box lies in it. On the trees
-// that `hierarchical` has, plane by plane (patch_tree.h), --guide pyramid takes 1.2 times as long
-// in office_3576, and 2 times before a curved surface of 7200 triangles, each of which is a root
-// there.
+// left. It finds the patches in a region, and counts them at once if a whole box lies in it. On the
+// trees that `hierarchical` has, plane by plane (patch_tree.h), --guide pyramid takes 1.2 times as
+// long in office_3576. Before a curved surface of 7200 triangles, each of which is a root there, it
+// takes 2 times as long.
 
 #include "geometry/box.h"
 
@@ -25,7 +25,7 @@ class PatchBoxes {
         std::uint32_t second;      ///< the second child; the first one follows this node
         [[nodiscard]] std::uint32_t patches() const { return last - first; }
     };
-    /// The root is the first; none where no patch has an area.
+    /// Returns the nodes, with the root first; none if no patch has an area.
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] std::uint32_t patch(std::uint32_t slot) const { return order_[slot]; }
 

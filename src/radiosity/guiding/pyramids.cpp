@@ -54,7 +54,7 @@ std::optional<Vec3> Pyramid::point_of(const Polygon& polygon) const {
     return sum / static_cast<double>(corners);
 }
 
-/// From one patch after the other.
+/// Counts the patches in pyramids, from one patch after another.
 class PyramidMap::Count {
   public:
     Count(const Mesh& mesh, const PatchBoxes& boxes, const Hemisphere& hemisphere, double threshold)
@@ -74,7 +74,8 @@ class PyramidMap::Count {
     }
 
   private:
-    /// The nodes found_[begin] to before found_[end] hold all that a triangle may have in it.
+    /// Counts what lies in a triangle's pyramid, and in those of its children. The nodes
+    /// found_[begin] to before found_[end] hold all that may lie in it.
     void visit(std::size_t cell, std::size_t begin, std::size_t end) {
         const Hemisphere::Cell& triangle = hemisphere_.cells()[cell];
         Pyramid pyramid{apex_, triangle.shape.planes()};
@@ -92,7 +93,7 @@ class PyramidMap::Count {
         found_.resize(end);
     }
 
-    /// Adds to found_ what of a node is in the pyramid; returns how many patches that are.
+    /// Adds to found_ the parts of a node that lie in the pyramid; returns their number of patches.
     std::uint32_t find(std::uint32_t at, const Pyramid& pyramid) {
         const PatchBoxes::Node& node = boxes_.nodes()[at];
         const Pyramid::Place place = pyramid.place_of(node.box);

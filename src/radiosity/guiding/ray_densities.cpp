@@ -10,7 +10,7 @@
 namespace hemilux {
 namespace {
 
-/// Kept within what floats hold, whatever the areas.
+/// The largest density: it stays within what floats hold, whatever the areas.
 constexpr double most_density = 1e12;
 
 } // namespace

@@ -19,21 +19,23 @@
 namespace hemilux {
 namespace {
 
-/// Rays of each patch before the first step: knowledge of steps costs none, but comes late.
+/// The numbers of rays from each patch before the first step. What steps teach costs no rays, but
+/// comes late.
 constexpr std::size_t rays_of_one_look = 32, rays_of_first_look = 16;
 
-/// Steps all of whose rays teach; then the rays of one in four do.
+/// The number of first steps all of whose rays teach; then the rays of one step in four do.
 constexpr std::uint64_t steps_of_learning = 8, later_training = 4;
 
-/// Radiosity that all patches are taken to have besides what is known of it, as a share of the
-/// mean: the first step knows few rays, and a patch that none of them has hit is not black. More
-/// makes those in the dark seem to have sent more rays than they did.
+/// The radiosity that all patches are assumed to have besides what is known of it, as a share of
+/// the mean. The first step knows few rays, and a patch that none of them has hit is not black.
+/// With a larger share, patches in the dark would seem to have sent more rays than they did.
 constexpr double unknown_share = .05;
 
-/// Kept within what floats hold, whatever the areas.
+/// The largest values that are kept: they stay within what floats hold, whatever the areas.
 constexpr double most_value = 1e12, most_rays_per_area = 1e18;
 
-/// After the first four, as often as what is known has grown by a third or a half: 6, 8, 12, 16 ...
+/// Returns true for the first four steps, then each time that the number of steps has grown by a
+/// third or a half: 6, 8, 12, 16 ...
 bool is_time_to_estimate(std::uint64_t step) {
     const std::uint64_t odd = step >> std::countr_zero(step);
     return step <= 4 || odd == 1 || odd == 3;
@@ -168,7 +170,7 @@ class VisibilityGuide final : public Strategy {
     HemisphereImportance known_;
     RayDensities densities_;
     double training_steps_ = 0; ///< steps whose rays are in known_, the look being a part of one
-    std::uint64_t steps_ = 0;   ///< from 1; 0 before the pilot
+    std::uint64_t steps_ = 0;   ///< that are done, without the pilot
     std::uint64_t rays_ = 0;
     std::vector<Side> sides_;   ///< by patch
     std::vector<Frame> frames_; ///< by patch
@@ -200,7 +202,7 @@ void VisibilityGuide::describe_sides() {
     }
 }
 
-/// All patches, in their order whatever thread looks.
+/// Looks from all patches, and learns in their order, whichever thread looks.
 void VisibilityGuide::look(const SolverInput& input) {
     constexpr std::size_t at_once = 1024;
     std::vector<LookRays> looks(std::min(at_once, sides_.size()));
@@ -251,7 +253,7 @@ double VisibilityGuide::mean_radiosity(std::span<const Vec3> radiosity) const {
     return area > 0 ? power / area : 0;
 }
 
-/// Mean over the patches that shoot.
+/// Returns the mean importance over the patches that shoot.
 double VisibilityGuide::find_prior_mean() const {
     std::vector<double> importance(sides_.size());
     for_patches([&](std::uint32_t i) {
@@ -285,7 +287,7 @@ void VisibilityGuide::estimate_importance(std::span<const Vec3> radiosity) {
     for_patches([&](std::uint32_t i) { densities_.find_for_power(i); });
 }
 
-/// rays_per_area follows from the radiosity before each step.
+/// Saves no rays_per_area, which follows from the radiosity before each step.
 void VisibilityGuide::save(StateWriter& state) const {
     state.add(steps_);
     state.add(training_steps_);

@@ -3,7 +3,7 @@
 namespace hemilux {
 namespace {
 
-/// What the samples' numbers and directions are worked out in.
+/// The memory in which the samples' numbers and directions are computed.
 struct Attempt {
     static constexpr std::size_t room = DirectionBatch::room;
     alignas(64) std::array<double, room> a, b, c, d, x, y, z;
@@ -68,8 +68,8 @@ void CellDirections::draw(DirectionBatch& batch) const {
         try_again(batch, std::span(missed).first(misses));
 }
 
-/// Attempt after attempt those that have missed so far. This ends soon: a cell fills more than
-/// two fifths of the hull around it.
+/// Draws those that have missed again, attempt after attempt. This ends soon: a cell fills more
+/// than two fifths of the hull around it.
 void CellDirections::try_again(DirectionBatch& batch, std::span<std::uint32_t> missed) const {
     const SamplingKernels& kernels = sampling_kernels();
     std::array<std::uint32_t, DirectionBatch::room> low, high, number;

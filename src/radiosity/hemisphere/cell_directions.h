@@ -1,7 +1,7 @@
 #pragma once
 // Random directions into cells of the hemisphere, cosine distributed within each, and points to
-// start from; many at once. Each sample has random numbers of its own, found by the key of its
-// stream and its number in that: so no sample depends on which others are drawn with it.
+// start from, drawn many at once. Each sample has random numbers of its own, found by the key of
+// its stream and its number there. So no sample depends on which others are drawn with it.
 
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/sampling/sampling_kernels.h"
@@ -16,14 +16,14 @@ namespace hemilux {
 
 inline constexpr std::uint16_t whole_hemisphere = 0xffff;
 
-/// What A is in A_tr / A_hemi of the paper.
+/// The meaning of A in A_tr / A_hemi of the paper.
 enum class CellArea {
     projected_solid_angle, ///< so that Lambert's law holds
     solid_angle            ///< as printed; biased (docs/decisions.md, D1)
 };
 
-/// A_tr / A_hemi of the paper [-]: the share of a diffuse patch's power that a cell of the table
-/// gets.
+/// Returns A_tr / A_hemi of the paper [-]: the share of a diffuse patch's power that a cell of the
+/// table gets.
 [[nodiscard]] inline double power_share(const Hemisphere& hemisphere, std::uint16_t cell,
                                         CellArea area) {
     if (cell == whole_hemisphere)
@@ -33,15 +33,15 @@ enum class CellArea {
                                          : its.projected_solid_angle / std::numbers::pi;
 }
 
-/// Samples that are drawn together, as many as the nearer caches hold; each has one place in every
-/// array.
+/// The samples that are drawn together, as many as the nearer caches hold. Each has one place in
+/// every array.
 struct DirectionBatch {
     static constexpr std::size_t room = 512;
     std::size_t size = 0;
 
     std::array<std::uint32_t, room> key_low, key_high, number;
     std::array<std::uint16_t, room> cell; ///< of Hemisphere::cells(), or whole_hemisphere
-    // What is drawn.
+    // These are drawn.
     alignas(64) std::array<double, room> u, v;    ///< uniform in (0,1): where to start
     alignas(64) std::array<double, room> x, y, z; ///< unit, z along the normal
 
@@ -56,12 +56,12 @@ struct DirectionBatch {
 
 class CellDirections {
   public:
-    /// `area`: of the shares of power.
+    /// `area` defines the shares of power.
     CellDirections(const Hemisphere& hemisphere, CellArea area);
     CellDirections(const CellDirections&) = delete;
     CellDirections& operator=(const CellDirections&) = delete;
 
-    /// The share of power of a cell of the constructor's hemisphere, by its area.
+    /// Returns the share of power of a cell of the constructor's hemisphere, by its area [-].
     [[nodiscard]] double power_share(std::uint16_t cell) const {
         return cell == whole_hemisphere ? 1 : power_shares_[cell];
     }

@@ -10,9 +10,9 @@
 namespace hemilux {
 namespace {
 
-/// Walks the tree of one patch depth-first. count_at(vertex) is asked once for each vertex of the
-/// triangles that exist, always in the same order: the writer traces a ray there, the reader takes
-/// the next byte. leaf(cell, mean) is called for each triangle that is not divided.
+/// Walks the tree of one patch depth-first. count_at(vertex) is called once for each vertex of the
+/// triangles that exist, always in the same order. There the writer traces a ray, and the reader
+/// takes the next byte. leaf(cell, mean) is called for each triangle that is not divided.
 template <class CountAt, class Leaf>
 class TreeWalk {
   public:
@@ -60,7 +60,7 @@ class TreeWalk {
     std::array<std::int16_t, most_vertices> count_;
 };
 
-/// Below any mean: all triangles are divided.
+/// A threshold below any mean: all triangles are divided.
 constexpr double divide_all = -1;
 
 } // namespace
@@ -116,8 +116,8 @@ void DensityMap::store(const Blocks& blocks, std::size_t patches) {
             rays_spared_ += length > 0 ? hemisphere_.vertices().size() - length : 0;
         }
     }
-    // Patches one after the other with an index, or all as long as the longest: whichever is
-    // smaller.
+    // Patches are stored one after another with an index, or all as long as the longest, whichever
+    // is smaller.
     if (longest * patches <= rays_ + blocks.size() * sizeof(block_start_[0])) {
         stride_ = longest;
         counts_.resize(longest * patches);

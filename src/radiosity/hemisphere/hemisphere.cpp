@@ -17,7 +17,7 @@ Hemisphere::Cell make_cell(const Corners& vertex, std::uint8_t level,
     return {vertex, {}, 0, level, shape.solid_angle(), shape.projected_solid_angle(), shape};
 }
 
-/// Midpoints by the pair of vertices of their edge, so that neighbours share them exactly.
+/// The midpoints by the pair of vertices of their edge, so that neighbours share them exactly.
 class Midpoints {
   public:
     explicit Midpoints(std::vector<Vec3>& vertices) : vertices_(vertices) {}

@@ -3,7 +3,7 @@
 // octants, each divided at its edge midpoints into four, level by level.
 //
 // Directions are in a patch's own frame, z being its normal. "Equal" triangles of the paper differ
-// in solid angle by up to 1.96, so true areas are kept (docs/decisions.md, D3).
+// in solid angle by a factor of up to 1.96, so true areas are kept (docs/decisions.md, D3).
 
 #include "geometry/spherical_triangle.h"
 
@@ -34,13 +34,13 @@ class Hemisphere {
     [[nodiscard]] int depth() const { return depth_; }
     /// The roots come first, then level 1, level 2, ...
     [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
-    /// Unit vectors. Those of level 0 come first (the pole is vertex 0), then those that level 1
-    /// adds, ...
+    /// Returns unit vectors. Those of level 0 come first (the pole is vertex 0), then those that
+    /// level 1 adds, ...
     [[nodiscard]] const std::vector<Vec3>& vertices() const { return vertices_; }
-    /// The triangle of the last level that holds a direction, z >= 0; of several that meet there,
-    /// one.
+    /// Returns the triangle of the last level that holds a direction, z >= 0; if several meet
+    /// there, one of them.
     [[nodiscard]] std::uint16_t leaf_at(const Vec3& direction) const;
-    /// t = 4 (4^(n+1) - 1) / 3 triangles up to level n (paper section 6).
+    /// Returns the number of triangles up to level n, t = 4 (4^(n+1) - 1) / 3 (paper section 6).
     [[nodiscard]] static std::size_t cells_up_to(int level) {
         return 4 * ((std::size_t{1} << (2 * (level + 1))) - 1) / 3;
     }
@@ -49,7 +49,7 @@ class Hemisphere {
     int depth_;
     std::vector<Vec3> vertices_;
     std::vector<Cell> cells_;
-    /// For each divided triangle the normals of the planes that cut off its children 0, 1 and 2.
+    /// The normals of the planes that cut off the children 0, 1 and 2 of each divided triangle.
     std::vector<std::array<Vec3, 3>> cuts_;
 };
 

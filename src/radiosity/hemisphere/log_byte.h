@@ -1,6 +1,6 @@
 #pragma once
-// Positive numbers in one byte, as logarithms: eighths of an octave from 2^-16 to 2^15.75, so each
-// is kept within 4.5 %; what lies beyond becomes the last of them, and 0 is 0.
+// Positive numbers in one byte, as logarithms: eighths of an octave from 2^-16 to 2^15.75. So each
+// is kept within 4.5 %. What lies beyond an end becomes the number at that end, and 0 is 0.
 
 #include <algorithm>
 #include <cmath>

@@ -137,7 +137,7 @@ CountedTriangle Subdivision1997::triangle(std::uint32_t patch, std::size_t part,
     return corner;
 }
 
-/// Of the children at the corners the other two are new, of the middle one all.
+/// Two corners of a child at a corner are new, and all three of the middle child.
 std::vector<std::size_t> Subdivision1997::corners_found(int level, std::size_t index) const {
     if (level > stored_levels())
         return {};

@@ -1,11 +1,10 @@
 #pragma once
 // The hemispheres of the technique of 1997 (paper section 4; Jolivet and Plemenos, GraphiCon 1997).
 //
-// A patch is cut, in thought, into parts with a hemisphere over the centre of each. Level by level
-// all triangles are divided into four, at new directions on their edges that lie nearer to the end
-// where more surfaces were counted (edge_division.h). Which triangles share a direction is as in
-// the regular subdivision (hemisphere.h); only the directions differ, so they are stored: 13 bytes
-// each.
+// A patch is cut, in thought, into parts with a hemisphere over the centre of each. Level by level,
+// all triangles are divided into four at new directions on their edges. These lie nearer to the end
+// where more surfaces were counted (edge_division.h). Triangles share directions as in the regular
+// subdivision (hemisphere.h); only the directions differ, so they are stored, in 13 bytes each.
 
 #include "bvh/tracer.h"
 #include "radiosity/hemisphere/edge_division.h"
@@ -22,19 +21,19 @@ namespace hemilux {
 class Mesh;
 class Workers;
 
-/// What the user of the technique of 1997 gives (paper section 4). Each step makes four times as
-/// many spherical triangles, of which a patch may have 16384 at most: parts times
-/// 4^(1 + stored_steps + estimated_steps).
+/// The user's parameters of the technique of 1997 (paper section 4). Each step makes four times as
+/// many spherical triangles. A patch may have at most 16384 of them: parts times 4^(1 +
+/// stored_steps + estimated_steps).
 struct Subdivision1997Options {
     std::uint32_t stored_steps = 2; ///< n, 0 to 5: of counted surfaces; each takes rays and memory
     std::uint32_t estimated_steps = 1; ///< m, 0 to 6: of estimated ones
-    /// Fictive parts of a patch, each with a hemisphere of its own: 1, 4, 16 or 64.
+    /// The number of fictive parts of a patch, each with a hemisphere of its own: 1, 4, 16 or 64.
     std::uint32_t parts = 4;
 };
 
 class Subdivision1997 {
   public:
-    /// A patch may have as many triangles, of all its parts.
+    /// A patch may have at most this many triangles, over all its parts.
     static constexpr std::uint64_t most_triangles = 1 << 14;
     /// Throws std::invalid_argument, with what was expected, unless the numbers of steps and parts
     /// are among the choices and give no more triangles than that.
@@ -43,7 +42,7 @@ class Subdivision1997 {
     static constexpr std::array<std::uint32_t, 7> estimated_choices{0, 1, 2, 3, 4, 5, 6};
     static constexpr std::array<std::uint32_t, 4> part_choices{1, 4, 16, 64};
 
-    /// Checks the options. Nothing is counted yet. Mesh and needs outlive this.
+    /// Checks the options. Nothing is counted yet. `mesh` and `needs` must outlive this object.
     Subdivision1997(const Mesh& mesh, const Needs& needs, const Subdivision1997Options& options);
 
     /// Finds the directions of all triangles up to this level, as far as they are to be stored, and
@@ -51,19 +50,21 @@ class Subdivision1997 {
     void find(int level, const Tracer& tracer, const Workers& workers, Monitor& monitor);
 
     [[nodiscard]] std::size_t parts() const { return options_.parts; }
-    /// Counts those of one part; level 0 are the octants.
+    /// Returns the number of triangles of one part; those of level 0 are the octants.
     [[nodiscard]] static std::size_t triangles(int level) { return std::size_t{4} << (2 * level); }
-    /// Triangle `index` of a level: a stored one, or what becomes of it by estimation.
+    /// Returns triangle `index` of a level: a stored one, or what becomes of it by estimation.
     [[nodiscard]] CountedTriangle triangle(std::uint32_t patch, std::size_t part, int level,
                                            std::size_t index) const;
-    /// Which of its corners were found with this level, level 0 counting as the first.
+    /// Returns which of its corners were found with this level; those of level 0 count as found
+    /// with level 1.
     [[nodiscard]] std::vector<std::size_t> corners_found(int level, std::size_t index) const;
 
-    /// The directions of a part that were counted, all that are to be stored having been found.
+    /// Returns the directions of a part that were counted, once all that are to be stored have been
+    /// found.
     [[nodiscard]] std::vector<CountedDirection> counted(std::uint32_t patch,
                                                         std::size_t part) const;
 
-    /// The memory that a patch takes [bytes], for valid options.
+    /// Returns the memory that a patch takes [bytes], for valid options.
     [[nodiscard]] static double bytes_of_patch(const Subdivision1997Options& options);
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
     [[nodiscard]] std::uint64_t bytes() const {
@@ -72,7 +73,7 @@ class Subdivision1997 {
 
   private:
     [[nodiscard]] int stored_levels() const { return static_cast<int>(options_.stored_steps); }
-    /// Where the directions of a part begin. Where all counts are 1 all patches are alike.
+    /// Returns where the directions of a part begin. If all counts are 1, all patches are alike.
     [[nodiscard]] std::size_t place(std::uint32_t patch, std::size_t part) const {
         return ((needs_.visibility ? patch : 0) * parts() + part) * topology_.vertices().size();
     }
@@ -88,7 +89,7 @@ class Subdivision1997 {
     Hemisphere topology_;
     int found_ = -1; ///< the last level that was
     std::uint64_t rays_ = 0;
-    // By patch, part and vertex of the topology, in the patch's own frame.
+    // These are by patch, part and vertex of the topology, in the patch's own frame.
     std::vector<std::array<float, 3>> direction_;
     std::vector<std::uint8_t> count_;
 };

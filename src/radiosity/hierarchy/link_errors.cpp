@@ -6,8 +6,8 @@
 
 namespace hemilux {
 
-/// Squares of 1.5 times the change: there, and on the whole surface, as some patches change little
-/// by chance.
+/// Returns the squares of 1.5 times the change: the mean of that there and that on the whole
+/// surface, as some patches change little by chance.
 std::vector<Vec3> squares_of_changes(const PatchTree& tree, std::span<const double> area,
                                      std::span<const Vec3> before, std::span<const Vec3> after) {
     std::vector<Vec3> squares(area.size());

@@ -1,6 +1,6 @@
 #pragma once
-// What a solution over links may be off by besides the noise of its factors: nodes have one light,
-// and no ray has arrived along some links.
+// The errors of a solution over links besides the noise of its factors: nodes have one light, and
+// no ray has arrived along some links.
 
 #include "geometry/vector.h"
 #include "radiosity/hierarchy/links.h"
@@ -12,16 +12,17 @@
 
 namespace hemilux {
 
-/// Squares by patch [(W/m2)^2] of what nodes may err by after a refinement, from the light by patch
-/// [W/m2] before it and after it: each about halves what nodes err by.
+/// Returns the squares by patch [(W/m2)^2] of the errors that nodes may have after a refinement,
+/// from the light by patch [W/m2] before it and after it. Each refinement about halves the errors
+/// of nodes.
 [[nodiscard]] std::vector<Vec3> squares_of_changes(const PatchTree& tree,
                                                    std::span<const double> area,
                                                    std::span<const Vec3> before,
                                                    std::span<const Vec3> after);
 
-/// Squares by patch [(W/m2)^2 arriving] of what links may bring of which no ray arrived in any
-/// batch: up to three of them might have. `points[l]` are those of link l in a batch, `radiosity`
-/// [W/m2] is by patch.
+/// Returns the squares by patch [(W/m2)^2 arriving] of what links may bring of which no ray arrived
+/// in any batch: up to three of them might have. `points[l]` are those of link l in a batch, and
+/// `radiosity` [W/m2] is by patch.
 [[nodiscard]] std::vector<Vec3> missed_over_links(const PatchTree& tree, const Links& links,
                                                   std::span<const LinkFactors> batches,
                                                   std::span<const std::uint32_t> points,

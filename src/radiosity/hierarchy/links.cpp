@@ -21,18 +21,19 @@ namespace {
 
 using Node = PatchTree::Node;
 
-/// More are not made, however much light they carry: with its factors in eight batches a link takes
-/// some 100 bytes.
+/// The most links that are made, however much light they carry: with its factors in eight batches a
+/// link takes some 100 bytes.
 constexpr std::size_t most_links = 4'000'000;
 
-/// A larger factor changes too much within a node, whatever the light: where surfaces nearly touch
-/// one patch sees another alone, and the mean over its node sees it hardly.
+/// The largest factor of a link. A larger one changes too much within a node, whatever the light.
+/// Where surfaces nearly touch, one patch sees another alone, and the mean over its node hardly
+/// sees it.
 constexpr double most_factor = .1;
 
-/// An area that is larger than another by less than this factor is as large.
+/// An area that exceeds another by less than this factor counts as equal.
 constexpr double rounding = 1 + 1e-6;
 
-/// How far `other` may rise above the plane of `plane`.
+/// Returns how far `other` may rise above the plane of `plane`.
 double height_over(const Node& plane, const Node& other) {
     const double cosine = glm::dot(plane.normal, other.normal);
     return glm::dot(plane.normal, other.centre - plane.centre) +
@@ -133,7 +134,7 @@ class LinkLooks {
     LinkLooks(const Mesh& mesh, const Tracer& tracer, const PatchTree& tree)
         : mesh_(mesh), tracer_(tracer), tree_(tree) {}
 
-    /// Adds `weight` times the factor by a pair of points to `sum`, at the latest in finish().
+    /// Adds `weight` times the factor from a pair of points to `sum`, in finish() at the latest.
     void add(const Link& link, std::array<double, 4> u, double weight, double& sum) {
         const Node& from = tree_[link.from];
         const Patch& receiver = mesh_.patches()[tree_.sample(tree_[link.to], u[0])];

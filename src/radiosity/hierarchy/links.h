@@ -1,5 +1,5 @@
 #pragma once
-// Links of hierarchical radiosity (Hanrahan, Salzman and Aupperle 1991): a node gathers light from
+// Links of hierarchical radiosity (Hanrahan, Salzman and Aupperle 1991). A node gathers light from
 // another as if this were one patch. Each pair of patches that may see each other is linked once,
 // at some level.
 
@@ -20,26 +20,26 @@ struct Link {
     std::uint32_t to, from;
 };
 
-/// Estimates F_to,from [-] if nothing stands between, rather too high than too low.
+/// Estimates F_to,from [-] as if nothing stood between, rather too high than too low.
 [[nodiscard]] double rough_factor(const PatchTree::Node& to, const PatchTree::Node& from);
 
 enum class Refinement { not_needed, done, too_many_links };
 
 class Links {
   public:
-    /// Between all roots that may see each other. What is referred to outlives this. Throws
-    /// SolveError where these are too many.
+    /// Links all roots that may see each other. `mesh` and `tree` must outlive this object. Throws
+    /// SolveError if there are too many.
     Links(const Mesh& mesh, const PatchTree& tree);
 
     /// Divides the links by which more than `most_power` may be reflected, the larger node of each:
     /// the oracle BF with areas. `light` [W/m2 leaving] and `reflectance` [-] are by patch, means
-    /// of channels; `most_power` is in W/m2 times local area. None is divided where there would be
-    /// too many links.
+    /// of channels; `most_power` is in W/m2 times local area. No link is divided if there would be
+    /// too many.
     Refinement refine(std::span<const double> light, std::span<const double> reflectance,
                       double most_power);
 
     [[nodiscard]] std::span<const Link> all() const { return links_; }
-    /// Whether all are between patches, so that nodes stand for nothing.
+    /// Returns whether all are between patches, so that nodes stand for nothing.
     [[nodiscard]] bool are_whole() const;
 
   private:
@@ -53,16 +53,17 @@ class Links {
 /// The factors of all links in one batch.
 class LinkFactors {
   public:
-    /// F_to,from [-] by `points[l]` random pairs of a point of the one and a patch of the other:
-    /// the closed form of point and polygon times the visibility along a ray. Unbiased for the mean
-    /// over the node. Void if the monitor was interrupted. Tree and links outlive this.
+    /// Estimates F_to,from [-] by `points[l]` random pairs of a point of the one and a patch of the
+    /// other. Each gives the closed form of point and polygon times the visibility along a ray.
+    /// This is unbiased for the mean over the node. It is void if the monitor was interrupted.
+    /// `tree` and `links` must outlive this object.
     LinkFactors(const Mesh& mesh, const Tracer& tracer, const PatchTree& tree, const Links& links,
                 std::span<const std::uint32_t> points, std::uint64_t seed, const Workers& workers,
                 Monitor& monitor);
 
     /// Has an entry for each link.
     [[nodiscard]] std::span<const double> factors() const { return factors_; }
-    /// y_i = sum_j F_ij x_j, by patch: pull, gather, push.
+    /// Computes y_i = sum_j F_ij x_j, by patch: pull, gather, push.
     void multiply(std::span<const double> x, std::span<double> y) const;
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 

@@ -10,7 +10,7 @@
 namespace hemilux {
 namespace {
 
-/// Between the batches.
+/// Returns the variance of a patch's sum between the batches.
 double variance_of_sum(std::span<const std::vector<double>> sums, std::size_t patch) {
     const auto n = static_cast<double>(sums.size());
     double mean = 0, squares = 0;
@@ -21,8 +21,8 @@ double variance_of_sum(std::span<const std::vector<double>> sums, std::size_t pa
     return squares / (n - 1);
 }
 
-/// The share of the sums in the mean of both, by patch, each weighted by the inverse of its
-/// variance over all batches. It is 0 where no ray of any patch was lost.
+/// Returns the share of the sums in the mean of both, by patch, each weighted by the inverse of its
+/// variance over all batches. It is 0 if no ray of any patch was lost.
 std::vector<double> weights_of_sums(const LostRays& rays,
                                     std::span<const std::vector<double>> sums) {
     const std::size_t batches = rays.batches();
@@ -37,7 +37,7 @@ std::vector<double> weights_of_sums(const LostRays& rays,
     }
     if (!(all_lost > 0))
         return weight;
-    const double prior = (all_lost + 1) / (all_rays + 2); // not all: a far lamp is met by none
+    const double prior = (all_lost + 1) / (all_rays + 2); // not all: a far emitter is met by none
     for (std::size_t i = 0; i < lost.size(); ++i) {
         const double all = rays_of_batch[i] * double(batches);
         const double share = (all * lost[i] + prior) / (all + 1);

@@ -12,7 +12,7 @@
 namespace hemilux {
 namespace {
 
-/// Material, side and normal, in steps that hardly any direction of a model lies between. What
+/// The material, side and normal, in steps that hardly any direction of a model lies between. What
 /// rounding keeps apart makes two roots of one, and no error.
 using SideKey = std::array<std::int64_t, 5>;
 
@@ -25,8 +25,8 @@ SideKey side_of(const Patch& patch) {
     return {patch.material, patch.back, rounded(n.x), rounded(n.y), rounded(n.z)};
 }
 
-/// Patches of one side, plane by plane. Planes may be near to each other compared with the scene,
-/// as under a far sun, but not compared with the patches.
+/// Returns the patches of one side, plane by plane. Planes may be near to each other compared with
+/// the scene, as under a far sun, but not compared with the patches.
 std::vector<std::vector<std::uint32_t>> planes_of(std::span<const Patch> patches,
                                                   std::vector<std::uint32_t> of_side) {
     constexpr double rounding = 1e-6;

@@ -21,7 +21,7 @@
 namespace hemilux {
 namespace {
 
-/// Of the error within patches, as what has spread to others is found out.
+/// The error that has spread to others is found to this share of the error within patches.
 constexpr double share_of_spread = .4;
 
 /// The variance of the patches' values, relative to their square, in its two parts.
@@ -30,7 +30,8 @@ struct KnownVariance {
     double common = 0;  ///< of what they err together
     double freedom = 1; ///< effective degrees of freedom
 
-    /// One error is not as large as errors are on average: by how much its square scatters [-].
+    /// Returns by how much the square of one error scatters [-]: it is not as large as errors are
+    /// on average.
     [[nodiscard]] double scatter() const { return std::sqrt(2 / freedom); }
 };
 
@@ -45,7 +46,7 @@ KnownVariance known_variance(const Mesh& mesh, const Solution& solution, double 
     return {all * (1 - 1 / freedom), all / freedom, freedom};
 }
 
-/// Where it is hardly known it is reported nearly as large as it may be.
+/// Reports an error that is hardly known as nearly as large as it may be.
 DivisionError reported(const SquaredError& found) {
     constexpr double share = .8;
     // The square of the light itself is larger by that of the error.
@@ -80,8 +81,8 @@ DivisionError spread_error(const Mesh& mesh, const Tracer& tracer, const Solutio
 
 DivisionError gathered_error(const DivisionError& spread, const Mesh& mesh,
                              const Solution& solution) {
-    // Of N rays that met nothing a share of 3 / N may have been missed, the rule of three; the mean
-    // square of what is, if all shares are as likely before, is 2 / N^2.
+    // If N rays met nothing, a share of 3 / N may have been missed, the rule of three. The mean
+    // square of the missed share, if all shares are equally likely before, is 2 / N^2.
     constexpr double mean_of_missed = 2 / (rule_of_three * rule_of_three);
     const double size = reflected_square(mesh, solution), rho = mean_reflectance(mesh);
     const double sampled = estimated_error(mesh, solution), square = sampled * sampled;
@@ -109,7 +110,8 @@ DivisionError division_error(const Mesh& mesh, const Tracer& tracer, const Solut
         return {};
     const LightSource light{mesh, tracer, solution};
     const KnownVariance known = known_variance(mesh, solution, size);
-    // Of what patches err together a gather errs with them, but for what a reflection takes away.
+    // In what patches err together, a gather errs with them, except for what a reflection takes
+    // away.
     const double rho = mean_reflectance(mesh);
     const double seen = known.own + known.common * (1 - rho) * (1 - rho);
     SquaredError all =

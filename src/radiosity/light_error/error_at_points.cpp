@@ -17,13 +17,14 @@
 namespace hemilux {
 namespace {
 
-/// Rounds of points: many, since the spread of a few would end them when it happens to be small.
+/// The least number of rounds of points: many, since the spread of a few would end them when it
+/// happens to be small.
 constexpr std::size_t least_rounds = 16;
 
-/// So many points times the length of gathers at the most, in a round.
+/// The most points times the length of gathers in a round.
 constexpr std::size_t longest_round = 4096;
 
-/// Sums over independent rounds of points.
+/// The sums over independent rounds of points.
 struct Rounds {
     double sum = 0, squares = 0;
     std::size_t count = 0;
@@ -34,44 +35,46 @@ struct Rounds {
         ++count;
     }
     [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
-    /// One sigma of the mean.
+    /// Returns one sigma of the mean.
     [[nodiscard]] double uncertainty() const {
         const auto n = static_cast<double>(count);
         return std::sqrt(std::max(squares / n - mean() * mean(), 0.0) / (n - 1));
     }
 };
 
-/// What depends on how the error varies over the surfaces: of patches few hold most of it, of those
-/// that were divided very few, where nothing was seen of it; that of gathered light is much the
-/// same everywhere.
+/// The numbers that depend on how the error varies over the surfaces. Few patches hold most of it,
+/// and very few of those that were divided, where nothing was seen of it. The error of gathered
+/// light is much the same everywhere.
 struct Manner {
-    /// At first; where gathers are longer, fewer by their length, but so many at least.
+    /// The points of a round at first. Where gathers are longer, there are fewer by their length,
+    /// but at least `least_points`.
     std::size_t points_per_round, least_points;
-    /// Relative uncertainty of the squared error at which it is known well enough: where few places
-    /// hold it, what is known of its spread is uncertain itself.
+    /// The relative uncertainty of the squared error at which it is known well enough. Where few
+    /// places hold it, what is known of its spread is uncertain itself.
     double well_known;
-    /// What is negligible is found out all the same where so many rays do.
+    /// An error that is negligible is found out all the same if so many rays are enough.
     std::uint64_t cheap_rays;
-    /// Gathers at a point, which share a round of rays for two. The mean of the products of all
-    /// pairs of n has n / (2 n - 2) times the variance by noise of one product of two.
+    /// The number of gathers at a point, which share a round of rays for two. The mean of the
+    /// products of all pairs of n has n / (2 n - 2) times the variance by noise of one product of
+    /// two.
     unsigned gathers;
 };
 constexpr Manner of_patches{64, 64, .15, 0, 2}, of_divided{640, 64, .15, 0, 2},
     of_spread{32, 32, .2, 0, 2}, of_gathered{32, 32, .17, 600'000, 8};
 
-/// Integrals over the surfaces, by one set of points.
+/// The integrals over the surfaces, by one set of points.
 struct Products {
     double error = 0;    ///< of (g1 - B)(g2 - B)
     double by_noise = 0; ///< variance of `error` by the noise of gathers alone, about
 };
 
-/// By how much the solution is off at a point, from one gather there [W/m2].
+/// A function that returns the error of the solution at a point, from one gather there [W/m2].
 using OffAt = std::function<Vec3(const PatchPoint& point, const Vec3& gathered)>;
 
 /// Gathers from a solution at points of the surfaces.
 class ErrorAtPoints {
   public:
-    /// All outlive it.
+    /// All arguments must outlive this object.
     ErrorAtPoints(const LightSource& light, const OffAt& off_at, FinalGather& gather,
                   const PointsOverSurface& surface, const Workers& workers,
                   const StopFlag& interrupted)
@@ -94,12 +97,12 @@ class ErrorAtPoints {
     double size_; ///< all errors are relative to it
 };
 
-/// Gathers are short at first. The variance of a product is about (error^2 + noise^2)^2, so where
-/// noise leaves too much uncertainty longer gathers know the error sooner than more points would.
+/// Gathers are short at first. The variance of a product is about (error^2 + noise^2)^2. So where
+/// noise leaves too much uncertainty, longer gathers know the error sooner than more points would.
 /// They begin anew, as a sum that ends by its own spread is biased.
 SquaredError ErrorAtPoints::find(const OtherError& other, const Manner& manner,
                                  const DivisionErrorOptions& options) const {
-    // For f times less noise longer gathers, which begin anew, cost f times the rays so far, and
+    // For f times less noise, longer gathers, which begin anew, cost f times the rays so far, and
     // more points f^2 - 1 times.
     constexpr double barely_negligible = .01, growth_pays = 1.6, least_growth = 2, most_growth = 4;
     const double negligible = options.negligible * options.negligible;
@@ -157,14 +160,16 @@ Products ErrorAtPoints::products(std::size_t count, std::size_t gathers, std::ui
         }
         const double counts = light_.solution.weight_of(points[k].patch) * points[k].area;
         sums.error += counts * (glm::dot(sum, sum) - squares) / (n * (n - 1));
-        // Of normal noise the squared sample variance is (n + 1) / (n - 1) times what it should be.
+        // For normal noise, the squared sample variance is (n + 1) / (n - 1) times what it should
+        // be.
         const double noise = counts * (squares - glm::dot(sum, sum) / n) / (n - 1);
         sums.by_noise += noise * noise * 2 / (n * (n + 1));
     }
     return sums;
 }
 
-/// By how much light that varies within patches is off; it varies little over the surfaces.
+/// Returns the error of gathered light because light varies within patches. This varies little over
+/// the surfaces.
 SquaredError spread(const LightSource& light, bool reads_near, const Manner& manner,
                     const DivisionErrorOptions& options, const Workers& workers,
                     const StopFlag& interrupted) {

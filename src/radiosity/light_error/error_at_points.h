@@ -12,19 +12,20 @@ namespace hemilux {
 
 struct LightSource;
 
-/// What is not of the division, relative to the square of the patches' values as all else.
+/// The squared error that is not due to the division, relative to the square of the patches' values
+/// as all else.
 struct OtherError {
     double square = 0, scatter = 0;
 };
 
-/// Relative to the square of what the solution has on the surfaces.
+/// A squared error, relative to the square of what the solution has on the surfaces.
 struct SquaredError {
     double square = 0; ///< an estimate, which may be negative
     double sigma = 0;  ///< one, of `square`
     std::size_t points = 0;
     std::uint64_t rays = 0;
 
-    /// Errors that do not depend on each other.
+    /// Adds an error that does not depend on this one.
     void add(const SquaredError& other) {
         square += other.square;
         sigma = std::hypot(sigma, other.sigma);
@@ -32,20 +33,21 @@ struct SquaredError {
     }
 };
 
-/// reflected_square(), and the square of what the solution has within patches: with that of the
-/// error it is the square of the light itself.
+/// Returns reflected_square() and the square of what the solution has within patches. With that of
+/// the error it is the square of the light itself.
 [[nodiscard]] double surface_square(const Mesh& mesh, const Solution& solution);
 
-/// Of the values within patches, by gathers there.
+/// Finds the error of the values within patches, by gathers there.
 [[nodiscard]] SquaredError error_within_patches(const LightSource& light, const OtherError& other,
                                                 const DivisionErrorOptions& options,
                                                 const Workers& workers,
                                                 const StopFlag& interrupted);
-/// Of the light that arrives from other patches.
+/// Finds the error of the light that arrives from other patches.
 [[nodiscard]] SquaredError error_of_spread(const LightSource& light,
                                            const DivisionErrorOptions& options,
                                            const Workers& workers, const StopFlag& interrupted);
-/// Of gathered light: the same as pictures and --points have it. `reads_near` as spread_error().
+/// Finds the error of gathered light, as pictures and --points have it. `reads_near` is as in
+/// spread_error().
 [[nodiscard]] SquaredError error_of_gathers(const LightSource& light, bool reads_near,
                                             const DivisionErrorOptions& options,
                                             const Workers& workers, const StopFlag& interrupted);

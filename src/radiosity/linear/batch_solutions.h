@@ -1,6 +1,6 @@
 #pragma once
-// The solutions of independent batches of form factors: each is found from its last one on, their
-// mean is the result, and how they spread is its error.
+// Holds the solutions of independent batches of form factors. Each is found from its last one on;
+// their mean is the result, and how they spread is its error.
 
 #include "radiosity/linear/energy_ledger.h"
 #include "radiosity/linear/radiosity_system.h"
@@ -14,22 +14,22 @@
 
 namespace hemilux {
 
-/// Solves B = E + rho F B from `radiosity` on, which then is the solution with its energy closed
+/// Solves B = E + rho F B from `radiosity` on, which is then the solution with its energy closed
 /// (close_energy).
 EnergyBalance solve_closed(const FormFactorProduct& multiply, const Transport& transport,
                            const SolverInput& input, std::vector<Vec3>& radiosity);
 
 class BatchSolutions {
   public:
-    /// Two batches at least. The solution is that before the first step.
+    /// There are at least two batches; each begins with the solution before the first step.
     BatchSolutions(const SolverInput& input, std::size_t batches, const Solution& before);
 
     /// Finds the radiosity of a batch from its last one on, and says where its power goes.
     using SolveBatch =
         std::function<EnergyBalance(std::size_t batch, std::vector<Vec3>& radiosity)>;
-    /// Whether all were solved and not interrupted. Nothing where the rays of a batch have seen no
-    /// way out for the light: all then begin anew from the `last` solution. Throws SolveError where
-    /// a result is not finite.
+    /// Returns whether all were solved and not interrupted. Returns nothing where the rays of a
+    /// batch have seen no way out for the light: all then begin anew from the `last` solution.
+    /// Throws SolveError where a result is not finite.
     [[nodiscard]] std::optional<bool> solve(const SearchForWayOut& search, const Solution& last,
                                             const SolveBatch& solve_batch);
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int most_iterations = 1000;
 
-/// The square of a residual relative to the light it belongs to; at most 1, where there is no light
-/// yet. What is not reflected is left to the step after the last.
+/// Returns the square of a residual relative to the light it belongs to. It is at most 1, also
+/// where there is no light yet. What is not reflected is left to the step after the last.
 Vec3 relative_square(const Vec3& residual, const Vec3& light, const Vec3& weight) {
     const auto one = [](double r, double h, double w) {
         if (!(w > 0) || r == 0)
@@ -24,7 +24,7 @@ Vec3 relative_square(const Vec3& residual, const Vec3& light, const Vec3& weight
             one(residual.z, light.z, weight.z)};
 }
 
-/// Whether there is light that is reflected, by channel 1 or 0.
+/// Returns whether there is light that is reflected, by channel 1 or 0.
 Vec3 is_lit(const Vec3& residual, const Vec3& light, const Vec3& weight) {
     const auto one = [](double r, double h, double w) {
         return w > 0 && (r != 0 || h != 0) ? 1.0 : 0.0;
@@ -53,7 +53,7 @@ int solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> ar
                        std::vector<Vec3>& h, const Workers& workers, double tolerance,
                        const StopFlag* interrupted) {
     const std::size_t n = h.size();
-    // Only of this rank's patches; the others' are never touched.
+    // The arrays hold values of this rank's patches only; the others' are never touched.
     const auto of_patches = [n] { return std::make_unique_for_overwrite<Vec3[]>(n); };
     const auto r = of_patches(), p = of_patches(), q = of_patches();
     const auto weight = [&](std::size_t i) { return area[i] * reflectance[i]; };
@@ -63,7 +63,7 @@ int solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> ar
     const OwnBlocks own_chunks(rows.ranks(), chunks, rows.block() / factors.rows_per_chunk);
     GatheredVector<Vec3> parts_of_curvature(own_chunks);
     GatheredVector<Sums> parts_of_sums(own_chunks);
-    /// Sum of term(i) over all patches, in an order that does not depend on the threads or ranks.
+    /// Sums term(i) over all patches, in an order that does not depend on the threads or ranks.
     const auto sum = [&]<class Term>(GatheredVector<Term>& parts, const auto& term) {
         factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
             Term some{};

@@ -8,7 +8,7 @@ namespace {
 /// An exact share counts as if so many times the emitter's rays had found it.
 constexpr double most_rays_more = 1000;
 
-/// Of one emitter.
+/// Both estimates of the share that one emitter loses.
 struct TwoAccounts {
     std::vector<double> by_rays, by_factors; ///< escape fraction, by batch
     double sum_by_rays = 0;
@@ -21,7 +21,8 @@ struct TwoAccounts {
         }
     }
 
-    /// Of a share by `rays` rays, as if all batches together had one more that was lost.
+    /// Returns the variance of a share by `rays` rays, as if all batches together had one more that
+    /// was lost.
     [[nodiscard]] double variance_by_rays(double rays) const {
         const double all = rays * double(by_rays.size());
         const double prior = (rays * sum_by_rays + 1) / (all + 2);
@@ -38,7 +39,7 @@ struct TwoAccounts {
     }
 };
 
-/// Of the rays of all emitters.
+/// Sums the escape fractions of the rays of all emitters.
 EscapeFraction kinds_of_loss(std::span<const SampledFormFactors> batches) {
     EscapeFraction kinds;
     for (const SampledFormFactors& factors : batches)

@@ -11,12 +11,12 @@
 namespace hemilux {
 namespace {
 
-/// The share of the power that is used within which it must be known how much is lost.
+/// How much is lost must be known within this share of the power that is used.
 constexpr double surely_lost = 1e-3;
 
 using Sum = CompensatedSum<Vec3>;
 
-/// What becomes of some of the light, by rays.
+/// The fate of some of the light, by rays.
 struct Ledger {
     Sum sent, escaped, left_behind; ///< left_behind: fell on backs of faces
 
@@ -28,14 +28,14 @@ struct Ledger {
     [[nodiscard]] double lost(int c) const { return escaped.value()[c] + left_behind.value()[c]; }
 };
 
-/// Of a share of which `count` of `rays` were counted, before which all shares were alike: that of
-/// the Beta distribution with count + 1 and rays - count + 1.
+/// Returns the variance of a share of which `count` of `rays` were counted, before which all shares
+/// were alike. This is that of the Beta distribution with count + 1 and rays - count + 1.
 double variance_of_share(double count, double rays) {
     const double all = rays + 2;
     return (count + 1) * (rays - count + 1) / (all * all * (all + 1));
 }
 
-/// The share of all rays of patches that light leaves which are lost.
+/// Returns the share of rays that are lost, among all rays of patches that light leaves.
 double prior_loss(const Transport& t, std::span<const Vec3> incident) {
     double lost = 0, rays = 0;
     for (std::size_t i = 0; i < t.rays.size(); ++i) {
@@ -63,8 +63,8 @@ struct EnergySums {
     }
 };
 
-/// Variance of the power that is lost, where each patch counted as if one ray more had met what
-/// rays meet on average.
+/// Returns the variance of the power that is lost. Each patch counts as if one more ray had met
+/// what rays meet on average.
 Vec3 variance_of_losses(const Transport& t, std::span<const Vec3> incident) {
     const double prior = prior_loss(t, incident);
     Vec3 variance(0.0);
@@ -78,7 +78,8 @@ Vec3 variance_of_losses(const Transport& t, std::span<const Vec3> incident) {
     return variance;
 }
 
-/// In one channel, that all which was emitted and not lost is absorbed, or reflected and lost.
+/// Returns the scale of one channel so that all that was emitted and not lost is absorbed, or
+/// reflected and lost.
 double scale_of(const EnergySums& sums, double variance, int c) {
     const double absorbed = sums.absorbed.value()[c], emitted = sums.emitted.sent.value()[c];
     const double used = absorbed + sums.reflected.lost(c);
@@ -154,7 +155,7 @@ EnergyBalance close_energy(const Transport& transport, std::span<Vec3> incident)
     return balance_energy(transport, incident);
 }
 
-/// As many as are asked for of each patch are traced whatever the limit.
+/// Sets the limit. As many rays as are asked for of each patch are traced whatever it is.
 SearchForWayOut::SearchForWayOut(const SolverInput& input) {
     constexpr double least = 5e7, times = 4;
     most_ = std::max(least, times * input.options.rays * double(input.mesh.patches().size()));

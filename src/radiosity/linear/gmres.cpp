@@ -41,12 +41,12 @@ struct Rotation {
     }
 };
 
-/// One cycle of Arnoldi's method from the residual r; adds the correction to x.
+/// One cycle of Arnoldi's method from the residual r, which adds the correction to x.
 class Cycle {
   public:
     Cycle(const LinearMap& multiply, std::size_t length) : multiply_(multiply), length_(length) {}
 
-    /// Returns the number of products made.
+    /// Runs the cycle and returns the number of products made.
     std::size_t run(Vector& r, double beta, double goal, Vector& x) {
         basis_.clear();
         columns_.clear();
@@ -88,7 +88,8 @@ class Cycle {
         return more;
     }
 
-    /// Back substitution in the triangular matrix that the rotations have made.
+    /// Solves for the correction by back substitution in the triangular matrix that the rotations
+    /// have made.
     void add_correction(Vector& x) const {
         Vector y(columns_.size());
         for (std::size_t i = columns_.size(); i-- > 0;) {
@@ -126,7 +127,8 @@ GmresResult gmres(const LinearMap& multiply, const std::vector<double>& b, std::
             r[i] = b[i] - r[i];
         const double beta = norm(r);
         result.residual = beta / size;
-        // Within a factor of two of the last cycle: rounding errors are all that is left.
+        // A residual within a factor of two of the last cycle's shows that only rounding errors are
+        // left.
         if (!(result.residual > options.tolerance) || result.iterations >= options.most ||
             (before < 1e-10 && result.residual > before / 2))
             return result;

@@ -1,7 +1,8 @@
 #pragma once
-// Linear systems with a non-symmetric matrix that is known by its product with a vector only: GMRES
-// (Saad and Schultz 1986) with modified Gram-Schmidt and restarts. The residual never grows, and a
-// few slow modes, such as the mean of a very reflective room, cost a few iterations and no more.
+// Solves linear systems with a non-symmetric matrix that is known by its product with a vector
+// only: GMRES (Saad and Schultz 1986) with modified Gram-Schmidt and restarts. The residual never
+// grows. A few slow modes, such as the mean of a very reflective room, cost a few iterations and no
+// more.
 
 #include <cstddef>
 #include <functional>
@@ -20,7 +21,7 @@ struct GmresResult {
     std::size_t iterations = 0;
 };
 
-/// y = A x; both of the same length.
+/// Computes y = A x; both have the same length.
 using LinearMap = std::function<void(const std::vector<double>& x, std::vector<double>& y)>;
 
 /// Improves x, which is the first guess, until the residual is small enough or cannot be made

@@ -56,8 +56,8 @@ class HemicubeMatrix final : public Solver {
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
   private:
-    /// There is no solution where light ends nowhere: between surfaces of reflectance 1 whose
-    /// pixels show no way out.
+    /// Throws SolveError where light ends nowhere, as there is no solution: between surfaces of
+    /// reflectance 1 whose pixels show no way out.
     void check_solved(const SparseMatrix& f, std::span<const Vec3> incident,
                       const Workers& workers) const {
         constexpr double negligible = 1e-6; // of the most light that arrives anywhere

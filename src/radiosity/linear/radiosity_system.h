@@ -1,5 +1,5 @@
 #pragma once
-// The radiosity equation with known form factors (Goral et al. 1984).
+// Solves the radiosity equation with known form factors (Goral et al. 1984).
 
 #include "geometry/vector.h"
 
@@ -11,13 +11,13 @@ namespace hemilux {
 
 class Mesh;
 
-/// y = F x, by patch.
+/// Computes y = F x, by patch.
 using FormFactorProduct = std::function<void(std::span<const double> x, std::span<double> y)>;
 
-/// What arrives at each patch, sum_j F_ij B_j [W/m2], where B = E + rho F B. It is found as
-/// B = E + R, R = rho F (E + R), channel by channel, by GMRES from `radiosity` on, to a residual
+/// Returns what arrives at each patch, sum_j F_ij B_j [W/m2], where B = E + rho F B. It is found as
+/// B = E + R, R = rho F (E + R), channel by channel, by GMRES from `radiosity` on. The residual is
 /// relative to the reflected light R: beside a tiny emitter's light all of it could be too small to
-/// count. `colours`: false where all is grey, and one channel stands for three.
+/// count. `colours` is false where all is grey, and one channel stands for three.
 [[nodiscard]] std::vector<Vec3> arriving_light(const FormFactorProduct& multiply, const Mesh& mesh,
                                                std::span<const Vec3> radiosity, bool colours);
 

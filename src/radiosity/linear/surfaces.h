@@ -1,5 +1,5 @@
 #pragma once
-// What a linear system of radiosity takes, by patch.
+// Gathers what a linear system of radiosity takes, by patch.
 
 #include "radiosity/scene/mesh.h"
 

@@ -1,9 +1,10 @@
 // The paper on one page: NewHemisphereRadiosity (section 5; Plemenos and Jolivet 1998).
 //
-// The two procedures of the paper with its names. With --literal (`printed_`) the rules are those
-// of the print, which breaks Lambert's law (docs/decisions.md, D1), starts at centres (D2), loses
-// triangles that are due less than half a ray (D4) or count nothing (D5), and shoots as many rays
-// from a dim patch as from a lamp (D10). Beside each stands the corrected rule.
+// These are the two procedures of the paper, with its names. With --literal (`printed_`) the rules
+// are those of the print. They break Lambert's law (docs/decisions.md, D1) and start rays at
+// centres (D2). They lose triangles that are due less than half a ray (D4) or count nothing (D5),
+// and shoot as many rays from a dim patch as from an emitter (D10). Beside each stands the
+// corrected rule.
 
 #include "radiosity/hemisphere/hemisphere.h"
 #include "radiosity/plain/plain.h"
@@ -20,7 +21,8 @@ namespace {
 
 using Cell = Hemisphere::Cell;
 
-/// Not divided. Kept is N_tr / N_hemi, in floats and summed over the triangles up to this one.
+/// A triangle that is not divided. It keeps N_tr / N_hemi in floats, summed over the triangles up
+/// to this one.
 struct Triangle {
     const Cell* tr;
     float D_tr, N_up_to = 0;
@@ -37,19 +39,19 @@ class NewHemisphereRadiosity final : public StepSolver {
     }
 
   private:
-    /// A_tr / A_hemi.
+    /// Returns A_tr / A_hemi.
     [[nodiscard]] double area(const Cell& tr) const {
         using std::numbers::pi;
         return printed_ ? tr.solid_angle / (2 * pi) : tr.projected_solid_angle / pi;
     }
 
-    /// D_tr as it counts in the number of rays.
+    /// Returns D_tr as it counts in the number of rays.
     [[nodiscard]] double density(double D_tr, double D_average) const {
         return printed_ ? D_tr : std::max({D_tr, 1.0, D_average / 4});
     }
 
-    /// For each spherical triangle of the patch's hemisphere: divides it where its density is above
-    /// the threshold.
+    /// Divides each spherical triangle of the patch's hemisphere where its density is above the
+    /// threshold.
     void preprocessing(std::uint32_t patch) {
         std::vector<int> counts(hemisphere_.vertices().size(), -1);
         const auto count = [&](std::uint16_t vertex) { // which triangles share
@@ -74,7 +76,8 @@ class NewHemisphereRadiosity final : public StepSolver {
         mean_.solution.bytes_density += triangles.size() * sizeof(Triangle);
     }
 
-    /// N_tr / N_hemi = A_tr / A_hemi D_tr / D_average. By area, so that all N_tr sum to N_hemi.
+    /// Finds N_tr / N_hemi = A_tr / A_hemi D_tr / D_average. D_average is weighted by area, so that
+    /// all N_tr sum to N_hemi.
     void find_rays(std::vector<Triangle>& triangles) const {
         double counted = 0, D_average = 0, sum = 0;
         for (const Triangle& t : triangles)
@@ -93,7 +96,7 @@ class NewHemisphereRadiosity final : public StepSolver {
         }
     }
 
-    /// For each patch, each triangle and each direction: shoots a ray; bounce after bounce, until
+    /// Shoots a ray for each patch, each triangle and each direction, bounce after bounce, until
     /// nothing is left or chance has ended it.
     bool compute_radiosity(std::uint64_t step, double Phi_mean, Step& result) override {
         const double least = printed_ ? 1e-4 * result.power_unshot() : 0; // or it never ends

@@ -2,10 +2,10 @@
 //
 // A patch is divided, in thought, into parts with a hemisphere over the centre of each. In n steps
 // all spherical triangles are divided into four at new directions on their edges, nearer to the end
-// where more surfaces were counted, and are stored; in m further steps they are divided by
+// where more surfaces were counted, and are stored. In m further steps they are divided by
 // estimated counts, and nothing is stored (stored_subdivision.h). Every triangle gets the same
 // number of rays; its energy goes by its area. Plain progressive refinement follows, and is also
-// the pilot of step.h. n, m and the number of parts are the user's (solver.h).
+// the pilot of step.h. n, m and the number of parts are the user's (subdivision_1997.h).
 //
 // With --literal (`printed_`) the rules are those of the print; beside each stands the corrected
 // one (docs/decisions.md, D1, D2, D4, D10, D34 and D61).
@@ -36,7 +36,7 @@ class Hemisphere1997 final : public StepSolver {
     }
 
   private:
-    /// A_tr / A_hemi.
+    /// Returns A_tr / A_hemi.
     [[nodiscard]] double area(const SphericalTriangle& tr) const {
         using std::numbers::pi;
         return printed_ ? tr.solid_angle() / (2 * pi)
@@ -59,7 +59,7 @@ class Hemisphere1997 final : public StepSolver {
             mean_.solution.bytes_density += stored.bytes();
     }
 
-    /// For each patch, each triangle and each direction: shoots a ray; bounce after bounce.
+    /// Shoots a ray for each patch, each triangle and each direction, bounce after bounce.
     bool compute_radiosity(std::uint64_t step, double Phi_mean, Step& result) override {
         divide_to(std::cmp_less(step, n) ? static_cast<int>(step) + 1 : n);
         const double least = printed_ ? 1e-4 * result.power_unshot() : 0; // or it never ends
@@ -80,7 +80,7 @@ class Hemisphere1997 final : public StepSolver {
         return true;
     }
 
-    /// Through the triangles of a level over each part.
+    /// Shoots through the triangles of a level over each part.
     void shoot(const Due& due, int level, Step& result) const {
         const Patch& patch = input_.mesh.patches()[due.patch];
         const Frame frame = input_.mesh.hemisphere_frame(due.patch);

@@ -1,9 +1,9 @@
 // Monte Carlo radiosity (paper section 3.2; Shirley 1991, "Radiosity via ray tracing", Graphics
 // Gems II).
 //
-// The patch with the largest unshot energy shoots first, all of it at once: rays from random points
-// of the patch in directions that follow the cosine law, each with the same power. No form factor
-// is computed: a patch receives what the rays that hit it bring.
+// The patch with the largest unshot energy shoots first, all of it at once. Its rays start at
+// random points of the patch, in directions that follow the cosine law, each with the same power.
+// No form factor is computed: a patch receives what the rays that hit it bring.
 
 #include "radiosity/plain/plain.h"
 #include "radiosity/plain/step.h"
@@ -15,7 +15,7 @@
 namespace hemilux::plain {
 namespace {
 
-/// Rays of a shot with a stream of random numbers of their own.
+/// The number of rays of a shot that share a stream of random numbers.
 constexpr std::uint64_t rays_per_stream = 512;
 
 class MonteCarlo final : public StepSolver {
@@ -39,7 +39,8 @@ class MonteCarlo final : public StepSolver {
                 return false;
             const Vec3 Phi = std::exchange(unshot[shooter], {}).value();
             result.shot += std::exchange(energy[shooter], 0.0);
-            // Fractions of a ray are rounded by chance: right on average, and the series ends.
+            // Fractions of a ray are rounded by chance: this is right on average, and the series
+            // ends.
             const std::uint64_t stream = hash_words({input_.options.seed, step, shot});
             const double due = mean_of_channels(Phi) / Phi_mean;
             const double rays = std::floor(due + Rng(stream).uniform());

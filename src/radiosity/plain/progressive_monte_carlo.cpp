@@ -27,7 +27,7 @@ class ProgressiveMonteCarlo final : public StepSolver {
     explicit ProgressiveMonteCarlo(const SolverInput& input) : StepSolver(input, true) {}
 
   private:
-    /// Bounce after bounce, until nothing is left or chance has ended it.
+    /// Shoots bounce after bounce, until nothing is left or chance has ended it.
     bool compute_radiosity(std::uint64_t step, double Phi_mean, Step& result) override {
         for (std::uint64_t bounce = 0; result.power_unshot() > 0; ++bounce) {
             const std::uint64_t stream = hash_words({input_.options.seed, step, bounce});

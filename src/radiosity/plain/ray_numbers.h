@@ -17,12 +17,12 @@ class RayNumbers {
         : low_(static_cast<std::uint32_t>(key)), high_(static_cast<std::uint32_t>(key >> 32)),
           number_(number) {}
 
-    /// Two numbers for the point where the ray starts, uniform in (0,1).
+    /// Returns two numbers for the point where the ray starts, uniform in (0,1).
     [[nodiscard]] Vec2 start() const {
         const std::array<double, 4> four = of_attempt(0);
         return {four[2], four[3]};
     }
-    /// The next number for the direction, uniform in (0,1). Each attempt has two.
+    /// Returns the next number for the direction, uniform in (0,1). Each attempt has two.
     [[nodiscard]] double next() {
         const std::uint32_t attempt = taken_ / 2, which = taken_ % 2;
         ++taken_;
@@ -31,7 +31,7 @@ class RayNumbers {
     double operator()() { return next(); }
 
   private:
-    /// pcg4d of Jarzynski and Olano (2020, "Hash functions for GPU rendering").
+    /// Computes pcg4d of Jarzynski and Olano (2020, "Hash functions for GPU rendering").
     [[nodiscard]] std::array<double, 4> of_attempt(std::uint32_t attempt) const {
         std::array<std::uint32_t, 4> v{low_, high_, number_, attempt};
         for (std::uint32_t& word : v)

@@ -2,8 +2,8 @@
 // One divided hemisphere of the technique of 1997 (paper section 4): the directions that were
 // counted are stored, and triangles of later levels are estimated from them (edge_division.h).
 //
-// Which triangles share a direction is as in the regular subdivision, whose vertices are numbered
-// in the order in which its triangles need them.
+// Triangles share directions as in the regular subdivision, whose vertices are numbered in the
+// order in which its triangles need them.
 
 #include "radiosity/hemisphere/density.h"
 #include "radiosity/hemisphere/edge_division.h"
@@ -17,8 +17,8 @@ namespace hemilux::plain {
 
 class StoredSubdivision {
   public:
-    /// Finds the directions that a level adds, level 0 being the octants, and stores them with what
-    /// `count` returns: the surfaces along a direction, in the patch's frame.
+    /// Finds the directions that a level adds, where level 0 adds those of the octants. Stores them
+    /// with what `count` returns: the surfaces along a direction, in the patch's frame.
     template <class Count>
     void divide_to(int level, const Hemisphere& tree, const Count& count) {
         const auto store = [&](const Vec3& v) {
@@ -34,8 +34,8 @@ class StoredSubdivision {
                 }
     }
 
-    /// Triangle `index` of a level: a stored one, or one of the four that its parent is divided
-    /// into.
+    /// Returns triangle `index` of a level: a stored one, or one of the four that its parent is
+    /// divided into.
     [[nodiscard]] CountedTriangle triangle(int level, std::size_t index,
                                            const Hemisphere& tree) const {
         if (level > tree.depth())
@@ -52,7 +52,8 @@ class StoredSubdivision {
         return {glm::normalize(Vec3(x, y, z)), double(stored_[k].ns)};
     }
 
-    /// Rounds by being stored: in one expression g++ 12.2 -O2 leaves out the rounding to floats.
+    /// A direction that is rounded by being stored: in one expression g++ 12.2 -O2 leaves out the
+    /// rounding to floats.
     struct Stored {
         std::array<float, 3> to;
         std::uint8_t ns;
@@ -60,8 +61,8 @@ class StoredSubdivision {
     std::vector<Stored> stored_; ///< by vertex of the tree
 };
 
-/// The corners of a triangle that were counted with its own level: a child at a corner of its
-/// parent has two of them, the middle one three.
+/// Returns the corners of a triangle that were counted with its own level: a child at a corner of
+/// its parent has two of them, the middle one three.
 [[nodiscard]] inline std::vector<Vec3> counted_directions(const CountedTriangle& abc, int level,
                                                           std::size_t index) {
     std::vector<Vec3> directions;

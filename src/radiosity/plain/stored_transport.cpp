@@ -1,17 +1,17 @@
-// Stored transport, the principle (not of the paper).
+// The principle of stored transport (not in the paper).
 //
 // Each patch looks around along cosine-distributed rays and counts which patches they hit. With
 // S_ij = A_i F_ij = A_j F_ji the counts c of both sides estimate one number,
 //
 //     S_ij = (c_ij + c_ji) / (N / A_i + N / A_j),   N rays from each patch,
 //
-// and row i has to sum to A_i less what its own rays lost. Scaling S_ij by g_i g_j makes it so and
+// and row i must sum to A_i less what its own rays lost. Scaling S_ij by g_i g_j makes it so and
 // leaves S symmetric (Sinkhorn and Knopp 1967); the little that is missing then goes to S_ii. So no
 // energy is made or lost between patches. All bounces are then solved on S: no ray is traced twice.
 //
-// Four independent batches of rays give four solutions, whose spread is the standard error; the
+// Four independent batches of rays give four solutions, whose spread gives the standard error; the
 // result is the solution of all rays together. The engine adds what makes it fast: sparse rows,
-// Sobol points, more rays where the error is, shadow rays to small lamps, conjugate gradients.
+// Sobol points, more rays where the error is, shadow rays to small emitters, conjugate gradients.
 
 #include "radiosity/plain/batches.h"
 #include "radiosity/plain/plain.h"
@@ -29,7 +29,7 @@ namespace {
 constexpr int scalings = 20;
 constexpr int most_sweeps = 100'000;
 
-/// What rays hit: row i of c belongs to those of patch i.
+/// The counts of what rays hit; row i of c belongs to the rays of patch i.
 struct Counts {
     explicit Counts(std::size_t n) : c(n * n), escaped(n), absorbed(n) {}
     std::vector<double> c, escaped, absorbed;
@@ -67,7 +67,7 @@ class StoredTransport final : public Solver {
   private:
     [[nodiscard]] double area(std::size_t i) const { return input_.mesh.patches()[i].area; }
 
-    /// So many rays more from each patch, for one batch and for all together.
+    /// Traces so many more rays from each patch, for one batch and for all together.
     void look_around(std::size_t batch, double rays) {
         for (std::uint32_t i = 0; i < n_ && !input_.monitor.interrupted; ++i) {
             const auto start = PatchStart::in_any_axes(input_.mesh, i);
@@ -84,7 +84,7 @@ class StoredTransport final : public Solver {
         }
     }
 
-    /// S with closed rows.
+    /// Returns S with closed rows.
     [[nodiscard]] std::vector<double> exchange(const Counts& counts, double N) const {
         std::vector<double> S(std::size_t{n_} * n_), due, rays_per_area, g(n_, 1.0), sum(n_);
         for (std::size_t i = 0; i < n_; ++i) {
@@ -112,8 +112,8 @@ class StoredTransport final : public Solver {
         return S;
     }
 
-    /// B_i = E_i + rho_i / A_i sum_j S_ij B_j, again and again until nothing changes (Gauss and
-    /// Seidel).
+    /// Applies B_i = E_i + rho_i / A_i sum_j S_ij B_j again and again until nothing changes (Gauss
+    /// and Seidel).
     [[nodiscard]] std::vector<Vec3> solve(const Counts& counts, double N) const {
         const std::vector<double> S = exchange(counts, N);
         std::vector<Vec3> B(n_, Vec3(0.0));

@@ -7,9 +7,9 @@
 
 namespace hemilux {
 
-/// All by patch: the radiosity B [W/m2], its variance [(W/m2)^2], the part of the variance that
-/// pairs add which were seldom looked at, as guessed, and the light [W/m2] that may still be
-/// missing. And where the power went.
+/// The radiosity B [W/m2] by patch, its variance [(W/m2)^2], and the light [W/m2] that may still be
+/// missing. `left_to_chance` is the part of the variance that pairs add which were seldom looked
+/// at, as guessed. `energy` says where the power went.
 struct Estimate {
     std::vector<Vec3> radiosity, variance, left_to_chance, missing;
     double shared = 0;    ///< area times variance of all patches, as far as they err together

@@ -15,22 +15,24 @@
 namespace hemilux {
 namespace {
 
-/// A pass ends when the light that is still to come is less than this share of the light reflected
-/// so far, and hardly any emitted power is left to account for. Over all, far more would do; but
+/// A pass ends when the light still to come is less than this share of the light reflected so far,
+/// and hardly any emitted power is left to account for. Over all, a far larger share would do. But
 /// small patches hold little power to the end, and it is what lights their small neighbours.
 constexpr double finished_share = 2e-5, finished_share_of_emitted = 5e-3;
 
-/// Rays from each shooter to find how much of its light leaves the scene.
+/// The limits on the number of rays from each shooter that find how much of its light leaves the
+/// scene.
 constexpr double least_lost_rays = 16, most_lost_rays = 16384;
 
-/// Of a mean, so that sums of all reflections stay finite: of the light that a pass waits for, and,
-/// as light in a bright room may go round for longer, of its errors.
+/// The largest mean reflectances, so that sums of all reflections stay finite. The first is for the
+/// light that a pass waits for, the second for its errors, as light in a bright room may go round
+/// for longer.
 constexpr double most_reflectance = .999, most_of_errors = .99999;
 
-/// What overshooting adds at most to what is unshot.
+/// The most that overshooting adds to what is unshot, as a share of that.
 constexpr double most_overshot = .8;
 
-/// Where the light can be.
+/// The area where the light can be.
 struct ReflectingArea {
     double area = 0;
     Vec3 mean_reflectance{0.0};
@@ -50,13 +52,13 @@ struct ReflectingArea {
     }
 };
 
-/// Of patches and emitters. Emitters beyond the first pairs, in the order of their power, count as
-/// a whole.
+/// The number of pairs of patches and emitters that are looked at. Emitters beyond these pairs, in
+/// the order of their power, count as a whole.
 constexpr std::size_t most_pairs = 10'000'000;
 
-/// The power that would arrive at patches if nothing stood between them and the emitters, in W/m2
-/// times area in local units. A sun sends most of its light elsewhere; the light of a scene is to
-/// be measured by the power that arrives.
+/// Returns the power that would arrive at patches if nothing stood between them and the emitters,
+/// in W/m2 times area in local units. A sun sends most of its light elsewhere; the light of a scene
+/// is to be measured by the power that arrives.
 Vec3 power_to_patches(const Mesh& mesh) {
     const auto power_of = [&](std::uint32_t e) {
         return mesh.patches()[e].area * mesh.material(e).emission;
@@ -84,7 +86,7 @@ Vec3 power_to_patches(const Mesh& mesh) {
     return power.value();
 }
 
-/// Radiosity that the mean patch will reflect in the end.
+/// Returns the radiosity that the mean patch will reflect in the end [W/m2].
 double mean_reflected(const Mesh& mesh) {
     const ReflectingArea reflecting(mesh);
     const Vec3 rho = glm::clamp(reflecting.mean_reflectance, Vec3(least_reflectance_of_receivers),
@@ -131,14 +133,14 @@ bool ProgressivePass::is_done() const {
            !(left > finished_share_of_emitted * mean_of_channels(emitted_));
 }
 
-/// To the nearest power of 2^(1/256) of what is emitted: of patches that are alike but for rounding
-/// errors the first shoots first.
+/// Ranks by the unshot power, rounded to a power of 2^(1/256) of what is emitted. So among patches
+/// that are alike except for rounding errors, the first shoots first.
 void ProgressivePass::rank(std::uint32_t patch) {
     const double share = unshot_power(patch) / mean_of_channels(emitted_);
     brightest_.set(patch, share > 0 ? std::exp2(std::round(256 * std::log2(share)) / 256) : 0);
 }
 
-/// Mean of channels. Overshooting leaves negative light, which counts alike.
+/// Returns the mean of channels. Overshooting leaves negative light, which counts alike.
 double ProgressivePass::unshot_power(std::uint32_t patch) const {
     return input_.mesh.patches()[patch].area * mean_of_channels(glm::abs(unshot_[patch]));
 }
@@ -150,7 +152,7 @@ void ProgressivePass::shoot(std::uint32_t step) {
     Vec3 shot = unshot;
     unshot_[shooter] = unshot_variance_[shooter] = Vec3(0.0);
     if (options_.overshoot) {
-        // At most so much that it converges: as over-relaxation by less than 2 does.
+        // This is limited so that it converges, as over-relaxation by less than 2 does.
         const Vec3 later = glm::clamp(input_.mesh.material(shooter).reflectance * ambient(),
                                       Vec3(0.0), glm::max(most_overshot * shot, 0.0));
         shot += later;
@@ -174,7 +176,7 @@ void ProgressivePass::shoot(std::uint32_t step) {
     ++shots_;
 }
 
-/// For the factors of the shot. Void if interrupted.
+/// Looks for the factors of the shot. They are void if interrupted.
 ShotShares ProgressivePass::look(std::uint32_t shooter, const Vec3& shot) {
     if (hemicube_) {
         const EscapeFraction lost = factors_.look(*hemicube_, shooter);
@@ -191,7 +193,7 @@ ShotShares ProgressivePass::look(std::uint32_t shooter, const Vec3& shot) {
     return balance_.balance(factors_.sum(), look_for_losses(shooter, shot));
 }
 
-/// In the order of the patches, whatever thread has looked.
+/// Receives in the order of the patches, whichever thread has looked.
 void ProgressivePass::receive(const Vec3& shot, const Vec3& shot_variance,
                               const ShotShares& shares) {
     for (std::uint32_t i = 0; i < hits_.size(); ++i) {
@@ -218,8 +220,9 @@ void ProgressivePass::receive(const Vec3& shot, const Vec3& shot_variance,
     }
 }
 
-/// Of what the receivers of the shot reflect together. Where the factors were made to sum up to
-/// what arrives, their errors only move light between receivers, whose reflectances may differ.
+/// Adds the variance of what the receivers of the shot reflect together. Where the factors were
+/// made to sum up to what arrives, their errors only move light between receivers, whose
+/// reflectances may differ.
 void ProgressivePass::note_power_variance(const Vec3& shot, const ShotShares& shares) {
     Vec3 arriving(0.0), reflected(0.0);
     for (std::uint32_t i = 0; i < hits_.size(); ++i) {
@@ -270,8 +273,8 @@ ProgressivePass::Reflected ProgressivePass::reflected(double most) const {
     return result;
 }
 
-/// Irradiance that the unshot light will bring to the mean patch: the ambient term of Cohen et al.
-/// (1988).
+/// Returns the irradiance that the unshot light will bring to the mean patch: the ambient term of
+/// Cohen et al. (1988).
 Vec3 ProgressivePass::ambient() const {
     return power_unshot() / (1.0 - mean_reflectance_) / reflecting_area_;
 }
@@ -287,7 +290,7 @@ Estimate ProgressivePass::estimate() const {
     const Vec3 missing = ambient();
     const Vec3 gain = 1.0 / ((1.0 - mean_reflectance_) * reflecting_area_);
     const Vec3 shared = gain * gain * power_variance_;
-    // What is unshot may stay where the light is now, as in the shade around a lamp.
+    // What is unshot may stay where the light is, as inside a lampshade.
     const Reflected now = reflected(most_of_errors);
     Vec3 share(0.0);
     for (int c = 0; c < 3; ++c)

@@ -1,13 +1,13 @@
 #pragma once
-// A pass of progressive radiosity: from all light in the emitters until hardly any is left to be
-// shot.
+// A pass of progressive radiosity. It begins with all light in the emitters and ends when hardly
+// any is left to be shot.
 //
-// B is known with three errors. The pairs of patches err each for themselves, and the spread of
-// their points says by how much; a shooter passes its error on with its light, which matters
-// between patches that nearly touch. What a shot brings in all errs together with all that later
-// shots make of it; that error is taken to be spread evenly, as the ambient term of Cohen et al.
-// (1988) spreads light. And what is unshot will add to B, by up to the ambient term or in
-// proportion to the light that is there.
+// B has three errors. First, each pair of patches has an error of its own, and the spread of its
+// points says how large it is. A shooter passes its error on with its light, which matters between
+// patches that nearly touch. Second, all that a shot brings has a common error, together with all
+// that later shots make of it. This error is taken to be spread evenly, as the ambient term of
+// Cohen et al. (1988) spreads light. Third, what is unshot will add to B, by up to the ambient term
+// or in proportion to the light that is there.
 
 #include "geometry/compensated_sum.h"
 #include "radiosity/progressive/estimate.h"
@@ -23,13 +23,13 @@
 
 namespace hemilux {
 
-/// What the method `progressive` may do besides.
+/// The options of the method `progressive`.
 struct ProgressiveOptions {
     /// Adds to the solution shown an estimate of the light that is still unshot (Cohen et al.
     /// 1988). It makes early pictures brighter and is gone at the end.
     bool ambient = false;
     /// Patches also shoot what they will probably receive later, and take back what was too much
-    /// (Feda and Purgathofer 1992). Fewer shots in bright rooms.
+    /// (Feda and Purgathofer 1992). This takes fewer shots in bright rooms.
     bool overshoot = false;
 };
 
@@ -38,18 +38,19 @@ class ProgressivePass {
     explicit ProgressivePass(const SolverInput& input);
 
     /// Starts again from the emitters. A receiver traces `rays_per_light` shadow rays in a shot
-    /// that gives it as much light as the mean patch reflects in the end, and in other shots in
-    /// proportion to the light.
+    /// that gives it as much light as the mean patch reflects in the end. In other shots its rays
+    /// are in proportion to the light.
     void begin(double rays_per_light);
     /// Shoots from the patch with the most unshot power; `step` is for messages. The pass is void
     /// if interrupted.
     void shoot(std::uint32_t step);
     [[nodiscard]] bool is_done() const;
-    /// The solution and its errors, after the last shot.
+    /// Returns the solution and its errors, after the last shot.
     [[nodiscard]] Estimate estimate() const;
 
     [[nodiscard]] const Vec3& emitted() const { return emitted_; } ///< power, local units
-    // Numbers of all passes together: hits by patch, points that were looked from, and rays.
+    // These are numbers of all passes together: hits by patch, points that were looked from, and
+    // rays.
     [[nodiscard]] std::span<const std::uint64_t> hits() const { return hits_; }
     [[nodiscard]] std::uint64_t points() const { return points_; }
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
@@ -67,7 +68,7 @@ class ProgressivePass {
     [[nodiscard]] ShotRays look_for_losses(std::uint32_t shooter, const Vec3& shot);
     void receive(const Vec3& shot, const Vec3& shot_variance, const ShotShares& shares);
     void note_power_variance(const Vec3& shot, const ShotShares& shares);
-    /// The light reflected so far, with a mean reflectance of at most `most`.
+    /// Returns the light reflected so far, with a mean reflectance of at most `most`.
     [[nodiscard]] Reflected reflected(double most) const;
     [[nodiscard]] Vec3 ambient() const;
     [[nodiscard]] Vec3 power_unshot() const;

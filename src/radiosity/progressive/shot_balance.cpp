@@ -11,8 +11,8 @@
 namespace hemilux {
 namespace {
 
-/// Where more than this share is left to chance factors are not scaled: they would no longer be
-/// right on average. What was found must not decide it, for the same reason.
+/// Where more than this share is left to chance, factors are not scaled, as they would not be right
+/// on average. What was found must not decide it, for the same reason.
 constexpr double most_at_risk = .05;
 
 } // namespace
@@ -37,16 +37,17 @@ ShotRays shoot_to_lose(const Mesh& mesh, const Tracer& tracer, const Needs& need
     return result;
 }
 
-/// As of rays of which as many are lost as of those of all shots, and one more: a variance by what
-/// the few rays of this shot have met would trust those most that happened to lose none.
+/// Returns the variance of the share of rays that are lost, if as many are lost as of the rays of
+/// all shots, and one more. A variance by what the few rays of this shot have met would trust those
+/// most that happened to lose none.
 double ShotBalance::variance_of_loss(double count) const {
     const double prior = (all_.escaped + all_.absorbed + 1) / (all_.count + 2);
     return prior * (1 - prior) / count;
 }
 
-/// As of factors whose points scatter as those of all shots, for the same reason: where by chance
-/// little was seen, little was seen to scatter, and the sum of the factors would be trusted most
-/// when it is too small.
+/// Returns the variance of the sum of factors whose points scatter as those of all shots, for the
+/// same reason. Where by chance little was seen, little was seen to scatter; the sum of the factors
+/// would be trusted most when it is too small.
 double ShotBalance::prior_variance(const FactorSum& factors) const {
     const double spread = spread_of_point_ / shots_; // not its square: few shots would outweigh all
     return factors.points > 0 ? spread * spread / factors.points : factors.variance;
@@ -76,7 +77,7 @@ ShotShares ShotBalance::balance(const FactorSum& factors, const ShotRays& rays) 
     const EscapeFraction kinds{rays.escaped + all_.escaped / all_.count,
                                rays.absorbed + all_.absorbed / all_.count};
     const double known = kinds.sum();
-    // More than all is chance, and evens out: cut off, light would be missing on average.
+    // A share above 1 is due to chance, and evens out: cut off, light would be missing on average.
     if (!(known > 0) || joined >= 1)
         return {joined / sum, {}, 1 - joined, true, relative};
     const double each = (1 - joined) / known;

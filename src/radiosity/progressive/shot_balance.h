@@ -1,11 +1,11 @@
 #pragma once
-// Where the light of a shot of progressive radiosity goes.
+// The balance of a shot of progressive radiosity: where its light goes.
 //
-// Two things estimate what share of it arrives at patches: the sum of the form factors, and rays
-// from the shooter, some of which are lost. Neither is exact. Both are weighted by the inverse of
-// their variances, the factors are scaled to that, and the rest is lost: so no energy is made
-// between patches, which in bright rooms would be made again in each bounce. Where much hangs on
-// pairs that are looked at by chance, factors are left as they are, right on average.
+// Two things estimate what share of the light arrives at patches: the sum of the form factors, and
+// rays from the shooter, some of which are lost. Neither is exact. Both are weighted by the inverse
+// of their variances, the factors are scaled to the result, and the rest is lost. So no energy is
+// made between patches, which in bright rooms would be made again in each bounce. Where much
+// depends on pairs that are looked at by chance, factors are left as they are, right on average.
 
 #include "radiosity/form_factors/sampled_form_factors.h"
 
@@ -13,7 +13,7 @@
 
 namespace hemilux {
 
-/// Numbers of rays from the shooter, and of those that met no patch that was looked from.
+/// The numbers of rays from the shooter, and of those that met no patch that was looked from.
 struct ShotRays {
     double count = 0, escaped = 0, absorbed = 0;
 };
@@ -24,15 +24,15 @@ struct ShotRays {
                                      std::uint32_t shooter, std::uint32_t count,
                                      std::uint64_t seed);
 
-/// All factors from receivers to the shooter times the ratio of their areas: the share of the
-/// shot that arrives.
+/// The sum of all factors from receivers to the shooter, times the ratio of their areas [-]: the
+/// share of the shot that arrives.
 struct FactorSum {
     double sum = 0, variance = 0;
     double at_risk = 0; ///< about the sum of those that were looked at by chance only
     double points = 0;  ///< of receivers, that were looked from
 };
 
-/// Where the power of a shot goes, as shares of it [-].
+/// The shares of the power of a shot, by where they go [-].
 struct ShotShares {
     double scale = 1;     ///< of all factors
     EscapeFraction lost;  ///< what falls elsewhere
@@ -43,7 +43,7 @@ struct ShotShares {
 
 class ShotBalance {
   public:
-    /// `closed`: no light can be lost, as the geometry proves.
+    /// With `closed`, no light can be lost, as the geometry proves.
     explicit ShotBalance(bool closed) : closed_(closed) {}
     ShotShares balance(const FactorSum& factors, const ShotRays& rays);
 

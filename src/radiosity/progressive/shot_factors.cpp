@@ -11,11 +11,11 @@
 namespace hemilux {
 namespace {
 
-/// Fewer pairs are done sooner than other threads would be started.
+/// Fewer pairs are done before other threads could be started.
 constexpr std::size_t receivers_per_chunk = 256;
 
-/// Pairs that deserve less than this many rays are looked at by chance only, and count for those
-/// that are not.
+/// Pairs that deserve less than this many rays are only looked at by chance, and then count for
+/// those that are not.
 constexpr double least_importance = .05;
 
 } // namespace
@@ -59,11 +59,11 @@ EscapeFraction ShotFactors::look(const Hemicube& cube, std::uint32_t shooter) {
     return row.lost;
 }
 
-/// No factor to the shooter is more than the ratio of the areas, as no more arrives than is shot;
-/// and all factors of a patch sum up to 1 at most. Where the guesses sum up to S > 1, because
-/// patches stand in front of each other, a receiver sees the shooter with a probability of about 1
-/// / S: the standard deviation of what it sees, to which its rays are to be proportional, is
-/// smaller by the root of S.
+/// Guesses the factors to the shooter. None is more than the ratio of the areas, as no more arrives
+/// than is shot, and all factors of a patch sum up to 1 at most. Where the guesses sum up to S > 1,
+/// because patches stand in front of each other, a receiver sees the shooter with a probability of
+/// about 1 / S. The standard deviation of what it sees, to which its rays should be proportional,
+/// is then smaller by the root of S.
 void ShotFactors::guess() {
     const auto patches = input_.mesh.patches();
     workers_.for_chunks(
@@ -80,7 +80,8 @@ void ShotFactors::guess() {
     crowding_ = std::max(1.0, sum.value());
 }
 
-/// What a patch without power absorbs is among the losses.
+/// Returns whether a patch receives light of the shot. What a patch without power absorbs is among
+/// the losses.
 bool ShotFactors::is_receiver(std::uint32_t patch) const {
     const auto patches = input_.mesh.patches();
     return patch != shooter_ && input_.needs.power(patch) &&
@@ -101,7 +102,8 @@ ReceiverFactor ShotFactors::look_from(std::uint32_t receiver, const Vec3& shot,
     const double rays = rays_per_light / std::sqrt(crowding_) * importance;
     const double chance = std::min(rays / least_importance, 1.0);
     const double at_risk = chance < 1 ? rough / crowding_ : 0;
-    // Of a factor that is `rough` with a probability of 1 / crowding_, looked at with `chance`.
+    // This is the variance of a factor that is `rough` with a probability of 1 / crowding_, looked
+    // at with the probability `chance`.
     const double left_to_chance = rays > 0 ? (1 - chance) / chance * rough * rough / crowding_ : 0;
     if (chance < 1 && !(Rng(hash_words({seed, receiver})).uniform() < chance))
         return {{}, at_risk, left_to_chance};

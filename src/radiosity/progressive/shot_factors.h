@@ -1,7 +1,7 @@
 #pragma once
-// The form factors of all patches to one that shoots, for progressive radiosity: found anew for
-// each shot, the more exactly the more light they carry (pair_factor.h), or by the shooter's
-// hemicube (hemicube.h).
+// The form factors of all patches to one that shoots, for progressive radiosity. They are found
+// anew for each shot, the more exactly the more light they carry (pair_factor.h), or by the
+// shooter's hemicube (hemicube.h).
 
 #include "parallel/workers.h"
 #include "radiosity/form_factors/hemicube.h"
@@ -28,19 +28,19 @@ class ShotFactors {
     /// `mean_reflected` is the radiosity that the mean patch will reflect in the end [W/m2].
     ShotFactors(const SolverInput& input, double mean_reflected);
 
-    /// Looks from all patches to the shooter, which shoots the radiosity `shot`. `rays_per_light`:
-    /// rays of a receiver that the shot gives as much light as the mean patch reflects; the others
-    /// get them in proportion. Void if interrupted.
+    /// Looks from all patches to the shooter, which shoots the radiosity `shot`. A receiver traces
+    /// `rays_per_light` rays if the shot gives it as much light as the mean patch reflects; the
+    /// others get rays in proportion. The factors are void if interrupted.
     void look(std::uint32_t shooter, const Vec3& shot, double rays_per_light, std::uint64_t seed);
 
-    /// The same as the shooter's hemicube shows it (Cohen, Chen, Wallace and Greenberg 1988):
+    /// Finds the same as the shooter's hemicube shows it (Cohen, Chen, Wallace and Greenberg 1988):
     /// F_is = F_si A_s / A_i, for all patches, with the pixels that show i as hits. Returns what of
-    /// the shot is lost; the rest arrives. Void if interrupted.
+    /// the shot is lost; the rest arrives. The factors are void if interrupted.
     EscapeFraction look(const Hemicube& cube, std::uint32_t shooter);
 
-    /// The factors of the last shot, by receiver.
+    /// Returns the factors of the last shot, by receiver.
     [[nodiscard]] std::span<const ReceiverFactor> by_receiver() const { return by_receiver_; }
-    /// The share of that shot that arrives.
+    /// Returns the share of that shot that arrives.
     [[nodiscard]] FactorSum sum() const;
 
   private:
@@ -58,7 +58,7 @@ class ShotFactors {
     std::vector<ReceiverFactor> by_receiver_;
 };
 
-/// Black patches count as if they had this reflectance, since what they absorb is to be known too.
+/// Black patches count as if they had this reflectance, since what they absorb must be known too.
 inline constexpr double least_reflectance_of_receivers = .1;
 
 } // namespace hemilux

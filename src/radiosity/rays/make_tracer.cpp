@@ -8,7 +8,7 @@
 namespace hemilux {
 namespace {
 
-/// Over some of the facets, at equal distances in their list.
+/// Finds the mean over some of the facets, at equal distances in their list.
 Crowd find_crowd(const Mesh& mesh, const WideBvh& tree) {
     constexpr std::uint32_t most_facets = 512;
     const auto facets = static_cast<std::uint32_t>(mesh.soup().facets.size());

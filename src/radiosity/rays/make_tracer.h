@@ -1,5 +1,5 @@
 #pragma once
-// The tracer that suits a scene.
+// Makes the tracer that suits a scene.
 
 #include "bvh/quality.h"
 #include "bvh/tracer.h"
@@ -11,7 +11,8 @@ namespace hemilux {
 
 class Mesh;
 
-/// How many triangles lie so near to each other that no tree tells them apart: a ray tests all.
+/// The number of triangles that lie so near to each other that no tree can separate them: a ray
+/// tests all.
 struct Crowd {
     std::size_t triangles = 0; ///< around the centre of a facet, in the mean over facets
     std::uint32_t facet = 0;   ///< with most around it
@@ -23,8 +24,8 @@ struct MadeTracer {
     Crowd crowd;                    ///< in the tree
 };
 
-/// Makes a tracer, which the mesh must outlive. `tree` is that of Needs; so many `threads` build
-/// it, 0 being one per core.
+/// Makes a tracer, which the mesh must outlive. `tree` is that of Needs. So many `threads` build
+/// it; 0 means one per core.
 [[nodiscard]] MadeTracer make_tracer(const Mesh& mesh, bool tree, unsigned threads = 0);
 
 } // namespace hemilux

@@ -1,6 +1,6 @@
 #pragma once
-// Which patches rays hit. Tracers answer for many rays at once much sooner than for each alone
-// (bvh/tracer.h).
+// Finds which patches rays hit. Tracers answer for many rays at once much sooner than for each
+// alone (bvh/tracer.h).
 
 #include "bvh/tracer.h"
 
@@ -12,11 +12,11 @@ namespace hemilux {
 
 class Mesh;
 
-/// The receiver of a ray that hits no patch: it leaves the scene, or falls on the back of a
+/// The receivers of rays that hit no patch: such a ray leaves the scene, or falls on the back of a
 /// one-sided face.
 inline constexpr std::uint32_t escaped = 0xffffffff, absorbed = 0xfffffffe;
 
-/// As many rays as it pays to trace together; more gain nothing.
+/// The number of rays that it pays to trace together; more gain nothing.
 inline constexpr std::size_t rays_at_a_time = 1024;
 
 /// Appends for each ray the patch that it hits, or `escaped` or `absorbed`.

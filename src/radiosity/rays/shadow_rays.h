@@ -1,5 +1,5 @@
 #pragma once
-// Shadow rays, which are traced many at a time.
+// Collects shadow rays, which are traced many at a time.
 
 #include "bvh/tracer.h"
 
@@ -9,11 +9,12 @@
 
 namespace hemilux {
 
-/// Those that are not traced yet. A sample says what its ray brings if nothing is in the way.
+/// The shadow rays that are not traced yet. A sample says what its ray brings if nothing is in the
+/// way.
 template <class Sample>
 class ShadowRays {
   public:
-    /// `target`: the facet that the ray goes to.
+    /// Adds a ray; `target` is the facet that it goes to.
     void add(const Ray& ray, std::uint32_t target, const Sample& sample) {
         rays_.push_back(ray);
         targets_.push_back(target);
@@ -23,8 +24,8 @@ class ShadowRays {
     [[nodiscard]] const Ray& ray(std::size_t k) const { return rays_[k]; }
     [[nodiscard]] const Sample& sample(std::size_t k) const { return samples_[k]; }
 
-    /// Traces them and forgets them; calls use(sample, arrives) for each. Returns how many there
-    /// were.
+    /// Traces the rays and forgets them; calls use(sample, arrives) for each. Returns how many
+    /// there were.
     template <class Use>
     std::size_t trace(const Tracer& tracer, const Use& use) {
         blocked_.resize(rays_.size());
@@ -35,7 +36,7 @@ class ShadowRays {
         clear();
         return traced;
     }
-    /// The same where nothing can be in the way, without rays.
+    /// Does the same where nothing can be in the way, without rays.
     template <class Use>
     void take_all(const Use& use) {
         for (const Sample& sample : samples_)

@@ -1,5 +1,5 @@
 #pragma once
-// A point of a surface, from which rays look.
+// Describes a point of a surface, from which rays look.
 
 #include "bvh/tracer.h"
 #include "geometry/vector.h"
@@ -8,12 +8,13 @@
 
 namespace hemilux {
 
-/// Lies in the local frame.
+/// A point in the local frame.
 struct SurfacePoint {
-    Vec3 position;
+    Vec3 position;       ///< local units
     Vec3 normal;         ///< unit, to the side that receives
     std::uint32_t facet; ///< that it lies on, or none
-    /// That it lies on: its points may choose emitters by the same chances. None: by its own.
+    /// The patch that it lies on, whose points may choose emitters by the same chances. A point
+    /// without one uses its own.
     std::uint32_t patch = none;
 
     [[nodiscard]] Ray ray(const Vec3& direction) const {

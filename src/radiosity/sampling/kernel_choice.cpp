@@ -1,4 +1,4 @@
-// Which instruction set's kernels draw samples and multiply matrices.
+// Chooses which instruction set's kernels draw samples and multiply matrices.
 
 #include "parallel/instruction_set.h"
 #include "radiosity/sampling/sampling_kernels.h"

@@ -1,6 +1,6 @@
 #pragma once
-// Which of many numbers is the largest, while they change one by one: a tree whose nodes hold the
-// larger of their two children.
+// Keeps track of the largest of many numbers, while they change one by one. It is a tree whose
+// nodes hold the larger of their two children.
 
 #include <algorithm>
 #include <bit>
@@ -27,7 +27,7 @@ class LargestFirst {
         }
     }
     [[nodiscard]] double largest() const { return node_[1]; }
-    /// The index of the largest number; of equal ones the first.
+    /// Returns the index of the largest number; of equal ones the first.
     [[nodiscard]] std::size_t index_of_largest() const {
         std::size_t at = 1;
         while (at < leaves_)

@@ -1,6 +1,6 @@
 #pragma once
-// Random numbers. Each (patch, step, bounce) has a stream of its own, so that results do not depend
-// on which thread does what.
+// Draws random numbers. Each (patch, step, bounce) has a stream of its own, so that results do not
+// depend on which thread does what.
 
 #include <array>
 #include <bit>
@@ -9,15 +9,15 @@
 
 namespace hemilux {
 
-/// A bijection of 64-bit words without visible structure (Stafford 2011, "Better bit mixing", mix
-/// 13).
+/// Maps 64-bit words to each other one to one, without visible structure (Stafford 2011, "Better
+/// bit mixing", mix 13).
 [[nodiscard]] constexpr std::uint64_t mix_bits(std::uint64_t x) {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
 }
 
-/// Hash of several words. Each is mixed in turn: seeds in arithmetic progression would give streams
+/// Hashes several words. Each is mixed in turn: seeds in arithmetic progression would give streams
 /// that are shifted copies of each other.
 [[nodiscard]] constexpr std::uint64_t hash_words(std::initializer_list<std::uint64_t> words) {
     std::uint64_t h = 0x9e3779b97f4a7c15u;
@@ -26,7 +26,7 @@ namespace hemilux {
     return mix_bits(h);
 }
 
-/// xoshiro256++ (Blackman and Vigna 2021), period 2^256 - 1.
+/// The generator xoshiro256++ (Blackman and Vigna 2021), with period 2^256 - 1.
 class Rng {
   public:
     explicit constexpr Rng(std::uint64_t seed) {
@@ -45,7 +45,8 @@ class Rng {
         state_[3] = std::rotl(state_[3], 45);
         return result;
     }
-    /// Uniform in (0,1): the middle of one of 2^52 equal intervals, so never on an edge or vertex.
+    /// Draws a number uniform in (0,1): the middle of one of 2^52 equal intervals, so never on an
+    /// edge or vertex.
     constexpr double uniform() { return (static_cast<double>(bits() >> 12) + 0.5) * 0x1p-52; }
 
   private:

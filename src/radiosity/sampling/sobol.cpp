@@ -10,8 +10,8 @@ namespace {
 
 using Words = std::array<std::uint32_t, most_dimensions>; // one per dimension, bits reversed
 
-/// A primitive polynomial over GF(2) of some degree, its inner coefficients as bits, and the first
-/// direction integers of Joe and Kuo's table: the j + 1 bits of m[j] reversed.
+/// A primitive polynomial over GF(2) of some degree, with its inner coefficients as bits. It comes
+/// with the first direction integers of Joe and Kuo's table: the j + 1 bits of m[j] reversed.
 struct Polynomial {
     unsigned degree, inner;
     std::array<std::uint32_t, 3> m;
@@ -19,8 +19,8 @@ struct Polynomial {
 constexpr std::array<Polynomial, most_dimensions - 1> polynomials{
     {{1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 4}}, {3, 2, {1, 2, 4}}}};
 
-/// Direction number j of each dimension; bits reversed, as the scrambling wants them: the binary
-/// point is before the lowest bit.
+/// Returns direction number j of each dimension. Bits are reversed, as the scrambling wants them:
+/// the binary point is before the lowest bit.
 constexpr std::array<Words, 32> direction_numbers() {
     std::array<Words, 32> v{};
     for (unsigned j = 0; j < 32; ++j) {
@@ -41,7 +41,7 @@ constexpr std::array<Words, 32> direction_numbers() {
 }
 constexpr std::array<Words, 32> numbers = direction_numbers();
 
-/// A point of the sequence that is not scrambled.
+/// Returns a point of the sequence that is not scrambled.
 constexpr Words word_of(std::uint32_t index) {
     Words word{};
     for (; index != 0; index &= index - 1)

@@ -10,10 +10,10 @@ namespace hemilux {
 
 namespace {
 
-/// Of the largest of all patches: the light that an iteration may leave below 0.
+/// The light that an iteration may leave below 0, as a share of the largest of all patches.
 constexpr double most_below = .1;
 
-/// -1 stands for what is not known.
+/// The bounds of a number that may be unknown; -1 stands for what is not known.
 constexpr Bounds known_or_not{-1, bounds::largest};
 
 std::optional<double> number_or_nothing(StateReader& state) {

@@ -1,5 +1,5 @@
 #pragma once
-// A solution as part of a solver's state.
+// Saves and loads a solution as part of a solver's state.
 
 #include "radiosity/solution/solution.h"
 
@@ -15,7 +15,7 @@ class StateWriter;
 void load_light(std::span<Vec3> light, double most, StateReader& state);
 
 void save_energy(const EnergyBalance& energy, StateWriter& state);
-/// Throws StateError for what is not finite.
+/// Loads a balance; throws StateError for what is not finite.
 void load_energy(EnergyBalance& energy, StateReader& state);
 
 /// Saves all of a solution that is reported, but no densities.

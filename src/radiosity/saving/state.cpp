@@ -6,7 +6,7 @@
 namespace hemilux {
 namespace {
 
-/// The least byte first.
+/// Appends a whole number, the least byte first.
 template <class Whole>
 void append_whole(Whole value, std::string& to) {
     std::array<char, sizeof(Whole)> bytes;

@@ -1,6 +1,6 @@
 #pragma once
-// A solver's state as bytes, for checkpoints: whole numbers of 32 and 64 bits and doubles by their
-// bits, in little-endian order whatever the machine.
+// Writes and reads a solver's state as bytes, for checkpoints. Whole numbers have 32 and 64 bits,
+// and doubles are stored by their bits, in little-endian order whatever the machine.
 
 #include "geometry/vector.h"
 
@@ -13,7 +13,7 @@
 
 namespace hemilux {
 
-/// Thrown for bytes that are not what the reader expects.
+/// The error thrown for bytes that are not what the reader expects.
 struct StateError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -34,7 +34,7 @@ class StateWriter {
     void add(double value);
     void add(const Vec3& value);
     void add(std::string_view text);
-    /// What another writer has made, as it is.
+    /// Appends what another writer has made, as it is.
     void append(std::string_view bytes) { bytes_ += bytes; }
     template <class T>
     void add(std::span<const T> values) {
@@ -57,15 +57,15 @@ class StateReader {
 
     [[nodiscard]] std::uint64_t whole();
     [[nodiscard]] double number();
-    /// A number within the bounds; else throws StateError.
+    /// Reads a number within the bounds; else throws StateError.
     [[nodiscard]] double number(const Bounds& bounds);
-    /// A whole number of at most `most`; else throws StateError.
+    /// Reads a whole number of at most `most`; else throws StateError.
     [[nodiscard]] std::uint64_t whole_up_to(std::uint64_t most);
     [[nodiscard]] bool flag() { return whole_up_to(1) != 0; }
-    /// A text. Its length is checked before memory is taken.
+    /// Reads a text. Its length is checked before memory is taken.
     [[nodiscard]] std::string text();
-    /// A size that was written before its items. Throws StateError unless there are `bytes_each`
-    /// bytes left for each.
+    /// Reads a size that was written before its items. Throws StateError unless there are
+    /// `bytes_each` bytes left for each.
     [[nodiscard]] std::size_t count(std::size_t bytes_each);
 
     void get(std::uint64_t& value) { value = whole(); }
@@ -81,7 +81,7 @@ class StateReader {
         for (T& value : values)
             get(value);
     }
-    /// The same of numbers that are all within the bounds.
+    /// Does the same for numbers that are all within the bounds.
     template <class T>
     void get(std::span<T> values, const Bounds& bounds) {
         if (whole() != values.size())

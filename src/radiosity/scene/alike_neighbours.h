@@ -1,6 +1,6 @@
 #pragma once
-// Patches that are near to a patch and much like it, so that what is uncertain about one is about
-// as uncertain about the others: errors that are known badly from one patch are pooled over them.
+// Finds patches that are near to a patch and much like it. What is uncertain about one is about as
+// uncertain about the others, so errors that are poorly known from one patch are pooled over them.
 
 #include "radiosity/scene/mesh.h"
 
@@ -11,8 +11,9 @@
 
 namespace hemilux {
 
-/// Calls visit(j) for each patch beside `i` that is like it: near in the order of the file, of the
-/// same material, of about the same area and facing nearly the same way. `i` is not among them.
+/// Calls visit(j) for each patch beside `i` that is like it. It is near in the order of the file,
+/// of the same material, of about the same area, and faces nearly the same way. `i` itself is not
+/// visited.
 template <class Visit>
 void for_alike_neighbours(const Mesh& mesh, std::uint32_t i, const Visit& visit) {
     constexpr std::uint32_t reach = 6;
@@ -31,9 +32,9 @@ void for_alike_neighbours(const Mesh& mesh, std::uint32_t i, const Visit& visit)
     }
 }
 
-/// Variances [any unit], by patch and channel, that are known badly from a few samples each: the
-/// mean over the patch and its neighbours, or the mean of that and the patch's own, whatever is
-/// more.
+/// Pools variances [any unit], by patch and channel, that are poorly known from a few samples each.
+/// Returns for each patch the larger of two values: the mean over the patch and its neighbours, and
+/// the mean of that and the patch's own variance.
 [[nodiscard]] std::vector<Vec3> pooled_over_neighbours(const Mesh& mesh,
                                                        std::span<const Vec3> variance);
 

@@ -12,18 +12,19 @@
 namespace hemilux {
 namespace {
 
-/// How far a vertex may lie behind a wall's plane, in local units: decimals in files.
+/// The largest distance [local units] of a vertex behind a wall's plane, as coordinates in files
+/// are rounded to decimals.
 constexpr double slack = 1e-7;
-/// Pairs of planes and vertices that are looked at.
+/// The largest number of pairs of a plane and a vertex that are tested.
 constexpr double most_pairs = 1e8;
 
-/// normal . x = offset
+/// A plane with the equation normal . x = offset.
 struct Plane {
     Vec3 normal;
     double offset;
 };
 
-/// Planes of almost the same numbers are one.
+/// Planes of almost the same numbers share a key.
 using PlaneKey = std::array<long long, 4>;
 PlaneKey key_of(const Plane& plane) {
     constexpr double grid = 1e9;
@@ -49,7 +50,8 @@ Plane plane_of(const FacetSoup& soup, std::uint32_t a, std::uint32_t b, std::uin
     return {n, glm::dot(n, p)};
 }
 
-/// Both halves of a quad have their say, as one that is not quite planar needs.
+/// Returns whether all points lie in front of every plane. Both halves of a quad are tested, as it
+/// may be not quite planar.
 bool all_in_front(const FacetSoup& soup) {
     const std::vector<Vec3> points = points_in_use(soup);
     std::set<PlaneKey> seen;
@@ -68,7 +70,7 @@ bool all_in_front(const FacetSoup& soup) {
     });
 }
 
-/// Each edge belongs to two facets that run along it in opposite directions.
+/// Returns whether each edge belongs to two facets that run along it in opposite directions.
 bool is_closed(const Scene& scene) {
     bool closed = true;
     for_each_place(welded_edges(scene), [&](auto first, auto last) {

@@ -11,7 +11,7 @@
 namespace hemilux {
 namespace {
 
-/// Facets that overlap with others, numbered in the order of the scene, with their neighbours.
+/// The facets that overlap with others, numbered in the order of the scene, with their neighbours.
 class Graph {
   public:
     explicit Graph(std::span<const Overlap> pairs) {
@@ -43,10 +43,10 @@ class Graph {
     std::vector<std::vector<std::uint32_t>> neighbours_;
 };
 
-/// What decides who covers whom.
+/// The properties that decide which facet covers which.
 struct Member {
     Vec3 normal;
-    double area, glow;
+    double area, glow; ///< glow: emission summed over channels
     double size_class; ///< by powers of two, whose limits are no areas that anybody draws
     int side;          ///< +1 or -1: faces the way of the first of its layers, or the other
 };
@@ -69,7 +69,7 @@ class LayerFinder {
             }
     }
 
-    /// Steps to its front.
+    /// Returns the number of steps by which facet i of the graph moves to its front.
     [[nodiscard]] std::int32_t offset(std::uint32_t i) const {
         return members_[i].side * height_[i];
     }
@@ -88,7 +88,8 @@ class LayerFinder {
         return {normal, area, e.x + e.y + e.z, std::floor(std::log2(area) + odd), 0};
     }
 
-    /// All that is connected with i, in stack_; which way they face.
+    /// Collects in stack_ all facets that are connected with i, and finds which way each of them
+    /// faces.
     void find_layers(std::uint32_t i) {
         stack_ = {i};
         members_[i].side = 1;
@@ -104,8 +105,8 @@ class LayerFinder {
         }
     }
 
-    /// Below 0 where a must lie lower than b, above 0 where higher, 0 where either will do. Levels
-    /// count along the front of side +1.
+    /// Returns a negative number where a must lie lower than b, a positive one where it must lie
+    /// higher, and 0 where either will do. Levels count along the front of side +1.
     [[nodiscard]] int order(std::uint32_t a, std::uint32_t b) const {
         const Member &x = members_[a], &y = members_[b];
         if (x.side != y.side)
@@ -117,7 +118,8 @@ class LayerFinder {
         return 0;
     }
 
-    /// From below, each as low as what must be beneath it allows, and not on the level of another.
+    /// Sets levels from below. Each facet lies as low as what must be beneath it allows, and not on
+    /// the level of another that it overlaps.
     void set_levels() {
         std::ranges::sort(stack_, [&](std::uint32_t a, std::uint32_t b) {
             const int o = order(a, b);
@@ -149,8 +151,8 @@ class LayerFinder {
         return none;
     }
 
-    /// The level where most area can stay in place: that of facets on it, and of lower ones which
-    /// nothing keeps from it.
+    /// Returns the level where most area can stay in place. That area belongs to facets on the
+    /// level and to lower ones which nothing keeps from it.
     [[nodiscard]] std::int32_t find_rest() const {
         constexpr double as_much = 1 - 1e-3; // so that rounding decides nothing
         std::int32_t end = 0;
@@ -167,7 +169,7 @@ class LayerFinder {
         return static_cast<std::int32_t>(rest - area.begin());
     }
 
-    /// Lower levels are raised to the resting one, as far as others are not in their way.
+    /// Raises lower levels to the resting one, as far as others are not in their way.
     void set_heights() {
         const std::int32_t rest = find_rest();
         std::ranges::sort(stack_, std::ranges::greater(),

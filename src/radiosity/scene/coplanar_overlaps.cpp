@@ -16,17 +16,17 @@
 namespace hemilux {
 namespace {
 
-/// What was computed in two ways may differ by as much, of the size of the scene.
+/// Two ways to compute one quantity may differ by this much, as a share of the size of the scene.
 constexpr double rounding = 0x1p-36;
-/// Of facets narrower than this it is not known which way they face.
+/// Facets narrower than this [local units] have no reliable normal.
 constexpr double narrowest = 0x1p-21;
-/// Of the smaller one's area: to have less in common is to be neighbours.
+/// Two facets that share less than this part of the smaller one's area are neighbours, not layers.
 constexpr double least_share = 0x1p-13;
 
-/// Calls use(cell) for the cells of a facet's plane; for none if the facet is too narrow. Planes
-/// are distinguished by their points nearest to a place through which hardly any plane goes: three
-/// numbers that do not depend on which side is the front. They are put into cells, and where
-/// rounding may have moved one over a border, into both.
+/// Calls use(cell) for the cells of a facet's plane; for none if the facet is too narrow. A plane
+/// is identified by its point nearest to a place through which hardly any plane goes. Its three
+/// numbers do not depend on which side is the front. They are put into cells, and where rounding
+/// may have moved one over a border, into both.
 template <class Use>
 void for_each_plane_cell(const Polygon& shape, const Use& use) {
     constexpr Vec3 place{1.3716, -1.6194, 1.8277};
@@ -40,7 +40,7 @@ void for_each_plane_cell(const Polygon& shape, const Use& use) {
         return;
     const Vec3 foot = glm::dot(shape.corner[0] - place, normal) / square * normal;
     const Vec3 doubt(rounding * (1 + 4 * reach * per_width)); // the plane may be tilted
-    // 0, where axis-aligned planes have two of their numbers, is in the middle of a cell.
+    // The value 0, which axis-aligned planes have twice, is in the middle of a cell.
     const auto cell_of = [](const Vec3& point) {
         const Vec3 index = (point + reach + 1.0) * cells_per_unit + 0.5; // positive
         return std::array{std::uint64_t(std::int64_t(index.x)),
@@ -54,7 +54,7 @@ void for_each_plane_cell(const Polygon& shape, const Use& use) {
                 use((x << 32) | (y << 16) | z);
 }
 
-/// Seen along an axis, counter-clockwise.
+/// Returns the outline seen along an axis, counter-clockwise.
 FlatPolygon outline_of(const Polygon& shape, const Vec3& normal, int axis) {
     const int x = (axis + 1) % 3, y = (axis + 2) % 3, n = shape.size();
     FlatPolygon outline;
@@ -66,7 +66,7 @@ FlatPolygon outline_of(const Polygon& shape, const Vec3& normal, int axis) {
     return outline;
 }
 
-/// Where the plane of a facet is along an axis, above or below a point seen along it.
+/// Returns the height of a facet's plane along an axis, above or below a point seen along it.
 double height_at(const Polygon& shape, const Vec3& normal, int axis, const Vec2& point) {
     const int x = (axis + 1) % 3, y = (axis + 2) % 3;
     Vec3 middle(0.0);
@@ -95,7 +95,8 @@ bool lie_in_one_place(const Polygon& a, const Polygon& b) {
                        });
 }
 
-/// Equal for facets with the same corners that face one way, wherever they begin.
+/// Returns a hash that is equal for facets with the same corners that face one way, wherever they
+/// begin.
 std::uint64_t shape_of(const Facet& facet, std::span<const Vec3> vertices) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }; // of -0, too
     std::uint64_t hash = 0;
@@ -130,7 +131,7 @@ std::vector<Buried> find_buried(const Scene& scene, std::span<const Vec3> vertic
     return buried;
 }
 
-/// What a facet covers, seen along an axis.
+/// The rectangle that a facet covers, seen along an axis.
 struct Rectangle {
     Vec2 low, high;
     std::uint32_t facet;
@@ -149,8 +150,8 @@ std::vector<Rectangle> rectangles_of(std::span<const PlanePiece> pieces) {
     return rectangles;
 }
 
-/// Uses those that overlap, by a sweep along the first axis. False where there was more to be
-/// compared than allowed, or `use` returned false.
+/// Calls use(pair) for rectangles that overlap, by a sweep along the first axis. Returns false
+/// where there was more to be compared than allowed, or `use` returned false.
 template <class Use>
 bool sweep(std::vector<Rectangle>& seen, std::size_t most, const Use& use) {
     std::ranges::sort(seen, {}, [](const Rectangle& r) { return std::pair(r.low.x, r.facet); });
@@ -165,7 +166,8 @@ bool sweep(std::vector<Rectangle>& seen, std::size_t most, const Use& use) {
     return true;
 }
 
-/// Those that overlap, where they are few and quickly found, as tiles in rows of up to a thousand.
+/// Returns the pairs that overlap, where they are few and quickly found, as for tiles in rows of up
+/// to a thousand.
 std::optional<std::vector<Overlap>> few_near(std::vector<Rectangle>& seen) {
     constexpr std::size_t pairs_each = 16, boxes_each = 1024;
     std::vector<Overlap> near;
@@ -212,7 +214,7 @@ class Finder {
         return polygon_of(vertices_, scene_.facets[facet].vertex);
     }
 
-    /// Facets of one cell beside each other.
+    /// Lists facets with the cells of their planes, so that facets of one cell are adjacent.
     std::vector<Entry> facets_by_plane() const {
         std::vector<Entry> entries;
         entries.reserve(scene_.facets.size());
@@ -225,8 +227,9 @@ class Finder {
         return entries;
     }
 
-    /// Facets whose planes are in one cell. They are seen along each axis that is steep enough for
-    /// any plane to have one. Two of a plane with several meet more than once.
+    /// Searches facets whose planes are in one cell. They are seen along each axis that is steep
+    /// enough for any plane to have one. Two facets whose planes have several such axes meet more
+    /// than once.
     void search(std::span<const Entry> entries) {
         constexpr double steep = 0.57; // 1 / sqrt(3) and what neighbours in a cell may differ
         for (int axis = 0; axis < 3; ++axis) {
@@ -243,7 +246,7 @@ class Finder {
         }
     }
 
-    /// Smaller by what may be rounding, so that most neighbours are apart.
+    /// Shrinks the rectangle by what may be rounding, so that most neighbours are apart.
     static Rectangle rectangle(const Box& bounds, std::uint32_t f, int axis) {
         const int x = (axis + 1) % 3, y = (axis + 2) % 3;
         return {Vec2(bounds.low[x], bounds.low[y]) + rounding,
@@ -260,8 +263,8 @@ class Finder {
         return pieces;
     }
 
-    /// Of pieces whose boxes overlap too often: cut until few do. Where cuts do not help, all that
-    /// do are compared.
+    /// Cuts pieces whose boxes overlap too often, until few do. Where cuts do not help, all pairs
+    /// that overlap are compared.
     void cut_and_compare(std::vector<PlanePiece> pieces) {
         const bool may_cut = left_ > pieces.size();
         left_ -= may_cut ? pieces.size() : 0;
@@ -288,7 +291,7 @@ class Finder {
             found_.complete = false;
     }
 
-    /// False where enough has been compared.
+    /// Compares the shapes of a pair. Returns false where enough has been compared.
     bool compare(const Overlap& pair) {
         if (left_ == 0 || found_.pairs.size() >= most_pairs_)
             return false;
@@ -300,7 +303,7 @@ class Finder {
 
     const Scene& scene_;
     std::span<const Vec3> vertices_;
-    /// Boxes are compared sooner than shapes.
+    /// Comparisons of boxes that cost as much as one of shapes.
     static constexpr std::size_t boxes_per_comparison = 16;
     std::size_t left_, most_pairs_;
     std::vector<bool> is_buried_; ///< by facet; empty where none is

@@ -10,21 +10,22 @@
 namespace hemilux {
 namespace {
 
-/// How many pieces no longer than `max_edge` a length is cut into; a rounding error makes no
-/// further one.
+/// Returns the number of pieces no longer than `max_edge` into which a length is cut. A rounding
+/// error adds no piece.
 std::uint32_t pieces_of(double length, double max_edge) {
     constexpr double slack = 1e-9;
     const double n = std::ceil(length / max_edge - slack);
     return n < 1 ? 1 : static_cast<std::uint32_t>(std::min(n, 1e9));
 }
 
-/// Piece i of n for a coordinate in [0,1] that may be outside by a rounding error; NaN is 0.
+/// Returns which of n pieces holds a coordinate in [0,1] that may be outside by a rounding error;
+/// NaN gives 0.
 std::uint32_t piece_at(double x, std::uint32_t n) {
     const double i = std::floor(x * n);
     return i > 0 ? static_cast<std::uint32_t>(std::min(i, n - 1.0)) : 0;
 }
 
-/// Rows from the apex a on; ab and ac lead to the next row.
+/// Divides a triangle into rows from the apex a on; ab and ac lead to the next row.
 void divide_similar(const Vec3& a, const Vec3& ab, const Vec3& ac, std::uint32_t n,
                     std::vector<Polygon>& made) {
     const auto point = [&](std::uint32_t i, std::uint32_t j) {
@@ -40,7 +41,8 @@ void divide_similar(const Vec3& a, const Vec3& ab, const Vec3& ac, std::uint32_t
         }
 }
 
-/// n strips from the apex a to the opposite edge, m columns each; the first strip is of triangles.
+/// Divides a triangle into n strips from the apex a to the opposite edge, with m columns each. The
+/// first strip consists of triangles.
 void divide_fan(const Vec3& a, const Vec3& ab, const Vec3& ac, std::uint32_t n, std::uint32_t m,
                 std::vector<Polygon>& made) {
     const auto point = [&](std::uint32_t k, std::uint32_t j) {
@@ -78,7 +80,7 @@ void FacetDivision::divide_quad(const Polygon& shape, double max_edge) {
     columns_ = pieces_of(longer(p[1] - p[0], p[2] - p[3]), max_edge);
     rows_ = pieces_of(longer(p[3] - p[0], p[2] - p[1]), max_edge);
 
-    // g = ga e1 + gb e3 in the quad's plane, e1 and e3 being the edges at corner 0.
+    // Here g = ga e1 + gb e3 in the quad's plane; e1 and e3 are the edges at corner 0.
     const Vec3 e1 = p[1] - p[0], e3 = p[3] - p[0], g = p[0] - p[1] + p[2] - p[3];
     const double a = glm::dot(e1, e1), b = glm::dot(e1, e3), c = glm::dot(e3, e3);
     const double g1 = glm::dot(g, e1), g3 = glm::dot(g, e3), determinant = a * c - b * b;
@@ -136,7 +138,7 @@ FacetDivision::Place FacetDivision::place_in_quad(const Hit& hit) const {
     const double to_corner2 = hit.second_half ? hit.u : hit.v;
     const double x = to_corner2 * (1 + g_x_) + (hit.second_half ? 0 : hit.u);
     const double y = to_corner2 * (1 + g_y_) + (hit.second_half ? hit.v : 0);
-    // Bilinear: x = s + s t g_x, y = t + s t g_y. Eliminating s leaves a quadratic in t.
+    // The map is bilinear: x = s + s t g_x, y = t + s t g_y. Eliminating s leaves a quadratic in t.
     const double b = 1 + x * g_y_ - y * g_x_;
     const double t = 2 * y / (b + safe_sqrt(b * b + 4 * g_x_ * y));
     const double s = x / (1 + t * g_x_);
@@ -156,7 +158,7 @@ FacetDivision::Place FacetDivision::place_in_triangle(const Hit& hit) const {
     // Row k holds k + 1 upright triangles and between them k that are upside down.
     const std::uint32_t across = std::min(k, piece_at(c, rows_));
     const bool upside_down = across < k && std::floor(b * rows_) + across < k;
-    // From the corner that all rows count from.
+    // Coordinates count from the corner from which all rows count.
     const double to_b = b * rows_ - (k - across), to_c = c * rows_ - across;
     return {k * k + 2 * across + (upside_down ? 1 : 0),
             upside_down ? Vec2(to_b + to_c, -to_b) : Vec2(to_b, to_c)};

@@ -14,7 +14,8 @@ namespace {
 /// another from less would give it less than this share of its light.
 constexpr double least_height = 1e-12;
 
-/// Pairs looked at in vain before the rest is taken to be lit: a quarter of a second at most.
+/// The number of pairs tested in vain before the rest is taken to be lit. They take a quarter of a
+/// second at most.
 constexpr std::size_t most_looks = 10'000'000;
 
 /// One side of a facet: its corners, and the plane normal . x = offset.
@@ -22,8 +23,8 @@ struct Side {
     std::array<Vec3, 4> corner;
     Vec3 normal;
     double offset;
-    /// A corner is in front if it is higher than this: less than least_height, down to minus
-    /// infinity, where the plane is not well known.
+    /// A corner is in front if its height exceeds this threshold. It is below least_height, down to
+    /// minus infinity where the plane is not well known.
     double threshold;
 
     Side(const Polygon& shape) : corner(shape.corner), normal(shape.normal()) {
@@ -34,8 +35,8 @@ struct Side {
             longest = std::max(longest, glm::length(corner[(i + 1) % 4] - corner[i]));
             warp = std::max(warp, std::abs(height(corner[i])));
         }
-        // A normal is off by rounding, and by corners off the plane, times length over width; at
-        // the far end of the scene, 4 units away at most, a height by so much more.
+        // Rounding and corners off the plane tilt a normal by their size times length over width.
+        // At the far end of the scene, 4 units away at most, heights are off by 4 times that.
         constexpr double rounding = 1e-15;
         const double length_over_width = longest * longest / shape.area();
         const double off =
@@ -48,7 +49,7 @@ struct Side {
     [[nodiscard]] double height(const Vec3& point) const {
         return glm::dot(normal, point) - offset;
     }
-    /// Whether some corner of the other may be in front; NaN means so.
+    /// Returns whether some corner of the other side may be in front; NaN counts as in front.
     [[nodiscard]] bool has_in_front(const Side& other) const {
         return std::ranges::any_of(other.corner,
                                    [&](const Vec3& p) { return !(height(p) <= threshold); });
@@ -103,8 +104,8 @@ class Spread {
         return scene.materials[scene.facets[two_sided_ ? side / 2 : side].material];
     }
 
-    /// Whether one of those that have just begun to shine shines at this one. Looks at the last
-    /// that was found first.
+    /// Returns whether one of the sides that have just begun to shine shines at this one. Tests the
+    /// side that was found last first.
     bool is_reached(std::uint32_t s) {
         if (sees(s, last_) || looks_ > most_looks)
             return true;

@@ -1,7 +1,7 @@
 #pragma once
-// Which sides of which facets light may reach, whatever stands between them: a side is out of reach
-// if nothing that shines is even partly in front of it while it is partly in front of that. What is
-// lit and reflects shines in turn.
+// Finds which sides of which facets light may reach, whatever stands between them. A side is in
+// reach if it and something that shines are at least partly in front of each other. What is lit and
+// reflects shines in turn.
 
 #include <vector>
 
@@ -9,8 +9,8 @@ namespace hemilux {
 
 class Mesh;
 
-/// By patch: whether light may reach it. Never false where light comes; true where that would take
-/// too long to find out.
+/// Returns, by patch, whether light may reach it. The answer is never false where light comes; it
+/// is true where that would take too long to find out.
 [[nodiscard]] std::vector<bool> find_lit_patches(const Mesh& mesh);
 
 } // namespace hemilux

@@ -22,9 +22,9 @@ double radius_of(const Patch& patch) {
     return std::sqrt(squares);
 }
 
-/// The centre, and how far corners are from it at most, of the box around all facets. But where
-/// most of them lie in a small part of that, as under a distant sun, the centre of that part: there
-/// floats are most precise.
+/// Centres the frame on the box around all facets and scales it by the largest distance of a corner
+/// from the centre. Where most facets lie in a small part of that box, as under a distant sun, the
+/// centre of that part is taken. Floats are most precise there.
 LocalFrame LocalFrame::of(const Scene& scene) {
     constexpr double small_part = 1.0 / 1024, left_out = 1.0 / 16; // of the extent; on either side
     LocalFrame frame;
@@ -199,7 +199,7 @@ std::uint32_t Mesh::patch_at(const Hit& hit) const {
     return division.first_patch + (has_two ? 2 : 1) * place.piece + side;
 }
 
-/// Of a patch's front.
+/// Returns the shape, as a cell, of a piece that is a patch's front.
 CellShape Mesh::cell_shape(std::uint32_t facet, const Polygon& piece) const {
     const auto& p = piece.corner;
     const bool fan = divisions_[facet].pieces.is_fan();
@@ -208,7 +208,7 @@ CellShape Mesh::cell_shape(std::uint32_t facet, const Polygon& piece) const {
     return {p, !fan && piece.is_triangle()};
 }
 
-/// The patches and cells that there were, and how often they are to be divided.
+/// The patches and cells before a refinement, and how often they are to be divided.
 struct Mesh::Refinement {
     std::vector<Patch> patches;
     std::vector<Division> divisions;

@@ -14,14 +14,14 @@
 namespace hemilux {
 namespace {
 
-/// Corners are put into cells so much smaller than the facet is wide.
+/// The cells for corners are smaller than the width of the facet by this factor.
 constexpr int cells_per_width = 18; // as a power of two
 /// Twins on either side of a cell's border meet in another round, whose cells lie elsewhere.
 constexpr int rounds = 4;
-/// Beside these the cells of narrower facets could not be numbered.
+/// Cells of narrower facets [local units] could not be numbered.
 constexpr double narrowest_twin = 0x1p-40;
 
-/// Area over size, which is small for a sliver: slivers side by side are no twins.
+/// Returns area over size, which is small for a sliver: slivers side by side are no twins.
 double width_of(const Polygon& shape) {
     return shape.area() / glm::length(box_of(shape.corner).extent());
 }
@@ -34,8 +34,8 @@ std::uint64_t hash_of_cell(const Vec3& corner, double cell, double shift) {
     return hash;
 }
 
-/// Equal for twins, at whatever corner they begin; others for those that face the other way. 0 for
-/// facets that have no twins.
+/// Returns a key that is equal for twins, at whatever corner they begin. Facets that face the other
+/// way have another key; those that have no twins have 0.
 std::uint64_t key_of(const Polygon& shape, int round) {
     constexpr double golden = 0.6180339887;
     const double shift = golden * (round + 1); // no drawn wall is on a border
@@ -55,13 +55,13 @@ std::uint64_t key_of(const Polygon& shape, int round) {
     return key;
 }
 
-/// The first facet of each heap stands for all of it.
+/// Groups twins into heaps. The first facet of each heap stands for all of it.
 class Heaps {
   public:
     Heaps(const Scene& scene, std::span<const Vec3> vertices)
         : scene_(scene), vertices_(vertices) {}
 
-    /// The first facet of each one's heap; empty where there are no heaps.
+    /// Returns the first facet of each one's heap; empty where there are no heaps.
     std::vector<std::uint32_t> find() {
         if (!may_have_any())
             return {};
@@ -87,7 +87,7 @@ class Heaps {
         return key_of(polygon_of(vertices_, scene_.facets[f].vertex), round);
     }
 
-    /// By counts of keys in buckets, in which hardly ever more than a few meet by chance.
+    /// Counts keys in buckets, in which hardly ever more than a few meet by chance.
     [[nodiscard]] bool may_have_any() const {
         std::vector<std::uint8_t> counts(std::bit_ceil(scene_.facets.size()));
         for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
@@ -123,7 +123,7 @@ class Heaps {
     std::vector<std::size_t> count_;
 };
 
-/// The corners of one facet, beginning at that which is nearest to the first of another.
+/// Returns the corners of one facet, beginning at that which is nearest to the first of another.
 std::array<std::uint32_t, 4> begun_as(const Facet& facet, const Facet& other,
                                       std::span<const Vec3> vertices) {
     const std::size_t size = facet.is_triangle() ? 3 : 4;

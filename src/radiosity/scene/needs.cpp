@@ -12,7 +12,7 @@ namespace {
 bool is_grey(const Vec3& v) { return v.r == v.g && v.g == v.b; }
 bool is_black(const Vec3& v) { return !glm::any(glm::greaterThan(v, Vec3(0.0))); }
 
-/// A quad is two.
+/// Counts triangles; a quad counts as two.
 std::size_t count_triangles(const Scene& scene) {
     std::size_t count = 0;
     for (const Facet& facet : scene.facets)

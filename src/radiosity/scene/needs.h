@@ -1,8 +1,9 @@
 #pragma once
-// What a scene needs: work that would not change its solution is left out.
+// Finds what a scene needs: work that would not change its solution is left out.
 //
-// A small analysis of the mesh, made once. Methods and tracers ask it before they do their work;
-// docs/decisions.md says which omission keeps every byte and which the result within its error.
+// This small analysis of the mesh is made once. Methods and tracers ask it before they do their
+// work. docs/decisions.md says which omission keeps every byte and which keeps the result within
+// its error.
 
 #include <cassert>
 #include <cstddef>
@@ -15,7 +16,7 @@ class Mesh;
 
 struct Needs {
     bool colours = true; ///< false: all is grey, one channel stands for three
-    /// false: a convex enclosure. Nothing stands between two patches, and there is one surface in
+    /// False in a convex enclosure: nothing stands between two patches, and there is one surface in
     /// each direction, so densities need no rays.
     bool visibility = true;
     bool bounces = true; ///< false: nothing that light may reach reflects
@@ -25,7 +26,8 @@ struct Needs {
     /// no work out; it says which errors are possible.
     bool closed = false;
 
-    /// Whether a patch may ever hold power to be shot. If not it needs no rays and no hemisphere.
+    /// Returns whether a patch may ever hold power to be shot. If not, it needs no rays and no
+    /// hemisphere.
     [[nodiscard]] bool power(std::uint32_t patch) const {
         assert(idle.empty() || patch < idle.size()); // found for other patches
         return idle.empty() || !idle[patch];
@@ -38,14 +40,14 @@ struct Needs {
 /// The needs of a scene about which nothing is known: no work is left out.
 inline const Needs everything_needed;
 
-/// Takes O(facets) time; in scenes made to be difficult less is found out. The answer is
-/// conservative: what is uncertain is needed.
+/// Finds the needs of a scene in O(facets) time; in scenes made to be difficult it finds out less.
+/// The answer is conservative: what is uncertain is needed.
 [[nodiscard]] Needs find_needs(const Mesh& mesh);
 
-/// Whether rays need a tree, as find_needs() finds it, without the rest of the analysis.
+/// Returns whether rays need a tree, as find_needs() finds it, without the rest of the analysis.
 [[nodiscard]] bool needs_tree(const Mesh& mesh);
 
-/// Up to so many triangles are one leaf of the tree, tested at once. With more of them boxes pay
+/// Up to so many triangles form one leaf of the tree, tested at once. With more of them boxes pay
 /// (measured in docs/results.md).
 inline constexpr std::size_t most_triangles_without_tree = 8;
 

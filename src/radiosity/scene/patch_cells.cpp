@@ -7,7 +7,7 @@ namespace {
 
 CellShape triangle_of(const Vec3& a, const Vec3& b, const Vec3& c) { return {{a, b, c, c}, true}; }
 
-/// The half of [0, 1] in which x lies; x becomes its place in that half.
+/// Returns the half of [0, 1] in which x lies; x becomes its place in that half.
 std::uint32_t half_at(double& x) {
     const bool upper = x >= .5;
     x = 2 * x - (upper ? 1 : 0);

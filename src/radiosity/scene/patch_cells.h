@@ -1,9 +1,9 @@
 #pragma once
-// How a patch is divided further: cells of a tree, as in quadtrees, below the pieces of a facet.
+// Divides patches further: below the pieces of a facet, cells form a tree, as in quadtrees.
 //
 // A cell is the image of the unit square by a bilinear map, or of a triangle by an affine one. A
-// square is cut in four or, where it is long, in two across its length; a triangle is cut in four
-// of its own shape. The leaf that a ray has hit is found by going down with the coordinates inside.
+// square is cut in four or, where it is long, in two across its length. A triangle is cut in four
+// of its own shape. Going down with the coordinates inside finds the leaf that a ray has hit.
 
 #include "geometry/polygon.h"
 
@@ -14,27 +14,28 @@
 
 namespace hemilux {
 
-/// What is cut, in coordinates (x, y) [-]: a square with corners at (0,0), (1,0), (1,1), (0,1), or
-/// the triangle of those at (0,0), (1,0), (0,1), whose fourth corner repeats the third.
+/// The shape of a cell in coordinates (x, y) [-]. It is a square with corners at (0,0), (1,0),
+/// (1,1), (0,1), or a triangle with corners at (0,0), (1,0), (0,1). The triangle's fourth corner
+/// repeats the third.
 struct CellShape {
     std::array<Vec3, 4> corner; ///< local units
     bool triangle;
 
-    /// The shape as a polygon. Two corners of a square may lie at the same point.
+    /// Returns the shape as a polygon. Two corners of a square may lie at the same point.
     [[nodiscard]] Polygon polygon() const;
 };
 
-/// Where sides are cut: the same bytes whichever end comes first.
+/// Returns the point where a side is cut, with the same bytes whichever end comes first.
 [[nodiscard]] inline Vec3 middle(const Vec3& a, const Vec3& b) { return .5 * (a + b); }
 
 enum class CellCut : std::uint8_t { leaf, four, across_x, across_y };
 
-/// The cut after which the pieces are about as wide as long.
+/// Returns the cut after which the pieces are about as wide as long.
 [[nodiscard]] CellCut best_cut(const CellShape& shape);
-/// The pieces, in the order of piece_at_point().
+/// Returns the pieces, in the order of piece_at_point().
 [[nodiscard]] std::vector<CellShape> cut(const CellShape& shape, CellCut by);
-/// Which piece holds a point; its coordinates become those inside the piece. A point that is
-/// outside by a rounding error belongs to the nearest.
+/// Returns which piece holds a point; its coordinates become those inside the piece. A point that
+/// is outside by a rounding error belongs to the nearest piece.
 [[nodiscard]] std::uint32_t piece_at_point(CellCut by, bool triangle, Vec2& at);
 
 /// The cells of all facets.
@@ -48,7 +49,7 @@ class CellTree {
     std::uint32_t add(std::uint32_t count);
     [[nodiscard]] Cell& operator[](std::uint32_t cell) { return cells_[cell]; }
     [[nodiscard]] const Cell& operator[](std::uint32_t cell) const { return cells_[cell]; }
-    /// The patch of the leaf below `cell` that holds a point.
+    /// Returns the patch of the leaf below `cell` that holds a point.
     [[nodiscard]] std::uint32_t patch_at(std::uint32_t cell, bool triangle, Vec2 at) const;
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// What a file describes: polygons with materials and groups, in the user's own units.
+// Describes what a file holds: polygons with materials and groups, in the user's own units.
 
 #include "geometry/vector.h"
 #include "radiosity/textures/texture_map.h"
@@ -11,7 +11,7 @@
 
 namespace hemilux {
 
-/// A diffuse surface. Three channels: red, green, blue.
+/// A diffuse surface. Colours have three channels: red, green, blue.
 struct Material {
     std::string name;
     Vec3 reflectance{0.5}; ///< rho [-], each channel in [0,1]; 1 only where light gets out
@@ -39,7 +39,7 @@ struct Scene {
     SceneTextures textures;  ///< a textured material has the colours of its textures' means
 };
 
-/// By material, whether some facet is made of it.
+/// Returns, by material, whether some facet is made of it.
 [[nodiscard]] inline std::vector<bool> materials_in_use(const Scene& scene) {
     std::vector<bool> used(scene.materials.size());
     for (const Facet& facet : scene.facets)

@@ -6,7 +6,7 @@
 namespace hemilux {
 namespace {
 
-/// Half of a facet: its corners other than the first.
+/// Returns a half of a facet by its corners other than the first.
 std::array<std::size_t, 2> corners_of_half(bool second) {
     return second ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{1, 2};
 }
@@ -24,7 +24,7 @@ Vec3 mean_of(const SceneTextures& textures, const TextureMap& map, const Vec3& o
     return map.factor * map.texture->mean_over(on_texture, map.wraps);
 }
 
-/// Where a point lies on the plane of a triangle, along its edges from corner 0.
+/// Returns where a point lies on the plane of a triangle, along its edges from corner 0.
 Vec2 place_on(const Vec3& corner, const Vec3& along, const Vec3& across, const Vec3& point) {
     const Vec3 normal = glm::cross(along, across), way = point - corner;
     const double square = glm::dot(normal, normal);
@@ -33,7 +33,7 @@ Vec2 place_on(const Vec3& corner, const Vec3& along, const Vec3& across, const V
            square;
 }
 
-/// The part of a polygon where one coordinate is at least 0 (Sutherland and Hodgman 1974).
+/// Returns the part of a polygon where one coordinate is at least 0 (Sutherland and Hodgman 1974).
 std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, int axis) {
     std::vector<Vec2> kept;
     for (std::size_t k = 0; k < polygon.size(); ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-// The mean colours of parts of facets that carry textures.
+// Computes the mean colours of parts of facets that carry textures.
 
 #include "geometry/polygon.h"
 #include "radiosity/scene/scene.h"
@@ -14,12 +14,13 @@ struct Colours {
     Vec3 emission;    ///< [W/m2 leaving]
 };
 
-/// Over a polygon on one half of a facet (Hit): its places in coordinates u and v along the half's
-/// edges from corner 0. The facet's material must carry a texture.
+/// Returns the mean colours over a polygon on one half of a facet (Hit). Its `places` are
+/// coordinates u and v along the half's edges from corner 0. The facet's material must carry a
+/// texture.
 [[nodiscard]] Colours colours_over(const Scene& scene, std::uint32_t facet, bool second_half,
                                    std::span<const Vec2> places);
 
-/// Over a convex part of a facet whose corners are `whole`.
+/// Returns the mean colours over a convex part of a facet whose corners are `whole`.
 [[nodiscard]] Colours mean_colours(const Scene& scene, std::uint32_t facet, const Polygon& whole,
                                    const Polygon& part);
 

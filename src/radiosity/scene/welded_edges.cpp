@@ -10,7 +10,7 @@
 namespace hemilux {
 namespace {
 
-/// For each vertex the first one at its position.
+/// Returns for each vertex the first one at its position.
 std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
     std::unordered_map<Vec3, std::uint32_t, PositionHash> first;
     first.reserve(vertices.size());

@@ -1,5 +1,5 @@
 #pragma once
-// How the facets of a scene meet at their edges.
+// Finds how the facets of a scene meet at their edges.
 
 #include "bvh/intersect.h"
 #include "geometry/vector.h"
@@ -12,7 +12,7 @@
 
 namespace hemilux {
 
-/// Equal for equal positions; -0 is 0.
+/// Hashes positions: equal positions have equal hashes, and -0 counts as 0.
 struct PositionHash {
     [[nodiscard]] std::size_t operator()(const Vec3& p) const;
 };
@@ -24,13 +24,13 @@ struct Edge {
     bool forward; ///< the facet runs from the smaller vertex to the larger one
 };
 
-/// The edges of all facets, but for those without length. They are sorted by their ends, then by
-/// facet, so that edges in one place are neighbours. `first`: for each vertex the one whose number
-/// stands for all in its place.
+/// Returns the edges of all facets, except those without length. They are sorted by their ends,
+/// then by facet, so that edges in one place are neighbours. `first` gives for each vertex the one
+/// whose number stands for all in its place.
 [[nodiscard]] std::vector<Edge> edges_of(std::span<const FacetCorners> facets,
                                          std::span<const std::uint32_t> first);
-/// The same of a scene. Vertices at equal positions are in one place, and the first stands for
-/// them.
+/// Returns the edges of a scene. Vertices at equal positions are in one place, and the first stands
+/// for them.
 [[nodiscard]] std::vector<Edge> welded_edges(const Scene& scene);
 
 /// Calls visit(first, last) for each place: the range of the edges that lie there.

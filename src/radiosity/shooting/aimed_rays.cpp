@@ -14,18 +14,20 @@
 namespace hemilux {
 namespace {
 
-/// Of the rays of importance; those of light have the task's.
+/// The stream of the rays of importance; rays of light use the task's stream.
 constexpr std::uint64_t stream_of_importance = ~std::uint64_t{1};
 
-/// What each patch is taken to have found besides, at the mean importance: what few rays find must
-/// not leave it without any.
+/// Each patch is assumed to have found this much importance more, by rays of the mean importance.
+/// Otherwise a patch with few rays could be left without any importance.
 constexpr double prior_importance = .5;
 
-/// Of the root of J, which is the most that rays which are not aimed may count: what they do count
-/// is less, as the light of many patches adds up. Between an eighth and a half little changes.
+/// The share of sqrt(J) that counts for rays which are not aimed. All of it is the most that they
+/// may count; they count less, as the light of many patches adds up. Values between an eighth and a
+/// half change little.
 constexpr double root_of_unaimed = .25;
 
-/// A ball gets rays of its own if they are so many times as many as would pass through it anyway.
+/// A ball gets rays of its own if they are more than this many times those that would pass through
+/// it anyway.
 constexpr double least_times_of_ball = 3;
 
 /// The importance that rays from a patch have found, and their number.
@@ -40,10 +42,11 @@ struct Found {
     [[nodiscard]] double mean() const { return rays > 0 ? importance / rays : 0; }
 };
 
-/// Rays by the cosine law, which find what light does for the target where they arrive.
+/// A strategy that shoots rays by the cosine law and records what light does for the target where
+/// they arrive.
 class ArrivalsRecorder final : public Strategy {
   public:
-    /// By patch. Nothing is found without `importance`.
+    /// Both spans are by patch. With an empty `importance` nothing is recorded.
     ArrivalsRecorder(std::span<const double> importance, std::span<Found> found)
         : importance_(importance), found_(found) {}
 
@@ -68,7 +71,8 @@ class ArrivalsRecorder final : public Strategy {
     std::span<Found> found_;
 };
 
-/// All bounces of the light that `result` has as radiosity; false when interrupted.
+/// Shoots the light that `result` has as radiosity, and all its bounces. Returns false when
+/// interrupted.
 [[nodiscard]] bool shoot(const SolverInput& input, const StepTask& task,
                          const ArrivalsRecorder& recorder, StepResult& result) {
     const ShootingTools tools(input, ShootingRules{}, 0,
@@ -87,7 +91,7 @@ double power_of(const Mesh& mesh, std::span<const Vec3> radiosity) {
     return power;
 }
 
-/// The mean over all power of what patches have.
+/// Returns the mean of value(patch), weighted by the power of the patches.
 template <class Value>
 double mean_of_power(const Mesh& mesh, std::span<const Vec3> radiosity, const Value& value) {
     double sum = 0;
@@ -96,14 +100,14 @@ double mean_of_power(const Mesh& mesh, std::span<const Vec3> radiosity, const Va
     return sum / power_of(mesh, radiosity);
 }
 
-/// With what the patch's neighbours have found.
+/// Returns what the patch and those of its neighbours that are alike have found.
 Found around(const Mesh& mesh, std::span<const Found> found, std::uint32_t patch) {
     Found sum = found[patch];
     for_alike_neighbours(mesh, patch, [&](std::uint32_t j) { sum += found[j]; });
     return sum;
 }
 
-/// u by patch, over its own mean, so that a ray which finds the target finds about 1.
+/// Returns u by patch, divided by its own mean, so that a ray which finds the target finds about 1.
 std::vector<double> source_of(const SolverInput& input) {
     std::vector<double> source;
     double sum = 0, squares = 0;
@@ -119,7 +123,8 @@ std::vector<double> source_of(const SolverInput& input) {
     return source;
 }
 
-/// The rays that the hits of importance stand for; none when interrupted.
+/// Returns by patch the importance and the rays that the hits of importance stand for; none when
+/// interrupted.
 std::vector<Found> shoot_importance(const SolverInput& input, std::span<const double> source,
                                     StepTask task, std::uint64_t& rays) {
     const Mesh& mesh = input.mesh;
@@ -138,8 +143,8 @@ std::vector<Found> shoot_importance(const SolverInput& input, std::span<const do
     return found;
 }
 
-/// The root of each patch's importance over the mean of that; 1 where no light has been seen to
-/// reach the target.
+/// Returns the root of each patch's importance, divided by the mean root; all are 1 if no light was
+/// seen to reach the target.
 std::vector<double> times_of(const Mesh& mesh, std::span<const Found> found,
                              std::span<const Vec3> radiosity) {
     const auto mean = [&](const auto& value) { return mean_of_power(mesh, radiosity, value); };
@@ -158,7 +163,7 @@ std::vector<double> times_of(const Mesh& mesh, std::span<const Found> found,
     return times;
 }
 
-/// Gives rays to balls, and so many fewer to others.
+/// Gives rays to the balls, and as many fewer to all other directions.
 void aim_at_balls(const SolverInput& input, const Workers& workers, std::span<const Found> found,
                   StepResult& pilot, Aim& aim) {
     const auto mean = [&](const auto& of_patch) {

@@ -13,18 +13,18 @@
 namespace hemilux {
 namespace {
 
-/// Work items whose receivers are kept until they are summed: of two million rays, about.
+/// The number of work items whose receivers are kept until they are summed: about two million rays.
 constexpr std::size_t items_at_once = 244;
-/// Fewer rays than this are traced sooner than others would have come to help.
+/// Fewer rays than this are traced before other threads could come to help.
 constexpr double rays_for_one_thread = 500;
 
-/// Patches that shoot the same number of rays shoot as many for the last of the power as for the
-/// first; such a step ends when this share of the emitted power is left.
+/// Where all patches shoot the same number of rays, the last of the power costs as many rays as the
+/// first. Such a step ends when this share of the emitted power is left.
 constexpr double rest_of_same_number = 1e-4;
 
 constexpr std::size_t bits_of_word = 64;
 
-/// What stands for the receiver of a ray along which rays to a ball carry the power.
+/// This stands for the receiver of a ray whose power is carried by rays to a ball.
 constexpr std::uint32_t shot_apart = 0xfffffffd;
 
 } // namespace
@@ -119,7 +119,7 @@ void Bounces::shoot_item(const WorkItem& item, std::uint64_t stream, RayBatch& b
     input_.monitor.rays += batch.receivers.size();
 }
 
-/// In the order of patches and rays, whatever thread traced them.
+/// Collects in the order of patches and rays, whichever thread traced them.
 void Bounces::collect(const RayBatch& batch, StepResult& result) {
     const std::uint32_t* receivers = batch.receivers.data();
     for (auto group = batch.groups.begin(); group != batch.groups.end();) {
@@ -145,7 +145,7 @@ void Bounces::collect(const RayBatch& batch, StepResult& result) {
     result.rays += batch.receivers.size();
 }
 
-/// Each brings `power`, which is Phi_ray.
+/// Each ray brings `power`, which is Phi_ray.
 void Bounces::receive(const Vec3& power, std::span<const std::uint32_t> receivers, Lost& lost) {
     for (const std::uint32_t receiver : receivers) {
         if (receiver >= received_.size()) {
@@ -170,7 +170,8 @@ void Bounces::teach(const RayBatch& batch) const {
     }
 }
 
-/// What arrived is absorbed or to be shot, in the order of patches.
+/// Absorbs a part of what arrived and adds the rest to the power to be shot, in the order of
+/// patches.
 void Bounces::reflect(StepResult& result) {
     senders_.clear();
     left_ = 0;

@@ -1,8 +1,8 @@
 #pragma once
-// All bounces of one step: power is shot from all patches that hold some, what arrives is reflected
+// All bounces of one step. Power is shot from all patches that hold some; what arrives is reflected
 // and shot in turn, until nothing is left (paper section 5b).
 //
-// Late bounces are of few rays: they cost what is shot, not a look at all patches.
+// Late bounces have few rays: they cost what is shot, not a look at all patches.
 
 #include "geometry/compensated_sum.h"
 #include "parallel/workers.h"
@@ -30,7 +30,7 @@ struct ShootingTools {
     std::vector<Vec2> turns; ///< by patch, Mesh::hemisphere_turn
     std::unique_ptr<Strategy> strategy;
 
-    /// `depth`: of the hemisphere.
+    /// `depth` is the depth of the hemisphere.
     ShootingTools(const SolverInput& input, const ShootingRules& rules, int depth,
                   std::unique_ptr<Strategy> strategy = nullptr);
 };
@@ -40,19 +40,19 @@ class Bounces {
     /// The tools must outlive this object. It may be used for one step after another.
     explicit Bounces(const ShootingTools& tools) : tools_(tools), input_(tools.input) {}
 
-    /// Shoots the light that `result` has as radiosity, and all its bounces. False when
+    /// Shoots the light that `result` has as radiosity, and all its bounces. Returns false when
     /// interrupted.
     bool shoot(const StepTask& task, StepResult& result);
 
   private:
-    /// The rays that one thread shoots at a time: those of the line (see plan()) in (from,
-    /// to], which are of senders from `first` to before `last`.
+    /// The rays that one thread shoots at a time: those of the line (see plan()) in (from, to].
+    /// They belong to the senders from `first` to before `last`.
     struct WorkItem {
         std::uint32_t first, last;
         double from, to;
     };
-    /// Where the next item begins: behind so many rays of the line, or of the sender where all have
-    /// the same number.
+    /// The place where the next item begins: behind this many rays of the line, or of the sender if
+    /// all have the same number.
     struct Place {
         std::uint32_t sender;
         double ray;
@@ -72,22 +72,23 @@ class Bounces {
     };
 
     /// The power that a patch received in a bounce. It fills one cache line, as rays hit patches in
-    /// no order.
+    /// no particular order.
     struct alignas(64) Arrived {
         CompensatedSum<Vec3> power;
         std::uint32_t rays = 0;
     };
 
-    /// Else each patch shoots the same number.
+    /// Returns whether rays are allocated by power; otherwise each patch shoots the same number.
     [[nodiscard]] bool rays_by_power() const { return tools_.rules.rays == RaysPerPatch::by_power; }
     [[nodiscard]] bool has_balls() const { return task_->balls && task_->balls->count() > 0; }
     void begin(const StepResult& result);
     /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
     std::uint64_t bounce(std::uint64_t stream, StepResult& result);
 
-    // Which rays (bounces_plan.cpp).
+    // These decide which rays are shot (bounces_plan.cpp).
     void plan(std::uint64_t stream);
-    /// Lists some work items from the place on, which is moved behind them; false if none are left.
+    /// Lists some work items from `next` on, and moves it behind them. Returns false if none are
+    /// left.
     bool cut(Place& next);
     void cut_line(Place& next);
     void cut_same_number(Place& next);
@@ -98,22 +99,22 @@ class Bounces {
     void schedule_same_number(std::uint32_t patch, const WorkItem& item,
                               const Allocation& allocation, std::vector<RayGroup>& groups) const;
 
-    // What becomes of them.
+    // These shoot the rays.
     void shoot_items(const Workers& workers, std::uint64_t stream, StepResult& result);
     void shoot_item(const WorkItem& item, std::uint64_t stream, RayBatch& batch) const;
     void trace(std::uint64_t stream, RayBatch& batch) const;
-    // The same to the balls of a target (bounces_to_balls.cpp).
+    // These do the same with rays to the balls of a target (bounces_to_balls.cpp).
     void shoot_to_balls(const Workers& workers, std::uint64_t of_bounce, StepResult& result);
     void shoot_to_balls(std::span<const double> rays_before, double from, double to,
                         std::uint64_t stream, BallShots& shots) const;
     void collect(const BallShots& shots, StepResult& result);
 
     void collect(const RayBatch& batch, StepResult& result);
-    /// Rays of one power.
+    /// The numbers of rays of one power that reached no patch.
     struct Lost {
         std::uint32_t escaped = 0, absorbed = 0, shot_apart = 0;
     };
-    /// Adds to `lost` how many brought it to no patch: returned by value, it would stall each call.
+    /// Adds to `lost` how many rays reached no patch. Returning it by value would stall each call.
     void receive(const Vec3& power, std::span<const std::uint32_t> receivers, Lost& lost);
     void teach(const RayBatch& batch) const;
     void reflect(StepResult& result);
@@ -123,11 +124,12 @@ class Bounces {
     SolverInput input_;
     const StepTask* task_ = nullptr;
 
-    // These belong to the present bounce.
+    // These belong to the current bounce.
     std::vector<std::uint32_t> senders_; ///< patches that hold power, ascending
     double left_ = 0;                    ///< their power, mean of channels
     std::vector<Vec3> unshot_;           ///< by patch, of senders
-    /// Expected rays of the senders before sender k, counted from the bounce's random offset.
+    /// The expected number of rays of the senders before sender k, counted from the bounce's random
+    /// offset.
     std::vector<double> rays_before_;
     std::vector<Arrived> received_;  ///< by patch
     std::vector<std::uint64_t> hit_; ///< a bit for each patch that received any

@@ -1,4 +1,5 @@
-// Which rays a bounce shoots: how many each sender has, and which of them a thread takes at a time.
+// This file decides which rays a bounce shoots: how many each sender has, and which of them a
+// thread takes at a time.
 
 #include "radiosity/rays/shot.h"
 #include "radiosity/sampling/rng.h"
@@ -13,24 +14,25 @@
 namespace hemilux {
 namespace {
 
-/// Rays that one thread takes at a time: a part of those that are left of the bounce, so that at
-/// its end no thread waits long for another.
+/// The rays that one thread takes at a time: a part of those left in the bounce, so that no thread
+/// waits long for another at its end.
 constexpr double items_of_rest = 32, least_item = 256, largest_item = 8192;
 constexpr std::uint32_t patches_per_item = 32;
-/// Work items that are listed at a time: a step of 1e9 rays per patch has millions.
+/// The number of work items listed at a time; a step of 1e9 rays per patch has millions.
 constexpr std::size_t most_items = 4096;
 
-/// Of a ray among those of its patch. After 2^32 rays of one patch they begin anew.
+/// Returns the number of a ray among those of its patch. After 2^32 rays of one patch, numbers
+/// begin anew.
 std::uint32_t ray_number(double rays_before) {
     return static_cast<std::uint32_t>(static_cast<std::int64_t>(rays_before));
 }
 
 } // namespace
 
-/// Rays in proportion to the power to be shot, times the strategy's factor. Sender k owns the
-/// interval from rays_before_[k] to rays_before_[k+1] of a line on which a ray stands at each whole
-/// number: as the line's origin is random, each patch and each cell gets its expected number on
-/// average, rounded up or down.
+/// Allocates rays in proportion to the power to be shot, times the strategy's factor. Sender k owns
+/// the interval from rays_before_[k] to rays_before_[k+1] of a line on which a ray stands at each
+/// whole number. As the line's origin is random, each patch and each cell gets its expected number
+/// on average, rounded up or down.
 void Bounces::plan(std::uint64_t stream) {
     rays_before_.resize(senders_.size() + 1);
     rays_before_[0] = Rng(stream).uniform();
@@ -43,8 +45,8 @@ void Bounces::plan(std::uint64_t stream) {
     }
 }
 
-/// By numbers of rays, as an emitter may shoot half of a bounce. Work items do not depend on the
-/// number of threads.
+/// Cuts by numbers of rays, as an emitter may shoot half of a bounce. Work items do not depend on
+/// the number of threads.
 bool Bounces::cut(Place& next) {
     items_.clear();
     if (rays_by_power())
@@ -69,8 +71,8 @@ void Bounces::cut_line(Place& next) {
     }
 }
 
-/// Rays do not stand on the line: each sender has as many, which are counted from 0. Where these
-/// are many an item is a part of them.
+/// Rays do not stand on the line here: each sender has the same number, counted from 0. If a sender
+/// has many, an item is a part of them.
 void Bounces::cut_same_number(Place& next) {
     const auto senders = static_cast<std::uint32_t>(senders_.size());
     const bool whole = input_.options.rays <= largest_item;

@@ -13,13 +13,13 @@
 namespace hemilux {
 namespace {
 
-/// Of the rays to balls.
+/// The stream of the rays to balls, hashed with that of the bounce.
 constexpr std::uint64_t stream_of_balls = 0xba11;
 constexpr double rays_per_batch = 4096;
 
 } // namespace
 
-/// Their numbers are made whole on a line, as those of all rays are (plan()).
+/// Shoots the rays to balls. Their numbers are made whole on a line, as in plan().
 void Bounces::shoot_to_balls(const Workers& workers, std::uint64_t of_bounce, StepResult& result) {
     const std::uint64_t stream = hash_words({of_bounce, stream_of_balls});
     const TargetBalls& balls = *task_->balls;
@@ -43,7 +43,7 @@ void Bounces::shoot_to_balls(const Workers& workers, std::uint64_t of_bounce, St
         });
 }
 
-/// The rays of the line in (from, to].
+/// Shoots the rays of the line in (from, to].
 void Bounces::shoot_to_balls(std::span<const double> rays_before, double from, double to,
                              std::uint64_t stream, BallShots& shots) const {
     const TargetBalls& balls = *task_->balls;

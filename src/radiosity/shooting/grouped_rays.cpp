@@ -26,7 +26,7 @@ std::span<const Ray> GroupedRays::next() {
     return std::span(rays_).first(first);
 }
 
-/// As many as there is room for.
+/// Lists as many rays as there is room for.
 void GroupedRays::list() {
     runs_.clear();
     own_.clear();
@@ -59,7 +59,7 @@ void GroupedRays::list_group(RayGroup& group, std::uint32_t rays) {
         runs_.push_back({group.patch, rays, none});
 }
 
-/// Its directions are drawn elsewhere (fill_private).
+/// The directions of a private cell are drawn elsewhere (fill_private).
 void GroupedRays::list_private(RayGroup& group, std::uint32_t rays, const PrivateCell& own) {
     add_to_batch(group, rays, whole_hemisphere, own.power);
     runs_.push_back({group.patch, rays, static_cast<std::uint32_t>(own_.size())});

@@ -22,11 +22,12 @@ struct RayGroup {
     std::uint32_t cell_first; ///< the number of the cell's first ray among all those of the patch
     std::uint32_t first;      ///< that of the group's
     std::uint32_t rays;
-    /// Phi_ray / Phi_patch [-]; until the rays are drawn Phi_ray / Phi_tr.
+    /// The power of a ray, Phi_ray / Phi_patch [-]; until the rays are drawn it is Phi_ray /
+    /// Phi_tr.
     double ray_power;
 };
 
-/// What the rays are drawn from.
+/// This is what the rays are drawn from.
 struct RaySource {
     const Mesh& mesh;
     std::span<const Vec2> turns; ///< by patch, Mesh::hemisphere_turn
@@ -39,12 +40,12 @@ struct RaySource {
 /// patch, its number there and its cell, not on what else is listed.
 class GroupedRays {
   public:
-    /// What the source refers to outlives this. `memory` holds the rays between two calls and may
-    /// be used again afterwards.
+    /// What the source refers to must outlive this object. `memory` holds the rays between two
+    /// calls and may be used again afterwards.
     GroupedRays(const RaySource& source, std::span<RayGroup> groups, std::uint64_t stream,
                 std::vector<Ray>& memory);
 
-    /// The next rays, as many as a batch has room for; none if all have been drawn.
+    /// Returns the next rays, as many as a batch has room for; none if all have been drawn.
     [[nodiscard]] std::span<const Ray> next();
     /// Calls found(k, patch) for the rays that next() has given, in their order.
     template <class Found>
@@ -56,7 +57,8 @@ class GroupedRays {
     }
 
   private:
-    /// Rays of a patch among those that are drawn now: of a private cell, or of all others.
+    /// The rays of a patch in the current batch: those of one private cell, or those of shared
+    /// cells.
     struct Run {
         std::uint32_t patch, rays;
         std::uint32_t own; ///< the private cell's place in own_, else none

@@ -23,7 +23,7 @@ ShootingSolver::ShootingSolver(const SolverInput& input, MakeStrategy make_strat
     mean_.solution.bytes_density = strategy.density_bytes();
 }
 
-/// Where steps are alike the strategy is not called for each.
+/// If all steps are alike, the strategy is not called for each of them.
 bool ShootingSolver::solve_once(const StepTask& task, StepResult& result) {
     Bounces bounces(tools_);
     Strategy& strategy = *tools_.strategy;
@@ -43,7 +43,8 @@ bool ShootingSolver::solve_once(const StepTask& task, StepResult& result) {
     return true;
 }
 
-/// On average over all power a strategy gives about as many rays as power alone would.
+/// Refuses a state with far too many rays: on average over all power, a strategy gives about as
+/// many rays as power alone would.
 void ShootingSolver::load_more(StateReader& state) {
     constexpr double most_times = 1e3;
     tools_.strategy->load(state);

@@ -1,12 +1,12 @@
 #pragma once
 // Compute Radiosity, the loops of paper section 5b, for any strategy.
 //
-// Each step is a complete, unbiased solution of all bounces (stepwise.h): power is shot from all
-// patches that hold some, what arrives is reflected and shot in turn, until nothing is left. Rays
-// are allocated in proportion to the power to be shot (docs/decisions.md, D10), so that each
-// carries about the same, unless the strategy gives some patches more and weaker ones; numbers of
-// rays are made whole by systematic sampling over all patches and cells at once, which is unbiased
-// and ends the series of bounces by itself.
+// Each step is a complete, unbiased solution of all bounces (stepwise.h). Power is shot from all
+// patches that hold some; what arrives is reflected and shot in turn, until nothing is left. Rays
+// are allocated in proportion to the power to be shot (docs/decisions.md, D10). So each carries
+// about the same, unless the strategy gives some patches more and weaker ones. Numbers of rays are
+// made whole by systematic sampling over all patches and cells at once. This is unbiased and ends
+// the series of bounces by itself.
 
 #include "radiosity/shooting/bounces.h"
 #include "radiosity/shooting/stepwise.h"
@@ -28,14 +28,14 @@ class ShootingSolver final : public StepwiseSolver {
     }
     [[nodiscard]] bool shoots_to_balls() const override { return true; }
     void save_more(StateWriter& state) const override { tools_.strategy->save(state); }
-    /// Throws StateError also where the strategy would take far more rays than are asked for.
+    /// Also throws StateError if the strategy would take far more rays than are asked for.
     void load_more(StateReader& state) override;
 
     ShootingTools tools_;
 };
 
-/// Makes the solver of a strategy, for Method::make. With `has_literal` the option --literal
-/// chooses its rules, without it they are the unbiased ones.
+/// Makes the solver of a strategy, for Method::make. With `has_literal`, the option --literal
+/// chooses its rules; without it they are the unbiased ones.
 template <MakeStrategy make_strategy, bool has_literal = false>
 [[nodiscard]] std::unique_ptr<Solver> shoot_with(const SolverInput& input) {
     return std::make_unique<ShootingSolver>(

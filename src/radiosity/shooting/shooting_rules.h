@@ -1,18 +1,19 @@
 #pragma once
-// How the power of a patch becomes rays. A strategy's file chooses; the engine knows no more of it.
+// These rules say how the power of a patch becomes rays. A strategy's file chooses them; the engine
+// knows no more of it.
 
 #include "radiosity/hemisphere/cell_directions.h"
 #include "radiosity/solving/solve_options.h"
 
 namespace hemilux {
 
-/// Where rays into a cell start; those into the whole hemisphere start anywhere.
+/// The points where rays into a cell start; those into the whole hemisphere start anywhere.
 enum class RayOrigins {
     anywhere, ///< uniform over the patch, or over the part that a private cell belongs to
     centre,   ///< of that: biased (docs/decisions.md, D2)
 };
 
-/// How many rays a patch shoots in a bounce.
+/// The number of rays that a patch shoots in a bounce.
 enum class RaysPerPatch {
     by_power,    ///< in proportion to its unshot power, made whole by systematic sampling
     same_number, ///< N_hemi each, and N_tr rounded: what is due less than half a ray is lost (D10)
@@ -24,7 +25,7 @@ struct ShootingRules {
     RaysPerPatch rays = RaysPerPatch::by_power;
 };
 
-/// Those of the paper as printed with --literal, else the unbiased ones.
+/// Returns the rules of the paper as printed with --literal, otherwise the unbiased ones.
 [[nodiscard]] inline ShootingRules shooting_rules(const SolveOptions& options) {
     if (!options.literal)
         return {};

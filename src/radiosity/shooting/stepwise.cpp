@@ -16,7 +16,7 @@
 namespace hemilux {
 namespace {
 
-/// Seconds that a state may name: ten thousand years.
+/// The longest time that a state may name: ten thousand years [s].
 constexpr double longest_seconds = 3e11;
 
 } // namespace
@@ -43,7 +43,7 @@ bool StepwiseSolver::step() {
     return true;
 }
 
-/// Steps that are alike go to the ranks in turn; any other is solved by each.
+/// Distributes steps that are alike over the ranks in turn; any other step is solved by each rank.
 void StepwiseSolver::work_ahead() {
     input_.monitor.phase = "step";
     ahead_.resize(side_by_side());
@@ -57,7 +57,7 @@ void StepwiseSolver::work_ahead() {
     gather_ahead();
 }
 
-/// Each thread takes one step after the other; whoever is done with all helps with the last.
+/// Each thread takes one step after another; threads that find none left help with the last.
 void StepwiseSolver::work_at(std::size_t first, std::size_t every) {
     const std::size_t count = first < ahead_.size() ? (ahead_.size() - first - 1) / every + 1 : 0;
     if (count == 0)
@@ -73,7 +73,7 @@ void StepwiseSolver::work_at(std::size_t first, std::size_t every) {
     seconds_per_step_ = took.count() * at_once / static_cast<double>(count);
 }
 
-/// Of the next step but so many.
+/// Returns the task of the step that comes `ahead` steps after the next one.
 StepTask StepwiseSolver::task_of(std::size_t ahead, const Workers& workers) const {
     const std::uint64_t number = mean_.solution.steps + ahead;
     return {number, number + 1, mean_.ray_power, workers, mean_.aimed, &balls_};
@@ -89,7 +89,7 @@ void StepwiseSolver::solve(Ahead& ahead, const StepTask& task) {
     }
 }
 
-/// All ranks know what each has found.
+/// Lets all ranks know what each has found.
 void StepwiseSolver::gather_ahead() {
     struct Numbers {
         bool done, failed;
@@ -122,9 +122,9 @@ void StepwiseSolver::gather_ahead() {
     }
 }
 
-/// If so many will be wanted, as many as threads work out within half a second, so that none waits
-/// long for another, one at least for each. In large scenes a step keeps all threads of a rank
-/// busy, and several would take much memory.
+/// Returns as many steps as the threads solve in half a second, at least one for each thread, so
+/// that none waits long for another. It returns no more than are still wanted. In large scenes a
+/// single step keeps all threads of a rank busy, and several would take much memory.
 unsigned StepwiseSolver::side_by_side() const {
     constexpr std::size_t most_patches = 100'000;
     constexpr double seconds_ahead = .5, most_each = 16;
@@ -147,8 +147,8 @@ std::uint32_t StepwiseSolver::steps_ready() const {
     return ready;
 }
 
-/// As far as it is known; at least 1. Two are needed to estimate an error, which then falls as the
-/// root of their number.
+/// Returns the number of steps to come as far as it is known, at least 1. Two are needed to
+/// estimate an error, which then falls with the root of their number.
 double StepwiseSolver::steps_to_come() const {
     const StopRule& stop = input_.options.stop;
     const std::uint32_t expected = stop.expected_steps();
@@ -176,7 +176,7 @@ bool StepwiseSolver::find_ray_power() {
     });
 }
 
-/// Where there is a target the pilot finds out what is important to it.
+/// If there is a target, the pilot finds out what is important to it.
 bool StepwiseSolver::shoot_pilot(const StepTask& task, StepResult& pilot) {
     if (input_.target.empty())
         return solve_once(task, pilot);
@@ -232,8 +232,9 @@ void StepwiseSolver::save(StateWriter& state) const {
     save_more(state);
 }
 
-/// 0 before the pilot, infinite where rays are not equal. A step shoots about the emitted power, or
-/// as many times as much as there are bounces (check_bounces).
+/// Throws StateError if the power of a ray does not fit the scene. It is 0 before the pilot and
+/// infinite where rays are not equal. A step shoots about the emitted power, or as many times as
+/// much as there are bounces (check_bounces).
 void StepwiseSolver::check_ray_power() const {
     constexpr double least_times = 1e-3, most_times = 1e9;
     const double ray_power = mean_.ray_power, emitted = mean_.emitted();
@@ -278,7 +279,7 @@ void StepwiseSolver::load(StateReader& state) {
     load_more(state);
 }
 
-/// Those that it had; none were written where none got rays.
+/// Loads the numbers of rays to the balls; none are saved if no ball gets rays.
 void StepwiseSolver::load_balls(StateReader& state) {
     constexpr Bounds times{0, 1e6};
     if (!state.flag())
@@ -286,7 +287,8 @@ void StepwiseSolver::load_balls(StateReader& state) {
     state.get(balls_.times(), times);
 }
 
-/// Over all power a patch gets about as many rays as by power alone.
+/// Loads the factors on rays. Over all power, patches must get about as many rays as by power
+/// alone.
 void StepwiseSolver::load_aim(StateReader& state) {
     constexpr Bounds times{1e-6, 1e6};
     constexpr double most_rays = 1e3; // for those that power alone would give

@@ -37,7 +37,8 @@ class StepwiseSolver : public Solver {
   public:
     bool step() final;
     [[nodiscard]] const Solution& solution() const final { return mean_.solution; }
-    /// Where nothing reflects, radiosity is emission: no step improves it.
+    /// Returns true after a step if nothing reflects: radiosity is then emission, and no step
+    /// improves it.
     [[nodiscard]] bool finished() const final {
         return !input_.needs.bounces && mean_.solution.steps > 0;
     }
@@ -46,23 +47,24 @@ class StepwiseSolver : public Solver {
     void load(StateReader& state) final;
 
   protected:
-    /// Without equal rays there is no power per ray: each patch shoots as many rays as any other.
+    /// Without equal rays there is no power per ray: each patch shoots the same number of rays.
     StepwiseSolver(const SolverInput& input, bool equal_rays);
 
     /// Finds one solution of all bounces. `result` comes with the emission as radiosity and nothing
-    /// else. False when interrupted. If steps are alike, it is called for several at the same time.
+    /// else. Returns false when interrupted. If steps are alike, it is called for several at the
+    /// same time.
     virtual bool solve_once(const StepTask& task, StepResult& result) = 0;
-    /// Whether no step depends on those before.
+    /// Returns whether no step depends on those before.
     [[nodiscard]] virtual bool steps_are_alike() const { return false; }
-    /// Whether solve_once shoots to the balls of a task.
+    /// Returns whether solve_once shoots to the balls of a task.
     [[nodiscard]] virtual bool shoots_to_balls() const { return false; }
 
-    /// Save and load what the next steps depend on besides, as Solver does.
+    /// These save and load what else the next steps depend on, as Solver does.
     virtual void save_more(StateWriter&) const {}
     virtual void load_more(StateReader&) {}
 
-    /// An estimate of the radiosity by patch, before a step: from the steps so far, or from the
-    /// pilot.
+    /// Returns an estimate of the radiosity by patch, before a step: from the steps so far, or from
+    /// the pilot.
     [[nodiscard]] std::span<const Vec3> estimate() const {
         return mean_.solution.steps > 0 || pilot_.empty() ? mean_.solution.radiosity : pilot_;
     }

@@ -1,9 +1,9 @@
 #pragma once
-// Which cells the rays of a patch go to: systematic sampling.
+// Systematic sampling decides which cells the rays of a patch go to.
 //
-// All patches and their cells own intervals of one line, one after the other, as long as their
-// expected numbers of rays, and a ray stands at each whole number. As the line's origin is random,
-// each cell gets its expected number on average, rounded up or down.
+// All patches and their cells own intervals of one line, one after another, each as long as the
+// expected number of rays. A ray stands at each whole number. As the line's origin is random, each
+// cell gets its expected number on average, rounded up or down.
 
 #include "radiosity/sampling/sampling_kernels.h"
 #include "radiosity/shooting/strategy.h"
@@ -16,7 +16,7 @@
 
 namespace hemilux {
 
-/// std::floor for numbers of rays; compilers call a function for that.
+/// Does what std::floor does for numbers of rays; compilers call a function for that.
 [[nodiscard]] inline double whole_below(double rays) {
     return static_cast<double>(static_cast<std::int64_t>(rays));
 }
@@ -30,8 +30,8 @@ class SystematicCells {
                                          (after - before) / allocation.rays_up_to.back(),
                                          allocation.rays_up_to.back()} {}
 
-    /// Calls found(cell, expected, low, high) for each cell with rays, in their order: expected,
-    /// which is N_tr, and those from low + 1 to high.
+    /// Calls found(cell, expected, low, high) for each cell with rays, in their order. `expected`
+    /// is N_tr; the cell's rays are those from low + 1 to high.
     template <class Found>
     void for_each_cell(const Found& found) const {
         constexpr std::size_t block = 64;

@@ -17,16 +17,17 @@ namespace {
 
 constexpr std::size_t most_balls = 8;
 
-/// Of the target: all of a picture would take large balls, as a few patches of the table count too.
+/// The share of the target that goes into balls. For all of a picture they would have to be large,
+/// as a few patches of the table count too (target_balls.h).
 constexpr double share_in_balls = .75;
 
-/// Balls are halved while it makes the sum over balls of root of mass times radius so much smaller:
-/// the best numbers of rays are as that.
+/// A ball is halved if this makes the sum over balls of sqrt(mass) times radius smaller by more
+/// than this share. The best numbers of rays are proportional to that.
 constexpr double least_gain = .1;
 
 constexpr std::uint64_t looks = 8;
 
-/// Patches for one ball.
+/// The patches of one ball.
 struct Cluster {
     std::vector<std::uint32_t> patches;
     TargetBall ball;
@@ -39,7 +40,7 @@ class Clusters {
 
     [[nodiscard]] double mass(std::uint32_t i) const { return mesh_.patches()[i].area * value_[i]; }
 
-    /// The heaviest patches, which have their share of the mass.
+    /// Returns the heaviest patches, which have their share of the mass.
     [[nodiscard]] std::vector<std::uint32_t> heaviest() const {
         std::vector<std::uint32_t> patches;
         double all = 0, kept = 0;
@@ -71,7 +72,7 @@ class Clusters {
         return {std::move(patches), {centre, radius}, std::sqrt(sum) * radius};
     }
 
-    /// At the widest gap between the centres along the longest axis.
+    /// Halves a cluster at the widest gap between the centres along the longest axis.
     [[nodiscard]] std::pair<Cluster, Cluster> halves(Cluster cluster) const {
         std::vector<std::uint32_t>& patches = cluster.patches;
         Box centres;
@@ -184,7 +185,8 @@ std::optional<TargetBalls::Shot> TargetBalls::draw(const PatchStart& start, std:
                 aimed->power};
 }
 
-/// What is seen besides: that one ray more has found what all rays find on average.
+/// Looks from all patches. For each ball, one ray more is assumed to have found what all rays find
+/// on average.
 TargetBalls::Visibility TargetBalls::look(const SolverInput& input, std::span<const double> value,
                                           const Workers& workers) const {
     constexpr std::uint64_t stream = 0xba11; // of no step

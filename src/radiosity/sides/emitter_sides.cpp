@@ -13,14 +13,14 @@ constexpr std::uint32_t rays_a_side = 128;
 constexpr double nothing = 0.01, something = 0.05; ///< of the rays
 constexpr double hardly_any = 0.1;                 ///< of what the other side sees
 constexpr double much_nearer = 1.0 / 8;
-constexpr double near = 1.0 / 3, touching = 1.0 / 10; ///< of a lamp's size
+constexpr double near = 1.0 / 3, touching = 1.0 / 10; ///< of an emitter's size
 
-/// What the rays of one side hit.
+/// The surfaces that the rays of one side hit.
 struct View {
     double others = 0;             ///< other shells, as a share of the rays
     double dark = 0;               ///< what does not shine itself, of any shell
     std::vector<double> distances; ///< to what is dark
-    /// Of the distances; infinite if there is none.
+    /// Returns the median of the distances; infinite if there is none.
     [[nodiscard]] double median() {
         if (distances.empty())
             return std::numeric_limits<double>::infinity();
@@ -49,7 +49,7 @@ class EmittingShell {
         if (shell.closed && std::max(front.others, back.others) < nothing && lies_alone())
             return EmitterSide{shell.outwards > 0, true};
         const double ahead = front.median(), behind = back.median();
-        // How near a side must be so that it is a wall at once.
+        // A side must be nearer than a share of this reach to be a wall at once.
         const double reach =
             shell.closed ? std::numeric_limits<double>::infinity() : std::sqrt(area_);
         if (const auto only = only_one(front, back))
@@ -61,11 +61,13 @@ class EmittingShell {
     }
 
   private:
-    /// Whether rays that are sent to other surfaces miss them: they are not only small from here.
+    /// Returns whether rays that are sent to other surfaces miss them, so that these are not only
+    /// small from here.
     [[nodiscard]] bool lies_alone() const {
         return std::max(look(false, true).others, look(true, true).others) < nothing;
     }
-    /// Whether it is the back that alone lies before something.
+    /// Returns whether it is the back that alone lies before something; empty if neither side alone
+    /// does.
     [[nodiscard]] std::optional<bool> only_one(const View& front, const View& back) const {
         if (const double dark = std::max(front.dark, back.dark); dark > something)
             return only_one(front.dark, back.dark);

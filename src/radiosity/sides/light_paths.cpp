@@ -11,8 +11,8 @@
 namespace hemilux {
 namespace {
 
-/// In the local frame, of a size of about 1: more than the layers of one place are apart, less than
-/// a lamp is from its ceiling.
+/// The distance from a plane at which rays begin [local units], in a frame of a size of about 1. It
+/// is more than the layers of one place are apart, and less than an emitter is from its ceiling.
 constexpr double off_the_plane = 0x1p-23;
 
 Ray diffuse_ray_at(const Mesh& mesh, FacetSide side, const Vec3& point, Rng& rng) {
@@ -26,8 +26,8 @@ Vec3 random_point(const Mesh& mesh, std::uint32_t facet, Rng& rng) {
     return mesh.shape_of(facet).sample(u);
 }
 
-/// From surface to surface, for as long as arrive(side) says so; `side` is empty where the path
-/// leaves the scene.
+/// Follows a path from surface to surface, for as long as arrive(side) says so; `side` is empty
+/// where the path leaves the scene.
 template <class Arrive>
 void follow(const Mesh& mesh, const Tracer& tracer, Ray ray, Rng& rng, const Arrive& arrive) {
     for (;;) {
@@ -142,7 +142,7 @@ LightShares find_light_shares(const Mesh& mesh, const Tracer& tracer) {
         const Vec3& e = material(f).emission;
         Vec3 weight = e / (e.r + e.g + e.b) / double{paths};
         const FacetSide source{f, mesh.has_back(f) && k % 2 == 1};
-        // Until the light falls on a back, leaves, or is absorbed by chance.
+        // The path goes on until the light falls on a back, leaves, or is absorbed by chance.
         const auto arrive = [&](std::optional<FacetSide> side) {
             if (!side || (side->back && !mesh.has_back(side->facet))) {
                 (side ? sum.backs : sum.escaped) += weight.r + weight.g + weight.b;

@@ -10,20 +10,22 @@
 namespace hemilux {
 namespace {
 
-/// A file is disordered if so much of its lit area is lit from behind, or if so many of the edges
-/// that two facets share clash.
+/// A file is disordered if so large a part of its lit area is lit from behind. It also is if so
+/// large a part of the edges that two facets share clash.
 constexpr double much_area = 0.4, many_edges = 0.05;
-/// Backs that get so much of a surface's light: of a surface that is lit from behind, and of one in
-/// a file that is disordered.
+/// The share of a surface's light that its backs get, for a surface that is lit from behind, and
+/// for one in a file that is disordered.
 constexpr double nearly_all = 0.9, the_greater_part = 0.5;
-/// Rays that reached a shell: fewer show nothing.
+/// The least number of rays that must reach a shell: fewer show nothing.
 constexpr double few_rays = 4;
-/// Part of the light of a scene: a surface that gets less is not worth a risk or a warning.
+/// The least part of a scene's light that matters: a surface that gets less is not worth a risk or
+/// a warning.
 constexpr double large_part = 1.0 / 20;
-/// Part of what is emitted: where fewer lamps face a wall, the others show that they may be meant
-/// to.
+/// The least part of the emitted power whose emitters must face a wall: where it is less, the
+/// others show that these may be meant to.
 constexpr double many_emitters = 0.25;
-/// Part of a shell's area: if more disagrees, it is not clear which faces of an open one are wrong.
+/// The largest part of a shell's area that may disagree: if it is more, it is not clear which faces
+/// of an open shell are wrong.
 constexpr double many_faces = 0.1;
 
 double sum_of(const SideLight& light) { return light[0] + light[1]; }
@@ -81,7 +83,7 @@ class OrientationSearch {
                     side->certain = false;
     }
 
-    /// Light is found by facet and judged by face: the facets of a face are turned together.
+    /// Finds light by facet and adds it up by face: the facets of a face are turned together.
     void find_light() {
         std::vector<bool> shines_back(scene_.facets.size(), false);
         for (std::uint32_t f = 0; f < shines_back.size(); ++f)
@@ -106,7 +108,7 @@ class OrientationSearch {
         disordered_ = reversed_ || (clashing > 0 && clashing > many_edges * edges);
     }
 
-    /// Of a sun or a sky.
+    /// Returns whether a facet belongs to a sun or a sky.
     [[nodiscard]] bool is_far(std::uint32_t facet) const {
         return scene_.materials[scene_.facets[facet].material].is_far;
     }
@@ -115,7 +117,7 @@ class OrientationSearch {
         sum[0] += light[reversed];
         sum[1] += light[!reversed];
     }
-    /// Once the shell is consistent.
+    /// Returns the light on the sides of a shell once it is consistent.
     [[nodiscard]] SideLight light_of(const Shell& shell) const {
         SideLight light{};
         for (const std::uint32_t f : shells_.facets_of(shell))
@@ -126,7 +128,7 @@ class OrientationSearch {
         return emitter_side_[s] && emitter_side_[s]->back;
     }
 
-    /// A sun and a sky look at the scene, whatever the scene's own faces do.
+    /// Checks a shell. A sun and a sky look at the scene, whatever the scene's own faces do.
     void check(std::uint32_t s) {
         const Shell& shell = shells_.all[s];
         if (is_far(shells_.facets_of(shell)[0]))
@@ -163,7 +165,7 @@ class OrientationSearch {
         kind += certain;
     }
 
-    /// Whether the majority of a shell looks away.
+    /// Returns whether the majority of a shell looks away.
     [[nodiscard]] bool majority_away(std::uint32_t s) const {
         if (emitter_side_[s])
             return emitter_side_[s]->back;
@@ -171,8 +173,9 @@ class OrientationSearch {
         return sum_of(light) < few_rays ? shells_.all[s].outwards < 0 : light[1] > light[0];
     }
 
-    /// The faces of a shell that encloses something cannot be meant to disagree; elsewhere light
-    /// must confirm what is turned. A face whose own facets disagree, as one that is folded, stays.
+    /// Turns some faces of a shell. The faces of a shell that encloses something cannot be meant to
+    /// disagree; elsewhere light must confirm what is turned. A face whose own facets disagree, as
+    /// one that is folded, stays.
     void turn_some(std::uint32_t s) {
         const Shell& shell = shells_.all[s];
         const bool away = majority_away(s);
@@ -199,7 +202,7 @@ class OrientationSearch {
         result_.mixed += any;
     }
 
-    /// Of marked faces, with the groups they are in.
+    /// Returns the number of marked faces and the groups they are in.
     [[nodiscard]] std::pair<std::size_t, std::vector<std::uint32_t>>
     count(const std::vector<bool>& marked) const {
         std::vector<bool> listed(scene_.groups.size(), false);

@@ -1,15 +1,15 @@
 #pragma once
-// Faces that look away from the light, as those of a room modelled from outside do.
+// Finds faces that look away from the light, as those of a room modelled from outside do.
 //
-// Facets are gathered into shells (shells.h). Which side of a shell is its front follows from where
-// lamps find something to light (emitter_sides.h) and from where light arrives (light_paths.h). A
-// surface may be meant to be lit from behind, as a lamp shade is that faces outwards. So:
-// - A closed shell is turned if nearly all of its light falls on its backs, and a lamp if it faces
-//   a wall at once or nothing. If its facets disagree, some are turned first.
-// - An open shell is turned only if the file is disordered, as one is that is reversed as a whole
-//   or in many of its faces: then its backs need more light than its fronts. In a file that is
-//   right elsewhere only a few faces are turned, those that disagree with a large shell.
-// - What else gets nearly all of its light on its backs stays, and is counted as in doubt.
+// Facets are gathered into shells (shells.h). The front of a shell follows from where emitters find
+// something to light (emitter_sides.h) and from where light arrives (light_paths.h). A surface may
+// be meant to be lit from behind, as a lamp shade is that faces outwards. So these rules apply:
+// - A closed shell is turned if nearly all of its light falls on its backs, and an emitter if it
+//   faces a wall at once or nothing. If its facets disagree, some are turned first.
+// - An open shell is turned only if the file is disordered: reversed as a whole or in many of its
+//   faces. Then its backs need more light than its fronts. In a file that is right elsewhere only a
+//   few faces are turned, those that disagree with a large shell.
+// - Anything else that gets nearly all of its light on its backs stays, and is counted as in doubt.
 
 #include "radiosity/scene/scene.h"
 #include "radiosity/sides/light_paths.h"
@@ -36,9 +36,9 @@ struct Orientation {
 };
 
 /// Finds the faces that look away; the same mesh gives the same faces. In a scene without an
-/// emitter, or with a sun and a sky alone, there are none, nor among two-sided facets.
+/// emitter, or with a sun and a sky alone, there are none. Two-sided facets never look away.
 [[nodiscard]] Orientation find_orientation(const Mesh& mesh, const Tracer& tracer);
-/// The same with a mesh and a tracer that it makes itself. `light` is found in any case.
+/// Finds them with a mesh and a tracer that it makes itself. It finds `light` in any case.
 [[nodiscard]] Orientation find_orientation(const Scene& scene);
 
 /// Turns all faces that look away.

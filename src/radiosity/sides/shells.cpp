@@ -9,8 +9,8 @@
 namespace hemilux {
 namespace {
 
-/// Two facets that run along their common edge in the same direction, and face the same way: one
-/// lies on the other, as a face does that is there twice.
+/// Returns whether two facets run along their common edge in the same direction, and face the same
+/// way. Then one lies on the other, as a face does that is there twice.
 bool are_layers(const Scene& scene, const Edge& a, const Edge& b) {
     constexpr double parallel = 0.999; // cosine
     if (a.forward != b.forward)
@@ -25,7 +25,8 @@ struct Neighbour {
     bool agrees;
 };
 
-/// Up to four neighbours of each facet, and whether it has an edge where there is not exactly one.
+/// Lists up to four neighbours of each facet, and whether it has an edge where there is not exactly
+/// one.
 class Neighbours {
   public:
     Neighbours(const Scene& scene, Shells& shells)
@@ -58,7 +59,7 @@ class Neighbours {
     std::vector<bool> border_;
 };
 
-/// Flood fill from a facet: each one found is turned if it does not agree with the one before.
+/// Fills a shell from a facet: each facet found is turned if it does not agree with the one before.
 Shell fill_from(std::uint32_t start, const Neighbours& neighbours, std::vector<bool>& found,
                 Shells& shells) {
     Shell shell{.begin = shells.facets.size(), .end = 0};
@@ -83,7 +84,7 @@ Shell fill_from(std::uint32_t start, const Neighbours& neighbours, std::vector<b
     return shell;
 }
 
-/// The side of the larger area stays; of two equal ones that of the first facet.
+/// Measures a shell. The side of the larger area stays; of two equal ones that of the first facet.
 void measure(const Scene& scene, Shell& shell, Shells& shells) {
     constexpr double flat = 1e-6;
     const Vec3 origin =

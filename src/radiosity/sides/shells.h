@@ -1,7 +1,7 @@
 #pragma once
-// Shells: the parts of a scene that hang together by edges of exactly two facets, and whether each
-// can be given one outer and one inner side. Two neighbours agree where they run along their common
-// edge in opposite directions.
+// Finds shells: the parts of a scene that hang together by edges of exactly two facets. Also finds
+// whether each can be given one outer and one inner side. Two neighbours agree where they run along
+// their common edge in opposite directions.
 
 #include "radiosity/scene/scene.h"
 
@@ -18,8 +18,8 @@ struct Shell {
     bool consistent = true; ///< all neighbours agree
     bool orientable = true; ///< they would, if some were turned; not so for a Moebius strip
     double against = 0;     ///< the share of its area that would be turned, at most a half
-    /// Which way a closed shell faces once it is consistent: 1 outwards, -1 inwards, 0 if it
-    /// encloses nothing, as a folded sheet.
+    /// The way a closed shell faces once it is consistent: 1 outwards, -1 inwards, 0 if it encloses
+    /// nothing, as a folded sheet.
     int outwards = 0;
 };
 
@@ -27,8 +27,8 @@ struct Shells {
     std::vector<Shell> all;
     std::vector<std::uint32_t> facets; ///< shell after shell
     std::vector<std::uint32_t> of;     ///< the shell of a facet
-    /// By facet: to be turned so that its shell becomes consistent, with as little area turned as
-    /// possible.
+    /// The facets to be turned so that their shells become consistent, with as little area turned
+    /// as possible.
     std::vector<bool> against;
     std::size_t shared_edges = 0;   ///< of two facets
     std::size_t clashing_edges = 0; ///< of these, where the two do not agree

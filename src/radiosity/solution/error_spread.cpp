@@ -12,8 +12,8 @@
 namespace hemilux {
 namespace {
 
-/// What Fisher's F with these degrees of freedom is below in 975 of 1000 cases (Paulson 1942: its
-/// cube root is nearly a ratio of normal variables).
+/// Returns what Fisher's F with these degrees of freedom is below in 975 of 1000 cases. Its cube
+/// root is nearly a ratio of normal variables (Paulson 1942).
 double quantile_of_f(double above, double below) {
     constexpr double z = 1.96;
     const double a = 2 / (9 * above), b = 2 / (9 * below);
@@ -23,7 +23,7 @@ double quantile_of_f(double above, double below) {
                                : std::pow(((1 - a) * (1 - b) + z * root) / below_of_ratio, 3.0);
 }
 
-/// A few batches do not show more degrees of freedom than these from any number.
+/// The largest number of degrees of freedom that a few batches can tell from any larger one.
 constexpr double most_freedom = 16;
 
 double freedom_by_patch(const Mesh& mesh, const Solution& solution) {

@@ -19,7 +19,7 @@ Vec3 bright_radiosity(const LightFoundByRays& light) {
 
 namespace {
 
-/// Rays per area of the patches that most light comes from.
+/// Returns the rays per area of the patches that most light comes from.
 double rays_of_bright(const LightFoundByRays& light) {
     double rays = 0, area = 0;
     for (std::size_t i = 0; i < light.area.size(); ++i) {
@@ -36,7 +36,7 @@ std::vector<Vec3> missed_by_rays(const LightFoundByRays& light) {
     constexpr double darker = 4; // patches so many times darker, as in a room beyond, show nothing
     const Vec3 bright = bright_radiosity(light);
     const auto arrives = [&](std::uint32_t i) {
-        // By rounding it may be less than nothing.
+        // Rounding may make it less than nothing.
         return std::max(light.incident[i].x + light.incident[i].y + light.incident[i].z, 0.0);
     };
     std::vector<std::uint32_t> order(light.area.size());

@@ -15,11 +15,11 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double squared(const Vec3& v) { return glm::dot(v, v); }
 
-/// sqrt(sum of squared errors / sum of squared values); NaN where there is no value.
+/// The ratio sqrt(sum of squared errors / sum of squared values); NaN where there is no value.
 struct Ratio {
     double error = 0, value = 0;
     [[nodiscard]] double root() const { return value > 0 ? std::sqrt(error / value) : nan; }
-    /// A patch by its standard error, and the light that it reflects.
+    /// Adds a patch by its standard error, and the light that it reflects.
     void add(const Mesh& mesh, const Solution& solution, std::uint32_t patch, double weight) {
         const double area = weight * mesh.patches()[patch].area;
         error += area * squared(solution.standard_error[patch]);
@@ -79,7 +79,7 @@ double estimated_error(const Mesh& mesh, const Solution& solution) {
     all.error += solution.missed;
     if (!solution.may_find_light && all.error == 0)
         return 0;
-    // Relative to light that is less than its own error an error has no meaning: a single ray that
+    // An error relative to light that is less than the error has no meaning. A single ray that
     // found a patch may stand for many times what truly arrives.
     return all.error > all.value ? nan : all.root();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What every method finds: the radiosity of each patch and its error.
+// Holds what every method finds: the radiosity of each patch and its error.
 
 #include "geometry/vector.h"
 
@@ -13,7 +13,7 @@ namespace hemilux {
 
 class Mesh;
 
-/// Where the light of a solution goes, per channel [W]: emitted = absorbed + escaped + unshot.
+/// The balance of the light of a solution, per channel [W]: emitted = absorbed + escaped + unshot.
 struct EnergyBalance {
     Vec3 emitted{0.0};
     Vec3 absorbed{0.0}; ///< by patches and by backs of one-sided faces
@@ -22,12 +22,12 @@ struct EnergyBalance {
     /// chance. It may be negative; chance adds 0 on average.
     Vec3 unshot{0.0};
 
-    /// The power that is missing or too much, relative to the emitted power, in the worst channel
-    /// [-]; 0 if nothing is emitted.
+    /// Returns the power that is missing or too much, relative to the emitted power, in the worst
+    /// channel [-]; 0 if nothing is emitted.
     [[nodiscard]] double imbalance() const;
 };
 
-/// How the radiosity of a patch changes along the axes x and y of Frame::from_normal() of its
+/// The change of the radiosity of a patch along the axes x and y of Frame::from_normal() of its
 /// normal [W/m2 per unit of the local frame].
 struct Slope {
     Vec3 x{0.0}, y{0.0};
@@ -35,45 +35,48 @@ struct Slope {
 
 struct Solution {
     std::vector<Vec3> radiosity; ///< B per patch [W/m2 leaving], own emission included
-    /// By patch: how its light, whose mean is B, changes linearly. Empty if the light is B
+    /// The linear change of the light of each patch, whose mean is B. It is empty if the light is B
     /// everywhere on a patch.
     std::vector<Slope> slope = {};
     std::vector<Vec3> standard_error; ///< of B [W/m2]; NaN before two steps
     std::vector<std::uint64_t> hits;  ///< energy rays that hit each patch
-    /// By patch: what its squared error and its light count in the error of the whole (target.h).
-    /// Empty: 1 everywhere.
+    /// The weight of the squared error and of the light of each patch in the error of the whole
+    /// (target.h). It is empty where all are 1.
     std::vector<double> weight = {};
     [[nodiscard]] double weight_of(std::size_t patch) const {
         return weight.empty() ? 1 : weight[patch];
     }
-    /// Sum over patches and channels of weight, area and variance of B, where that is known better
-    /// than from standard_error, which is on the safe side where few rays arrive.
+    /// The sum over patches and channels of weight, area and variance of B, where that is known
+    /// better than from standard_error. The latter is on the safe side where few rays arrive.
     std::optional<double> variance;
     /// The part of that sum due to errors that all light of a part of the scene shares.
     double variance_of_level = 0;
-    /// Degrees of freedom of the estimate of that part: infinite where it was found by counting and
-    /// not from the spread of a few samples.
+    /// The degrees of freedom of the estimate of that part: infinite where it was found by counting
+    /// and not from the spread of a few samples.
     double level_freedom = std::numeric_limits<double>::infinity();
     /// The same sum for what no ray may have seen so far, by the rule of three, or for light that
-    /// is still to be shot: a squared error which counts besides the variance.
+    /// is still to be shot. It is a squared error which counts besides the variance.
     double missed = 0;
     /// False where no light can reach anything that reflects, as the scene itself shows: then
     /// finding none is no lack of knowledge.
     bool may_find_light = true;
-    /// How many independent solutions the standard errors come from; 0 if they are the steps.
+    /// The number of independent solutions that the standard errors come from; 0 if they are the
+    /// steps.
     double error_batches = 0;
-    /// Effective degrees of freedom of the error (error_spread.h), where they are known better than
-    /// from standard_error, which does not say what patches err together; where level_freedom is
-    /// finite, of the error besides that of the level.
+    /// The effective degrees of freedom of the error (error_spread.h), where they are known better
+    /// than from standard_error, which does not say what patches err together. Where level_freedom
+    /// is finite, they are those of the error besides that of the level.
     std::optional<double> effective_freedom;
-    /// Of the variance besides that of the level, what is left after one more reflection [-], as
-    /// far as known: little where patches err each for itself, since a reflection averages.
+    /// The share of the variance besides that of the level that is left after one more reflection
+    /// [-], as far as known. It is little where patches err independently, since a reflection
+    /// averages.
     std::optional<double> reflected_share;
     EnergyBalance energy;
-    /// Patches from which `stored-transport` traces no more rays at random, as none of those that
-    /// were traced has found a path to them from an emitter.
+    /// The number of patches from which `stored-transport` traces no more random rays. None of the
+    /// rays that were traced has found a path to them from an emitter.
     std::size_t unlit = 0;
-    /// Lit patches from which it traces no more, as no path leads from them to one that has weight.
+    /// The number of lit patches from which it traces no more, as no path leads from them to one
+    /// that has weight.
     std::size_t unneeded = 0;
     std::size_t links = 0; ///< that `hierarchical` gathers over
     std::uint32_t steps = 0;
@@ -93,18 +96,19 @@ struct RelativeError {
     double rest = 0;   ///< the others; NaN if there are none
 };
 
-/// sqrt(sum_i A_i |B_i - B*_i|^2 / sum_i A_i |B*_i - E_i|^2).
+/// Returns sqrt(sum_i A_i |B_i - B*_i|^2 / sum_i A_i |B*_i - E_i|^2).
 [[nodiscard]] RelativeError true_error(const Mesh& mesh, std::span<const Vec3> radiosity,
                                        std::span<const Vec3> reference,
                                        const std::vector<bool>& detail = {});
 
-/// The same error as the solution estimates it: from its variance, which is enlarged where it is
-/// known badly (ErrorSpread::reported), and from light that may not have been seen. NaN where it is
-/// unknown: before two steps, and where no light was found that exceeds its own error.
+/// Returns the same error as the solution estimates it. It comes from the variance, which is
+/// enlarged where it is poorly known (ErrorSpread::reported), and from light that may not have been
+/// seen. It is NaN where it is unknown: before two steps, and where no light was found that exceeds
+/// its own error.
 [[nodiscard]] double estimated_error(const Mesh& mesh, const Solution& solution);
 
-/// Of the patches that have no weight, by their standard errors; NaN where there is no such patch,
-/// or no light on them that is more than its own error.
+/// Returns the error of the patches that have no weight, by their standard errors. It is NaN where
+/// there is no such patch, or no light on them that is more than its own error.
 [[nodiscard]] double estimated_error_elsewhere(const Mesh& mesh, const Solution& solution);
 
 /// Standardised differences z = (B - B*) / sigma over patches with at least `min_hits` and all

@@ -1,6 +1,6 @@
 #pragma once
-// The reason why a scene cannot be solved, found before the first step or within one. The solution
-// of the steps before remains.
+// Reports the reason why a scene cannot be solved, found before the first step or within one. The
+// solution of the steps before remains.
 
 #include "geometry/vector.h"
 
@@ -14,7 +14,8 @@ namespace hemilux {
 
 class Mesh;
 
-/// what() names the patch, its face and material, and the step.
+/// The error thrown when a scene cannot be solved; what() names the patch, its face and material,
+/// and the step.
 struct SolveError : std::runtime_error {
     SolveError(const std::string& message, std::uint32_t first_face)
         : std::runtime_error(message), face(first_face) {}
@@ -27,9 +28,9 @@ inline constexpr double largest_radiosity = 1e145;
 /// would vanish [W/m2].
 inline constexpr double least_radiosity = 1e-145;
 
-/// The face of the file that a patch is part of, counted from 0.
+/// Returns the face of the file that a patch is part of, counted from 0.
 [[nodiscard]] std::uint32_t face_of(const Mesh& mesh, std::uint32_t patch);
-/// A patch's name in messages, such as "patch 3 (face 1, material 'wall')".
+/// Returns a patch's name in messages, such as "patch 3 (face 1, material 'wall')".
 [[nodiscard]] std::string name_of_patch(const Mesh& mesh, std::uint32_t patch);
 
 /// Throws SolveError for the first patch whose value is not finite, or beyond largest_radiosity.

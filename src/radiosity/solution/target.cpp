@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t points_per_chunk = 64;
 
-/// What the rays from some points meet, point by point.
+/// Returns what the rays from some points meet, point by point.
 std::vector<std::uint32_t> met_from(std::span<const SurfacePoint> points, std::size_t first,
                                     const Mesh& mesh, const Tracer& tracer, unsigned rays) {
     std::vector<Ray> all;

@@ -1,26 +1,28 @@
 // Hierarchical radiosity (reference 6 of the paper; Hanrahan, Salzman and Aupperle 1991).
 //
-// Light goes over links between nodes of trees over the patches (hierarchy/patch_tree.h): between
-// large ones where little of it is exchanged, down to patches where it is much. A link is divided
-// while the power that the receiver may reflect by it, B F A rho, is more than a share of all
-// that is reflected; the next step allows a sixteenth of that. The factor of a link is the mean of
-// a few pairs of points of its nodes, each with a ray for the visibility (hierarchy/links.h). Light
-// is pulled up the trees, gathered over the links and pushed down again, until the solution with
-// these factors is found (by GMRES in place of repeated gathering).
+// Light goes over links between nodes of trees over the patches (hierarchy/patch_tree.h). Links
+// join large nodes where little light is exchanged, down to patches where it is much. A link is
+// divided while the power that the receiver may reflect by it, B F A rho, is more than a share of
+// all that is reflected. The next step allows a sixteenth of that share. The factor of a link is
+// the mean of a few pairs of points of its nodes, each with a ray for the visibility
+// (hierarchy/links.h). Light is pulled up the trees, gathered over the links and pushed down again,
+// until the solution with these factors is found (by GMRES in place of repeated gathering).
 //
-// Parameter: --rays, of a patch in the first step; each step has twice as many, shared among the
-// links by the light they may carry, one at least for each, and as many that look for losses where
-// the scene is open. What a row lacks to 1 less these, or has too much, is what the patch exchanges
-// with itself: that closes rows and is right on average, where to scale noisy rows would not be.
+// The parameter is --rays, the rays of a patch in the first step; each step has twice as many as
+// the one before. They are shared among the links by the light they may carry, one at least for
+// each. Where the scene is open, as many rays look for losses. A patch exchanges with itself what
+// its row lacks to 1 less these losses, or has too much. That closes rows and is right on average,
+// which scaling noisy rows would not be.
 //
-// Eight independent batches of factors give eight solutions; their mean is the result, their spread
-// is one part of its standard error. The other is by how much the last refinement has changed the
-// light, as each about halves what nodes err by: so it is known from the second step on, and rather
-// too large. Links none of whose rays arrived count with the rule of three.
+// Eight independent batches of factors give eight solutions; their mean is the result, and their
+// spread is one part of its standard error. The other part is by how much the last refinement has
+// changed the light, as each about halves the errors of nodes. So it is known from the second step
+// on, and rather too large. Links none of whose rays arrived count with the rule of three.
 //
-// Good where many patches exchange little light each: large walls in small patches. Bad where each
-// facet is a plane of its own, as on curved surfaces: all roots are linked with all. Consistent,
-// not unbiased: a solution depends on its factors in a non-linear way, and nodes have one light.
+// The method is good where many patches exchange little light each: large walls in small patches.
+// It is bad where each facet is a plane of its own, as on curved surfaces: all roots are linked
+// with all. It is consistent, not unbiased: a solution depends on its factors in a non-linear way,
+// and nodes have one light.
 
 #include "radiosity/hierarchy/link_errors.h"
 #include "radiosity/hierarchy/links.h"
@@ -43,17 +45,18 @@ namespace hemilux {
 namespace {
 
 constexpr std::size_t batches = 8;
-/// What a link may bring of all power that is reflected, or emitted as long as that is not known:
-/// in the first step, and how much less in the next.
+/// The share of all reflected power that a link may bring in the first step, and the factor on it
+/// from each step to the next. While the reflected power is not known, the emitted power stands for
+/// it.
 constexpr double first_tolerance = 1e-3, finer_tolerance = 1.0 / 16;
-/// Rays per patch at which the run ends whatever the error.
+/// The rays per patch at which the run ends whatever the error.
 constexpr double most_rays = 1u << 20;
-/// Of a link in one batch.
+/// The most points of a link in one batch.
 constexpr std::uint32_t most_points = 8192;
-/// For the estimate of memory: a link with its factors in all batches, and about so many of a
-/// patch.
+/// These estimate the memory: a link with its factors in all batches takes so many bytes, and a
+/// patch has about so many links.
 constexpr double bytes_per_link = 100, links_per_patch = 150;
-/// Black patches count as if they reflected this: they account for what they absorb.
+/// Black patches count as if they had this reflectance: they account for what they absorb.
 constexpr double least_reflectance = .1;
 
 class HierarchicalSolver final : public Solver {
@@ -92,7 +95,7 @@ class HierarchicalSolver final : public Solver {
   private:
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-    /// Mean of channels, local units.
+    /// Returns the reflected power, mean of channels, in local units.
     [[nodiscard]] double reflected() const {
         double sum = 0;
         for (std::size_t i = 0; i < surfaces_.area.size(); ++i)
@@ -100,7 +103,8 @@ class HierarchicalSolver final : public Solver {
                    mean_of_channels(solution_.radiosity[i] - surfaces_.emission[i]);
         return sum;
     }
-    /// By which links are judged: hardly any of what a sun emits may arrive anywhere.
+    /// Returns the power by which links are judged: hardly any of what a sun emits may arrive
+    /// anywhere.
     [[nodiscard]] double power() const {
         const double arrived = reflected();
         return arrived > 0 ? std::min(arrived, emitted_) : emitted_;
@@ -113,7 +117,8 @@ class HierarchicalSolver final : public Solver {
         return result;
     }
 
-    /// Whether it was not interrupted; nothing where the rays have seen no way out for the light.
+    /// Returns whether it was not interrupted; nothing if the rays have seen no way out for the
+    /// light.
     [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
         input_.monitor.phase = "rays";
         if (!input_.needs.closed)
@@ -148,8 +153,8 @@ class HierarchicalSolver final : public Solver {
         return true;
     }
 
-    /// Points of each link in a batch: in proportion to what they bring to the error, as far as
-    /// that is known. Nodes that no light has reached yet count with a share of the mean.
+    /// Returns the points of each link in a batch, in proportion to what they bring to the error,
+    /// as far as that is known. Nodes that no light has reached yet count with a share of the mean.
     [[nodiscard]] std::vector<std::uint32_t> share_rays() const {
         const auto links = links_.all();
         std::vector<double> light(tree_.nodes().size()), rho(tree_.nodes().size()), weight;
@@ -175,7 +180,7 @@ class HierarchicalSolver final : public Solver {
         return points;
     }
 
-    /// By batch and patch.
+    /// Returns the sums of the rows, by batch and patch.
     [[nodiscard]] std::vector<std::vector<double>>
     row_sums(std::span<const LinkFactors> factors) const {
         const std::vector<double> ones(surfaces_.area.size(), 1.0);
@@ -213,7 +218,7 @@ class HierarchicalSolver final : public Solver {
                     missed_over_links(tree_, links_, factors, points, solution_.radiosity));
     }
 
-    /// Of a patch: points of all links by which it gathers.
+    /// Counts as the hits of a patch the points of all links by which it gathers.
     void note_hits(std::span<const std::uint32_t> points) {
         std::vector<double> by_node(tree_.nodes().size()), by_patch(surfaces_.area.size());
         for (std::size_t l = 0; l < points.size(); ++l)
@@ -253,7 +258,7 @@ class HierarchicalSolver final : public Solver {
     Surfaces surfaces_;
     std::vector<double> mean_reflectance_;
     double emitted_ = 0; ///< power, mean of channels, local units
-    /// By the last refinement (squares_of_changes), if there was any.
+    /// The squares of what the last refinement has changed (squares_of_changes), if there was any.
     std::vector<Vec3> changes_;
     bool changes_known_ = false;
     Refinement refinement_ = Refinement::not_needed; ///< in this step

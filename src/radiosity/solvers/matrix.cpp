@@ -1,18 +1,19 @@
 // The full matrix (paper section 2; Goral et al. 1984): the reference for all other methods.
 //
-// Form factors between all pairs of patches, by well-distributed rays (sampled_form_factors.h), and
-// the system B = E + rho F B solved to a residual of 1e-12. Several independent batches of the
-// factors give several solutions; their mean is the result, their spread its standard error. Each
-// step doubles the rays; the run ends when the estimated error is small enough (.002 unless asked
-// otherwise). With --factors exact, factors between patches that see each other fully are without
-// chance, by contour integration (exact_form_factors.h); rays are used for the other pairs alone.
-// With --factors hemicube a hemicube over each patch gives its factors (hemicube.h); that is one
-// step, and its error is not estimated (linear/hemicube_matrix.h).
+// Form factors between all pairs of patches are found by well-distributed rays
+// (sampled_form_factors.h), and the system B = E + rho F B is solved to a residual of 1e-12.
+// Several independent batches of the factors give several solutions; their mean is the result, and
+// their spread gives its standard error. Each step doubles the rays; the run ends when the
+// estimated error is small enough (.002 unless asked otherwise). With --factors exact, factors
+// between patches that see each other fully are found without chance, by contour integration
+// (exact_form_factors.h). Rays are used for the other pairs alone. With --factors hemicube, a
+// hemicube over each patch gives its factors (hemicube.h). That is one step, and its error is not
+// estimated (linear/hemicube_matrix.h).
 //
-// Consistent: a solution depends on its factors in a non-linear way, so its bias falls as one over
-// the rays, well below its error. Good up to some ten thousand patches: memory is 8 bytes per pair
-// of patches that see each other and batch. Exact factors are for small scenes: their time grows as
-// patches^2 faces.
+// The method is consistent: a solution depends on its factors in a non-linear way, so its bias
+// falls as one over the rays, well below its error. It is good up to some ten thousand patches:
+// memory is 8 bytes per batch and per pair of patches that see each other. Exact factors are for
+// small scenes: their time grows as patches^2 faces.
 
 #include "radiosity/form_factors/exact_form_factors.h"
 #include "radiosity/form_factors/factor_options.h"
@@ -38,11 +39,11 @@ namespace hemilux {
 namespace {
 
 constexpr std::size_t batches = 8;
-/// Rays per patch and batch at which the run ends whatever the error.
+/// The rays per patch and batch at which the run ends whatever the error.
 constexpr std::uint32_t most_rays = 1u << 20;
 
-/// The patches whose columns get the closed form: all that emit, unless they are so many that rays
-/// find them anyway.
+/// Returns the patches whose columns get the closed form: all that emit, unless they are so many
+/// that rays find them anyway.
 std::vector<std::uint32_t> few_emitters(const Mesh& mesh) {
     std::vector<std::uint32_t> emitters;
     for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
@@ -82,7 +83,8 @@ class MatrixSolver final : public Solver {
         return *done;
     }
 
-    /// Whether it was not interrupted; nothing where the rays have seen no way out for the light.
+    /// Returns whether it was not interrupted; nothing if the rays have seen no way out for the
+    /// light.
     [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
         const std::uint32_t rays = rays_ == 0 ? first_rays() : 2 * rays_;
         for (std::size_t r = 0; r < batches; ++r) {
@@ -114,14 +116,14 @@ class MatrixSolver final : public Solver {
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
   private:
-    /// A power of two, for which the points are best distributed.
+    /// Returns a power of two, for which the points are best distributed.
     [[nodiscard]] std::uint32_t first_rays() const {
         const double asked = std::clamp(input_.options.rays, 1.0, double(most_rays));
         return std::bit_ceil(static_cast<std::uint32_t>(std::ceil(asked)));
     }
 
-    /// For one batch, from its last solution on. The lost shares are those of the rows as they are,
-    /// of one kind or the other as rays tell; for emitters, what is known best.
+    /// Solves one batch, from its last solution on. The lost shares are those of the rows as they
+    /// are, of one kind or the other as rays tell; for emitters, they are what is known best.
     EnergyBalance solve(const SampledFormFactors& factors, std::span<const EmitterLoss> losses,
                         std::vector<Vec3>& radiosity) {
         const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
@@ -161,8 +163,8 @@ class MatrixSolver final : public Solver {
         }
     }
 
-    /// The share of all light that three rays stand for which were not lost and might have been:
-    /// what is emitted is all that is used, and one ray carries its part of what leaves all
+    /// Returns the share of all light that three rays stand for which were not lost and might have
+    /// been. What is emitted is all that is used, and one ray carries its part of what leaves all
     /// patches.
     [[nodiscard]] double missed_loss() const {
         if (exact_ || input_.needs.closed)
@@ -178,8 +180,8 @@ class MatrixSolver final : public Solver {
         return emitted > 0 ? rule_of_three * leaving / (rays * emitted) : 0;
     }
 
-    /// What dark patches may receive besides; by contour integration nothing is left to chance.
-    /// Emission with a closed form does not wait for a ray to find it.
+    /// Returns what dark patches may receive besides; by contour integration nothing is left to
+    /// chance. Emission with a closed form does not wait for a ray to find it.
     [[nodiscard]] std::vector<Vec3> missed_light() const {
         const std::size_t n = solution_.radiosity.size();
         if (exact_ || input_.needs.closed)

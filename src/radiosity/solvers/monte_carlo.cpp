@@ -4,19 +4,20 @@
 // The patch with the largest unshot energy A_i B_i shoots first, all of it at once, by rays from
 // random points in cosine-distributed directions. Each ray carries about the same power, the same
 // throughout the run, so a patch shoots rays in proportion to what it has gathered. No form factor
-// is computed: a patch receives what the rays that hit it bring. Fractions of a ray are settled
-// by chance, which keeps the estimate unbiased and ends the step by itself: a patch with a third of
-// a ray shoots a whole one in a third of all cases.
+// is computed: a patch receives what the rays that hit it bring. Fractions of a ray are settled by
+// chance: a patch with a third of a ray shoots a whole one in a third of all cases. This keeps the
+// estimate unbiased and ends the step by itself.
 //
 // Each step is such a solution from emission on; the result is their mean (stepwise.h). With
-// --one-shot a step is one shot instead, so that a picture can be shown each time a patch has shot
-// what it held, as the paper has it. The run then ends with this one solution, that of the first
-// step: its error is unknown.
+// --one-shot, a step is one shot instead, so that a picture can be shown each time a patch has shot
+// what it held, as in the paper. The run then ends with this one solution, that of the first step:
+// its error is unknown.
 //
-// Parameter: --rays, the mean number of rays per patch and solution.
-// Good as a yardstick: nothing but rays. Bad where small patches matter, whose error is that of
-// counting few hits, and with many threads: a shot depends on the one before, so only the rays of
-// one patch are traced at once. Costs one ray after the other and no memory to speak of.
+// The parameter is --rays, the mean number of rays per patch and solution. The method is good as a
+// yardstick: it uses nothing but rays. It is bad where small patches matter, whose error is that of
+// counting few hits. It is also bad with many threads: a shot depends on the one before, so only
+// the rays of one patch are traced at once. It traces one ray after another and needs hardly any
+// memory.
 
 #include "geometry/frame.h"
 #include "parallel/workers.h"
@@ -36,11 +37,12 @@
 namespace hemilux {
 namespace {
 
-/// Rays with a random stream of their own, which one thread traces.
+/// The number of rays with a random stream of their own, which one thread traces.
 constexpr std::size_t rays_per_stream = 512;
-/// Rays whose receivers are kept until they are summed; whole streams. A lamp may shoot millions.
+/// The number of rays whose receivers are kept until they are summed; whole streams. An emitter may
+/// shoot millions.
 constexpr std::size_t rays_per_batch = 2048 * rays_per_stream;
-/// Fewer than this are traced sooner than other threads would be started.
+/// Fewer rays than this are traced before other threads could be started.
 constexpr std::size_t rays_for_one_thread = 2048;
 
 /// One solution of all bounces, shot by shot. `result` comes with the emission as radiosity and
@@ -58,7 +60,7 @@ class Shots {
 
     [[nodiscard]] bool done() const { return !(order_.largest() > 0); }
 
-    /// Of the patch that holds most. False when interrupted.
+    /// Shoots from the patch that holds most. Returns false when interrupted.
     bool shoot_next() {
         if (input_.monitor.interrupted)
             return false;
@@ -80,7 +82,7 @@ class Shots {
         return true;
     }
 
-    /// Radiosity from all power that each patch has received so far.
+    /// Sets the radiosity from all power that each patch has received so far.
     void reflect() {
         result_.absorbed = absorbed_on_backs_;
         for (std::uint32_t i = 0; i < received_.size(); ++i) {
@@ -110,7 +112,7 @@ class Shots {
                 stream};
     }
 
-    /// Some of the shot's rays, from `first` on.
+    /// Traces some of the shot's rays, from `first` on.
     void shoot(const Shot& shot, std::size_t first) {
         const std::size_t rays = std::min(shot.rays - first, rays_per_batch);
         receivers_.resize(rays);
@@ -176,7 +178,7 @@ class MonteCarloSolver final : public StepwiseSolver {
     }
 };
 
-/// The first step of the same, whose shots are the steps.
+/// A solver that takes the first step of the same, and whose steps are its shots.
 class OneShotSolver final : public Solver {
   public:
     explicit OneShotSolver(const SolverInput& input)
@@ -199,7 +201,7 @@ class OneShotSolver final : public Solver {
     [[nodiscard]] bool finished() const override { return shots_ && shots_->done(); }
 
   private:
-    /// The pilot as StepwiseSolver has it.
+    /// Shoots the pilot as StepwiseSolver does.
     bool begin() {
         const bool found = mean_.find_ray_power([&](double ray_power, StepResult& pilot) {
             return shoot_all(input_, {~std::uint64_t{0}, 1, ray_power, task_.workers}, pilot);
@@ -212,7 +214,8 @@ class OneShotSolver final : public Solver {
         return true;
     }
 
-    /// The light of all shots so far counts as the only step of a mean; each shot as a step.
+    /// Publishes the light of all shots so far as the only step of a mean; each shot counts as a
+    /// step.
     void publish() {
         const std::uint32_t steps = mean_.solution.steps;
         mean_.solution = start_;

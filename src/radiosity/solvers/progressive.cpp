@@ -4,29 +4,31 @@
 //
 //     B_i += rho_i dB_s F_is,
 //
-// F_is being the form factor from the receiver i to the shooter s, so that the one from s to i need
-// not be known (A_i F_is = A_s F_si). Form factors are computed on the fly as by Wallace, Elmquist
-// and Haines (1989): from points of the receiver, the closed form of point and polygon times the
-// visibility along a ray to the shooter, with more points where more light may come
-// (pair_factor.h). Each shot draws new ones.
+// where F_is is the form factor from the receiver i to the shooter s, so that the one from s to i
+// need not be known (A_i F_is = A_s F_si). Form factors are computed on the fly as by Wallace,
+// Elmquist and Haines (1989). At a point of the receiver, this is the closed form of point and
+// polygon times the visibility along a ray to the shooter. There are more points where more light
+// may come (pair_factor.h). Each shot draws new ones.
 //
-// Parameter: --rays. A step is as many shots as use up so many points per patch, one at least; and
-// the form factors are the more accurate the more rays are asked for. When hardly any power is left
-// unshot, a pass is done: with 64 rays it is within 1 or 2 % of the exact solution. The next one
-// begins again, four times as accurate, and the result is the mean of the passes by what they are
-// worth. --one-shot makes a step of each shot and ends with the first pass, --ambient shows what is
-// still unshot, --overshoot shoots ahead (ProgressiveOptions in progressive_pass.h).
+// The parameter is --rays. A step is as many shots as use up so many points per patch, one at
+// least. The form factors are the more accurate, the more rays are asked for. When hardly any power
+// is left unshot, a pass is done: with 64 rays it is within 1 or 2 % of the exact solution. The
+// next one begins again, four times as accurate, and the result is the mean of the passes, weighted
+// by their rays. --one-shot makes a step of each shot and ends with the first pass. --ambient shows
+// what is still unshot, and --overshoot shoots ahead (ProgressiveOptions in progressive_pass.h).
 //
-// With --factors hemicube the shooter's hemicube shows the form factors to all others at once, one
-// ray a pixel, as Cohen et al. (1988) have them: F_is = F_si A_s / A_i. Another pass would see the
-// same, so the run ends with the first; its error is not random, and is not estimated (hemicube.h).
+// With --factors hemicube, the shooter's hemicube shows the form factors to all others at once,
+// with one ray per pixel, as in Cohen et al. (1988): F_is = F_si A_s / A_i. Another pass would see
+// the same, so the run ends with the first; its error is not random, and is not estimated
+// (hemicube.h).
 //
-// The standard error holds that of each patch, pooled with its neighbours that are like it, that of
-// all light together spread evenly, and what is still unshot (progressive_pass.h).
+// The standard error has three parts: that of each patch, pooled with its neighbours that are like
+// it; that of all light together, spread evenly; and what is still unshot (progressive_pass.h).
 //
-// Good for a first picture after few shots, and for the shadows of few small lamps. Bad with many
-// patches and high reflectances, as each patch shoots many times. No memory to speak of. Not
-// unbiased: after a finite number of shots some light is missing.
+// The method is good for a first picture after few shots, and for the shadows of few small
+// emitters. It is bad with many patches and high reflectances, as each patch shoots many times. It
+// needs hardly any memory. It is not unbiased: after a finite number of shots some light is
+// missing.
 
 #include "radiosity/form_factors/factor_options.h"
 #include "radiosity/progressive/progressive_pass.h"
@@ -46,12 +48,12 @@
 namespace hemilux {
 namespace {
 
-/// For each of --rays, shadow rays in a shot that gives a receiver as much light as the mean patch
-/// reflects in the end; other shots get them in proportion. This many in the first pass; four times
-/// as many in the next, which about halves the error.
+/// For each of --rays, a receiver traces this many shadow rays in a shot that gives it as much
+/// light as the mean patch reflects in the end. Other shots get them in proportion. This holds for
+/// the first pass; the next has four times as many, which about halves the error.
 constexpr double rays_per_light_unit = 2, growth_of_passes = 4;
 
-/// The error is known to about a quarter, as from so many independent samples: pairs have two to
+/// The error is known to about a quarter, as from so many independent samples. Pairs have two to
 /// four sets of points, and what becomes of the light later is guessed from the mean reflectance.
 constexpr double samples_of_error = 9;
 
@@ -85,7 +87,7 @@ class ProgressiveSolver final : public Solver {
                 break;
             pass_.shoot(solution_.steps + 1);
             cut_short = input_.monitor.interrupted;
-            // At the end of the time the shots of this step count.
+            // At the end of the time, the shots of this step count.
             if (cut_short && (input_.monitor.interrupted.wished() || pass_.points() == before))
                 return false;
             if (is_one_shot_)
@@ -140,8 +142,9 @@ class ProgressiveSolver final : public Solver {
         ++solution_.steps;
     }
 
-    /// Each patch errs for itself, but for the part that is shared: that makes one part of the
-    /// error (error_spread.h), however many patches there are.
+    /// Notes the errors of the patches. Each patch has an error of its own, except for the part
+    /// that is shared. That makes one part of the error (error_spread.h), however many patches
+    /// there are.
     void note_errors(const Estimate& estimate) {
         if (by_hemicubes_) {
             constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -173,7 +176,7 @@ class ProgressiveSolver final : public Solver {
     bool is_one_shot_;
     bool by_hemicubes_; ///< another pass would see the same
     ProgressivePass pass_;
-    // All passes before.
+    // These are of all passes before.
     Estimate mean_;
     double weight_ = 0;
     std::uint32_t passes_ = 0;

@@ -1,20 +1,21 @@
-// Stored transport: rays tell form factors in both directions, and a linear system all bounces.
+// Stored transport: rays give form factors in both directions, and a linear system all bounces.
 //
 // Each patch looks around along well-distributed rays and keeps which patches they hit, not what
-// light they brought (stored_rays.h). What two patches saw of each other is put together, all rows
-// are closed (exchange_matrix.h), and all bounces are solved on the result by conjugate gradients
+// light they brought (stored_rays.h). What two patches saw of each other is put together, and all
+// rows are closed (exchange_matrix.h). All bounces are solved on the result by conjugate gradients
 // (transport_system.h): no ray is traced twice for another bounce. Small emitters are reached by
 // shadow rays with their exact factor (direct_light.h).
 //
-// Parameter: --rays, of the first step, half of them random, half to the emitters. Each step adds
-// as many, or as many as there are, or as many as an error asked for will take (ray_plan.h), of the
-// kind that the error comes from. Four independent batches of both give four solutions, whose
-// spread is the standard error (step_errors.h); the result is the solution of all rays together.
+// The parameter is --rays, the rays of the first step, half of them random, half to the emitters.
+// Each step adds as many, or as many as there are, or as many as an error asked for will take
+// (ray_plan.h). They are of the kind that the error comes from. Four independent batches of both
+// give four solutions, whose spread gives the standard error (step_errors.h); the result is the
+// solution of all rays together.
 //
-// Consistent: the solution depends on what was counted in a non-linear way, so its bias falls as
-// one over the rays, and its error more slowly. Good nearly everywhere: it needs ten to fifty times
-// fewer rays than shooting, most where light is even and surfaces reflect much. Costs 8 bytes per
-// patch and patch that it saw, and twice as many more to solve.
+// The method is consistent: the solution depends on what was counted in a non-linear way, so its
+// bias falls as one over the rays, and its error more slowly. It is good nearly everywhere: it
+// needs ten to fifty times fewer rays than shooting, most where light is even and surfaces reflect
+// much. It costs 8 bytes per patch and patch that it saw, and twice as many more to solve.
 
 #include "radiosity/form_factors/exchange_matrix.h"
 #include "radiosity/linear/energy_ledger.h"
@@ -44,7 +45,7 @@ namespace {
 
 constexpr unsigned batches = StoredRays::batches;
 
-/// Bytes that are needed to put counts together, for each byte of them.
+/// The bytes that are needed to put counts together, for each byte of them.
 constexpr double merging = 3.5;
 
 class StoredTransportSolver final : public Solver {
@@ -70,7 +71,7 @@ class StoredTransportSolver final : public Solver {
     [[nodiscard]] bool finished() const override { return plan_.at_most(); }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
-    /// Also within a step that was interrupted.
+    /// Saves the state, also within a step that was interrupted.
     void save(StateWriter& state) const override {
         light_.save(state);
         state.add(std::uint64_t{planned_});
@@ -104,7 +105,8 @@ class StoredTransportSolver final : public Solver {
                 RayGoal{!input.options.stop.steps, input.options.stop.error.value_or(0)}};
     }
 
-    /// Whether it was not interrupted; nothing where the rays have seen no way out for the light.
+    /// Returns whether it was not interrupted; nothing if the rays have seen no way out for the
+    /// light.
     [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
         if (!plan_.has_begun() && !begin())
             return false;
@@ -133,7 +135,7 @@ class StoredTransportSolver final : public Solver {
         return true;
     }
 
-    /// A few rays find the parts of the scene that light can reach, which alone get more.
+    /// Finds by a few rays the parts of the scene that light can reach, which alone get more.
     [[nodiscard]] bool begin() {
         plan_.begin();
         if (!trace(0))
@@ -149,14 +151,14 @@ class StoredTransportSolver final : public Solver {
         plan_.aim(aim_.importance());
     }
 
-    /// The rays that are planned. Whether it was not interrupted.
+    /// Traces the rays that are planned. Returns whether it was not interrupted.
     [[nodiscard]] bool trace(double share_of_step) {
         input_.monitor.phase = "rays";
         traced_ += rays_.trace_up_to(plan_.rays(), share_of_step, workers_);
         return !input_.monitor.interrupted;
     }
 
-    /// Unless an interrupted step is to be taken up.
+    /// Plans the rays of a step, unless an interrupted step is to be taken up.
     void plan() {
         if (planned_)
             return;
@@ -174,7 +176,7 @@ class StoredTransportSolver final : public Solver {
         planned_ = true;
     }
 
-    /// How many times as many rays may be stored.
+    /// Returns how many times as many rays may be stored.
     [[nodiscard]] double room_to_grow() const {
         const auto stored = static_cast<double>(rays_.bytes_of_counts());
         return input_.options.memory == 0 || solution_.steps == 0
@@ -182,7 +184,7 @@ class StoredTransportSolver final : public Solver {
                    : static_cast<double>(input_.options.memory) / (merging * stored);
     }
 
-    /// What the step has found, how far off it may be, and what the next one depends on.
+    /// Sets what the step has found, how large its error may be, and what the next step depends on.
     void combine(const ExchangeMatrix& all) {
         const RowSpread rows = spread_of_rows(all, set_light(), workers_);
         const TransportResult result{input_.mesh, system_,        light_,       all,
@@ -203,7 +205,7 @@ class StoredTransportSolver final : public Solver {
         ++solution_.steps;
     }
 
-    /// Of all patches. Returns what each sends that rays at random are to find.
+    /// Sets the light of all patches. Returns what each sends that random rays must find.
     std::vector<Vec3> set_light() {
         std::vector<Vec3> sent;
         for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i) {

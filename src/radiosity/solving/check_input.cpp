@@ -31,7 +31,7 @@ void check_material(const Mesh& mesh, std::uint32_t patch) {
                  "the emitted power", 0);
 }
 
-/// Channel by channel the brightest emitter must not be too faint.
+/// Throws SolveError where the brightest emitter of a channel is too faint.
 void check_faint_channels(const Mesh& mesh) {
     for (int c = 0; c < 3; ++c) {
         const auto emission = [&](std::uint32_t i) { return mesh.material(i).emission[c]; };
@@ -47,7 +47,7 @@ void check_faint_channels(const Mesh& mesh) {
     }
 }
 
-/// Up to three names, and how many more.
+/// Lists up to three names, and how many more there are.
 std::string list(const std::set<std::string>& names) {
     constexpr std::size_t most = 3;
     std::string text;
@@ -78,8 +78,9 @@ std::string describe(const Mesh& mesh, const LosslessComponent& component) {
            ". A reflectance below 1 on one of them lets light end";
 }
 
-/// Where the geometry does not prove that a scene is closed, so many rays that find no way out mean
-/// that there is none, or that light would be reflected about as often before it leaves.
+/// Returns the number of rays that show a closed scene, where the geometry does not prove it. If so
+/// many find no way out, there is none, or light would be reflected about as often before it
+/// leaves.
 double enough_rays(const SolverInput& input) {
     constexpr double of_closed = 3e5, of_others = 2e6;
     const double asked = input.options.rays * double(input.mesh.patches().size());

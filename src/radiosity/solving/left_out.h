@@ -1,5 +1,5 @@
 #pragma once
-// The work that a scene did not need and that was left out, in words.
+// Describes in words the work that a scene did not need and that was left out.
 
 #include <string>
 #include <vector>
@@ -15,9 +15,9 @@ struct LeftOut {
     std::string what, why, saved;
 };
 
-/// What every method leaves out.
+/// Returns what every method leaves out.
 [[nodiscard]] std::vector<LeftOut> left_out(const Needs& needs);
-/// What a method left out of its work in the run that found `solution`.
+/// Returns what a method left out of its work in the run that found `solution`.
 [[nodiscard]] std::vector<LeftOut> left_out(const Needs& needs, const MethodWork& work,
                                             const Solution& solution);
 

@@ -15,7 +15,7 @@
 namespace hemilux {
 namespace {
 
-/// Of each patch at first; four times as many whenever they find nothing.
+/// The rays of each patch at first; they become four times as many whenever they find nothing.
 constexpr double first_rays = 8;
 constexpr std::size_t patches_per_chunk = 4;
 
@@ -67,7 +67,7 @@ class Search {
         return list;
     }
 
-    /// Rays of all these; whether they found a way out for some patch.
+    /// Traces rays of all these patches. Returns whether they found a way out for some patch.
     bool release(const std::vector<std::uint32_t>& shooters, std::size_t rays) {
         ++round_;
         std::vector<std::vector<std::uint32_t>> freed(shooters.size());
@@ -83,7 +83,8 @@ class Search {
         return any;
     }
 
-    /// Patches that are seen from where light gets out are those from which it does.
+    /// Returns the patches that a shooter frees: those that are seen from where light gets out are
+    /// those from which it does.
     [[nodiscard]] std::vector<std::uint32_t> freed_by(std::uint32_t shooter,
                                                       std::size_t rays) const {
         std::vector<std::uint32_t> freed;
@@ -109,7 +110,7 @@ class Search {
         return receivers;
     }
 
-    /// What is seen from the brightest emitter, directly or through others.
+    /// Returns the patches that are seen from the brightest emitter, directly or through others.
     [[nodiscard]] std::vector<std::uint32_t> lit_part() {
         constexpr std::size_t rays = 256;
         std::uint32_t brightest = 0;
@@ -135,7 +136,7 @@ class Search {
     std::uint64_t round_ = 0;
 };
 
-/// Whether the search would be the same in both channels.
+/// Returns whether the search would be the same in both channels.
 bool alike(const Mesh& mesh, int a, int b) {
     return std::ranges::all_of(mesh.scene().materials, [&](const Material& m) {
         return (m.reflectance[a] >= 1) == (m.reflectance[b] >= 1) &&

@@ -1,11 +1,11 @@
 #pragma once
-// Light that cannot get out: patches that reflect all of it and from which all of it falls on such
-// patches again. If one of them emits, there is no finite solution.
+// Finds light that cannot get out: patches that reflect all of it and from which all of it falls on
+// such patches again. If one of them emits, there is no finite solution.
 //
-// Whether a scene is closed cannot be told from its faces with certainty, so rays show it: patches
-// from which one ray has left the scene, or fallen on something that absorbs, let light out, and so
-// do those whose rays meet them. Patches that remain when many rays have found
-// no other way out trap the light. Only reflectances of exactly 1 are looked at.
+// Faces do not tell with certainty whether a scene is closed, so rays show it. Patches from which
+// one ray has left the scene, or fallen on something that absorbs, let light out, and so do those
+// whose rays meet them. Patches that remain when many rays have found no other way out trap the
+// light. The search looks only at reflectances of exactly 1.
 
 #include <cstdint>
 #include <optional>

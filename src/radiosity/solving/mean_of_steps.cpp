@@ -41,8 +41,9 @@ bool MeanOfSteps::find_ray_power(const SolveOnce& pilot) {
     return true;
 }
 
-/// Mean and spread by Welford (1962). What patches send by the solution and what rays have carried
-/// differ by chance: numbers of rays are whole, and the series of bounces ends with the last ray.
+/// Updates mean and spread by Welford (1962). What patches send by the solution and what rays have
+/// carried differ by chance. Numbers of rays are whole, and the series of bounces ends with the
+/// last ray.
 void MeanOfSteps::add(const StepResult& step) {
     check_finite(input_.mesh, step.radiosity, "the radiosity", solution.steps + 1);
     const double n = ++solution.steps;
@@ -66,7 +67,7 @@ void MeanOfSteps::add(const StepResult& step) {
     solution.energy.unshot = to_world * (power_leaving() - sums.sent.value() / n);
 }
 
-/// How much of the reflected light of the mean a step has: the error that all patches share.
+/// Notes how much of the reflected light of the mean a step has: the error that all patches share.
 void MeanOfSteps::note_level(const std::vector<Vec3>& radiosity) {
     double of_step = 0, of_mean = 0;
     for (std::uint32_t i = 0; i < radiosity.size(); ++i) {
@@ -82,11 +83,11 @@ void MeanOfSteps::note_level(const std::vector<Vec3>& radiosity) {
         sums.level_squares += (level - before) * (level - sums.level);
 }
 
-/// A patch that no ray has hit shows no spread, though one ray more might have hit it: a standard
-/// error is never below what one ray brings. Summed over all patches that would be too much; the
-/// variances themselves are right on average. The error is that of single patches, of which there
-/// are many, and that of the level, which is one and is known from few steps: its part is reported
-/// larger than it shows (error_spread.h).
+/// Sets the errors. A patch that no ray has hit shows no spread, though one more ray might have hit
+/// it. So a standard error is never below what one ray brings. Summed over all patches that would
+/// be too much; the variances themselves are right on average. The error is that of single patches,
+/// of which there are many, and that of the level, which is one and is known from few steps. Its
+/// part is reported larger than it shows (error_spread.h).
 void MeanOfSteps::estimate_errors() {
     const double n = solution.steps;
     const double level_freedom = std::max(n - 1, 2.0); // one alone would bound nothing
@@ -103,7 +104,7 @@ void MeanOfSteps::estimate_errors() {
         value += area * glm::dot(reflected, reflected);
         alone = std::hypot(alone, area * glm::dot(reflected, glm::sqrt(variance[i])));
     }
-    // The relative variance of the level, less what patches that err each for itself make of it.
+    // The level has this relative variance, less what patches that err independently make of it.
     const double shown = sums.level_squares / (n * (n - 1));
     const double of_patches = value > 0 ? (alone / value) * (alone / value) : 0;
     const double level = std::max(shown - of_patches, 0.0);
@@ -131,12 +132,12 @@ double MeanOfSteps::emitted() const {
     return mean_of_channels(solution.energy.emitted / input_.mesh.frame().area_to_world(1.0));
 }
 
-/// The weight of the squared error of a patch.
+/// Returns the weight of the squared error of a patch [local area].
 double MeanOfSteps::weighted_area(std::uint32_t patch) const {
     return solution.weight_of(patch) * input_.mesh.patches()[patch].area;
 }
 
-/// By the solution [W, local units].
+/// Returns the power that leaves the patches by the solution [W, local units].
 Vec3 MeanOfSteps::power_leaving() const {
     CompensatedSum<Vec3> power;
     for (std::uint32_t i = 0; i < solution.radiosity.size(); ++i)
@@ -144,7 +145,8 @@ Vec3 MeanOfSteps::power_leaving() const {
     return power.value();
 }
 
-/// The power of a ray in the mean of the steps, local units; 0 where rays have none in common.
+/// Returns the power of a ray in the mean of the steps, local units; 0 where rays have none in
+/// common.
 Vec3 MeanOfSteps::mean_ray() const {
     const double emitted_power = mean_of_channels(solution.energy.emitted);
     if (!equal_rays_ || !(emitted_power > 0))
@@ -152,7 +154,8 @@ Vec3 MeanOfSteps::mean_ray() const {
     return ray_power / (emitted_power * solution.steps) * solution.energy.emitted;
 }
 
-/// The most that a ray may bring of a channel: that of the emitter which shines in it most purely.
+/// Returns the most that a ray may bring of a channel: that of the emitter which shines in it most
+/// purely.
 Vec3 MeanOfSteps::purest_ray() const {
     Vec3 share(0.0);
     for (const Facet& facet : input_.mesh.scene().facets) {
@@ -163,8 +166,8 @@ Vec3 MeanOfSteps::purest_ray() const {
     return mean_of_channels(mean_ray()) * share;
 }
 
-/// Whether the squares of the steps are those of so few that all bring the same, the others
-/// nothing.
+/// Returns whether the squares of the steps are those of so few that all bring the same, and the
+/// others nothing.
 bool MeanOfSteps::is_of_few_steps(std::uint32_t patch) const {
     constexpr double few = 4;
     const Vec3 reflected = solution.radiosity[patch] - input_.mesh.material(patch).emission;
@@ -173,10 +176,10 @@ bool MeanOfSteps::is_of_few_steps(std::uint32_t patch) const {
     return n * of_mean <= few * (of_mean + deviations.x + deviations.y + deviations.z);
 }
 
-/// What a single ray of all steps so far has added to the patch's radiosity, on average; where none
-/// has hit it, what one of mean power would add, or where patches get fewer rays one of theirs. The
-/// same where the few that have hit it were weak, as those of small cells are: they show no spread
-/// of what a strong one would have brought.
+/// Returns what a single ray of all steps so far has added to the patch's radiosity, on average.
+/// Where none has hit it, returns what one of mean power would add, or where patches get fewer rays
+/// one of theirs. It does so too where the few that have hit it were weak, as those of small cells
+/// are. These show no spread of what a strong one would have brought.
 Vec3 MeanOfSteps::one_ray(std::uint32_t patch) const {
     constexpr double weak = .5;
     const Material& material = input_.mesh.material(patch);
@@ -192,8 +195,8 @@ Vec3 MeanOfSteps::one_ray(std::uint32_t patch) const {
     return were_weak && is_of_few_steps(patch) ? of_mean_power : each;
 }
 
-/// The squared error, weighted by area, of light that no ray has met so far: by the rule of three,
-/// that of three more rays of mean power, each of which may hit any patch that counts.
+/// Returns the squared error, weighted by area, of light that no ray has met so far. By the rule of
+/// three it is that of three more rays of mean power, each of which may hit any patch that counts.
 double MeanOfSteps::missed() const {
     const Vec3 power = rule_of_three * mean_ray();
     double area = 0, squares = 0;

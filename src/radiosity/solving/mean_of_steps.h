@@ -1,7 +1,7 @@
 #pragma once
-// The mean of steps each of which is a complete solution of all bounces, independent of the others
-// (docs/decisions.md, D11). Paper section 5b, point 2: "the radiosity of each patch computed up
-// until the previous step is combined with the radiosity computed in the current step".
+// Computes the mean of steps each of which is a complete solution of all bounces, independent of
+// the others (docs/decisions.md, D11). Paper section 5b, point 2: "the radiosity of each patch
+// computed up until the previous step is combined with the radiosity computed in the current step".
 //
 // The spread of the steps is the standard error of their mean (D16, D19).
 
@@ -14,7 +14,7 @@
 
 namespace hemilux {
 
-/// What one step found. Powers are in local units.
+/// The findings of one step. Powers are in local units.
 struct StepResult {
     StepResult() = default;
     /// Begins a step: nothing has been shot, and the radiosity is the emission.
@@ -27,45 +27,45 @@ struct StepResult {
     std::uint64_t rays = 0;
 };
 
-/// What the steps so far add up to, besides their mean. Powers are in local units.
+/// The sums over the steps so far, besides their mean. Powers are in local units.
 struct StepSums {
     std::vector<Vec3> squares; ///< by patch: sum of squared deviations of the radiosity
-    /// How bright all light of a step is beside the mean of the steps: its mean, and the sum of its
-    /// squared deviations.
+    /// The brightness of all light of a step beside the mean of the steps [-]: its mean, and the
+    /// sum of its squared deviations.
     double level = 0, level_squares = 0;
     CompensatedSum<Vec3> absorbed, escaped, sent; ///< power
 };
 
 class MeanOfSteps {
   public:
-    /// Without `equal_rays` no power is common to all rays: each patch shoots as many as any other.
-    /// Throws SolveError as solution_before_steps() does.
+    /// Begins without steps. Without `equal_rays` no power is common to all rays: each patch shoots
+    /// as many as any other. Throws SolveError as solution_before_steps() does.
     MeanOfSteps(const SolverInput& input, bool equal_rays);
 
     /// Solves one step, whose rays carry `ray_power` on average; false when interrupted.
     using SolveOnce = std::function<bool(double ray_power, StepResult& result)>;
-    /// All bounces together carry several times the emitted power; how many depends on the scene. A
-    /// pilot of few rays finds it, so that a step shoots as many rays as were asked for. The power
-    /// per ray is then the same in all steps, which keeps them independent and equally weighted.
-    /// The solution counts the rays of the pilot, but has none of its light. False when
-    /// interrupted.
+    /// Finds the power per ray by a pilot of few rays, so that a step shoots as many rays as were
+    /// asked for. All bounces together carry several times the emitted power, and how many depends
+    /// on the scene. The power is then the same in all steps, which keeps them independent and
+    /// equally weighted. The solution counts the rays of the pilot, but has none of its light.
+    /// Returns false when interrupted.
     bool find_ray_power(const SolveOnce& pilot);
 
     /// Combines a step with those before. Throws SolveError if its radiosity is not finite.
     void add(const StepResult& step);
     /// Finds the errors of the solution from `sums`. Requires two steps.
     void estimate_errors();
-    /// The power that all patches emit, mean of channels [W/m2 times area in local units].
+    /// Returns the power that all patches emit, mean of channels [W/m2 times area in local units].
     [[nodiscard]] double emitted() const;
     [[nodiscard]] bool equal_rays() const { return equal_rays_; }
 
     Solution solution;
     StepSums sums;
     /// The power that each ray is to carry on average, mean of channels [W/m2 times area in local
-    /// units]: 0 before find_ray_power(), infinite where rays are not equal.
+    /// units]. It is 0 before find_ray_power(), and infinite where rays are not equal.
     double ray_power = 0;
-    /// By patch, how many times the rays that its power would give it; each carries as much less.
-    /// Empty: 1.
+    /// The ratio, by patch, of the rays to those that its power would give it; each carries as much
+    /// less. It is empty where all are 1.
     std::vector<double> aimed;
 
   private:

@@ -1,5 +1,6 @@
 #pragma once
-// What the program and the tests know of a method: its name, what it does and needs, its options.
+// Defines what the program and the tests know of a method: its name, what it does and needs, its
+// options.
 
 #include "radiosity/solving/method_option.h"
 #include "radiosity/solving/solver.h"
@@ -16,11 +17,11 @@ namespace hemilux {
 class Strategy;
 class Hemisphere;
 class Workers;
-/// How a stepwise shooting method makes its strategy (strategy.h).
+/// Makes the strategy of a stepwise shooting method (strategy.h).
 using MakeStrategy = std::unique_ptr<Strategy> (*)(const SolverInput&, const Hemisphere&,
                                                    const Workers&);
 
-/// Work of a method that a scene may not need, and what comes of it.
+/// The work of a method that a scene may not need, and what comes of it.
 struct MethodWork {
     bool densities = false;      ///< counts surfaces before it solves
     bool pairs = false;          ///< looks from patches to patches
@@ -30,7 +31,8 @@ struct MethodWork {
     bool estimates_error = true; ///< else a run ends by itself, and how far off it is is not known
 };
 
-/// What the program takes a method for where the user names none. Each role is one method's.
+/// The roles for which the program takes a method where the user names none. Each role is one
+/// method's.
 enum class Role {
     standard,   ///< solves
     reference,  ///< is taken for the truth in comparisons
@@ -39,7 +41,7 @@ enum class Role {
     forerunner, ///< shows how they were divided before
 };
 
-/// A method as the user picks it. What is not of all methods may be left out.
+/// A method as the user picks it. Members that not all methods need may be left out.
 struct Method {
     std::string_view name;    ///< of --method
     std::string_view summary; ///< one line for --help, with the source
@@ -51,23 +53,24 @@ struct Method {
     MakeStrategy strategy = nullptr; ///< what it shoots with; nullptr if it is no shooting method
     MethodWork work = {};            ///< what it does that a scene may not need
     bool saves = false;              ///< save and load are there; all shooting methods have them
-    /// The same on one page, slow and obviously right (plain/plain.h); nullptr where there is none.
+    /// Makes the same on one page, slow and obviously right (plain/plain.h); nullptr where there is
+    /// none.
     std::unique_ptr<Solver> (*plain)(const SolverInput&) = nullptr;
     std::size_t most_plain_patches = std::numeric_limits<std::size_t>::max(); ///< of its page
     std::optional<Role> role = {};
     bool aims = false; ///< --for changes it
 
-    /// Its own options. Several methods may declare one of the same name: the first in alphabetical
-    /// order knows all its values, the others may take fewer.
+    /// Returns its own options. Several methods may declare one of the same name: the first in
+    /// alphabetical order knows all its values, the others may take fewer.
     std::vector<MethodOption> (*options)() = nullptr;
     /// Throws std::invalid_argument with what is wrong where options do not go together, or not
-    /// with so many patches; 0: their number is not known yet.
+    /// with so many patches. If `patches` is 0, their number is not known yet.
     void (*check)(const SolveOptions&, std::size_t patches) = nullptr;
     /// Changes what it does (`work`) to what it does with these options.
     void (*adapt)(MethodWork&, const SolveOptions&) = nullptr;
-    /// Bytes that it takes at the peak besides solutions and rays under way, roughly.
+    /// Returns roughly the bytes that it takes at the peak besides solutions and rays under way.
     double (*bytes)(const SolveOptions&, double patches) = nullptr;
-    /// Options that make it the one to solve with where --method is not given.
+    /// The options that make it the one to solve with where --method is not given.
     std::span<const std::string_view> implied_by = {};
     std::string_view former_name = {}; ///< what --method takes too; empty where there is none
 
@@ -75,7 +78,7 @@ struct Method {
     [[nodiscard]] std::vector<MethodOption> own_options() const {
         return options ? options() : std::vector<MethodOption>{};
     }
-    /// What it does with these options.
+    /// Returns what it does with these options.
     [[nodiscard]] MethodWork work_with(const SolveOptions& chosen) const {
         MethodWork done = work;
         if (adapt)
@@ -90,11 +93,11 @@ template <class Class>
     return std::make_unique<Class>(input);
 }
 
-/// All methods, one per file of strategies/ and solvers/, in alphabetical order.
+/// Returns all methods, one per file of strategies/ and solvers/, in alphabetical order.
 [[nodiscard]] std::span<const Method* const> methods();
-/// Finds it by its name or its former name; nullptr if there is no such method.
+/// Finds a method by its name or its former name; nullptr if there is no such method.
 [[nodiscard]] const Method* find_method(std::string_view name);
-/// The one that has this role.
+/// Returns the method that has this role.
 [[nodiscard]] const Method& method_of(Role role);
 
 } // namespace hemilux

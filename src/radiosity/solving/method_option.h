@@ -1,6 +1,6 @@
 #pragma once
-// An option of one method, declared in the method's own file. The command line, its checks, --help,
-// --config, completions, checkpoints and statistics follow from the declaration:
+// Defines an option of one method, declared in the method's own file. The command line, its checks,
+// --help, --config, completions, checkpoints and statistics follow from the declaration:
 //
 //     struct RingOptions { bool open = false; std::uint32_t rings = 4; };
 //     constexpr std::array<std::uint32_t, 3> rings{2, 4, 8};
@@ -27,30 +27,30 @@ namespace hemilux {
 struct MethodOption {
     std::string name; ///< as `--rings`
     std::string help; ///< one line for --help, which names the methods before it
-    /// What may follow it, as `density`; capitals stand for other text, as in `hemicube:N`.
-    /// Nothing: it is a flag.
+    /// The texts that may follow it, as `density`; capitals stand for other text, as in
+    /// `hemicube:N`. A flag has none.
     std::vector<std::string> values;
     /// Sets it; false for a text that is none of the values, which for a flag is all but "yes".
     /// Throws std::invalid_argument with what was expected where there is more to say.
     std::function<bool(SolveOptions&, std::string_view)> set;
-    /// Its value; "yes" or "no" of a flag.
+    /// Returns its value; "yes" or "no" of a flag.
     std::function<std::string(const SolveOptions&)> get;
     bool on_page = true;         ///< the method's page (Method::plain) has it, too
     bool resumable = true;       ///< a run with it can be saved
     bool makes_variants = false; ///< `compare` takes METHOD-VALUE for a method
     std::string excludes = {};   ///< the name of another, which may not be given with it
 
-    /// Whether it was changed.
+    /// Returns whether it was changed.
     [[nodiscard]] bool is_set(const SolveOptions& options) const {
         return get(options) != get(SolveOptions{});
     }
-    /// As the user would write it.
+    /// Returns the option as the user would write it.
     [[nodiscard]] std::string text(const SolveOptions& options) const {
         return values.empty() ? name : name + " " + get(options);
     }
 };
 
-/// One that is given or not.
+/// Makes an option that is given or not.
 template <class Own>
 [[nodiscard]] MethodOption flag_option(const std::string& name, const std::string& help,
                                        bool Own::*member) {
@@ -67,7 +67,7 @@ template <class Own>
             }};
 }
 
-/// One of these whole numbers, which outlive it.
+/// Makes an option with one of these whole numbers, which outlive it.
 template <class Own>
 [[nodiscard]] MethodOption number_option(const std::string& name, const std::string& help,
                                          std::uint32_t Own::*member,
@@ -94,8 +94,8 @@ template <class Own>
                 }};
 }
 
-/// One of the values of an enumeration that counts from 0, by their names in order. It is held as
-/// it is: own.of<Choice>().
+/// Makes an option with one of the values of an enumeration that counts from 0, by their names in
+/// order. It is held as it is: own.of<Choice>().
 template <class Choice>
 [[nodiscard]] MethodOption choice_option(const std::string& name, const std::string& help,
                                          const std::vector<std::string>& names) {

@@ -1,13 +1,13 @@
 #pragma once
-// --one-shot, of the methods whose light comes shot by shot.
+// Defines --one-shot, of the methods whose light comes shot by shot.
 
 #include "radiosity/solving/method.h"
 
 namespace hemilux {
 
 struct OneShotOptions {
-    /// A step is one shot, and the run ends when all light is shot. Else a step has as many shots
-    /// as use up its rays, or is a whole solution.
+    /// With it a step is one shot, and the run ends when all light is shot. Else a step has as many
+    /// shots as use up its rays, or is a whole solution.
     bool one_shot = false;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// What single methods are told besides what all of them are: each declares a type of its own, as
-// ProgressiveOptions, and nobody else needs to know it.
+// Holds the options of single methods besides those of all. Each method declares a type of its own,
+// as ProgressiveOptions, and nobody else needs to know it.
 
 #include <any>
 #include <map>
@@ -11,14 +11,14 @@ namespace hemilux {
 /// Holds one value of each type that a method asks for.
 class OwnOptions {
   public:
-    /// The value of this type; as it is by default where nobody has set it.
+    /// Returns the value of this type; the default where nobody has set it.
     template <class Options>
     [[nodiscard]] const Options& of() const {
         static const Options defaults{};
         const auto found = values_.find(typeid(Options));
         return found == values_.end() ? defaults : *std::any_cast<Options>(&found->second);
     }
-    /// The same, to be set. It stays where it is as long as this object.
+    /// Returns the same, to be set. It stays where it is as long as this object.
     template <class Options>
     [[nodiscard]] Options& of() {
         std::any& value = values_[typeid(Options)];

@@ -10,10 +10,11 @@
 namespace hemilux {
 namespace {
 
-/// Of the time of a step over that of the longest before, where steps grow.
+/// The largest ratio that is expected of the time of a step to that of the longest before, where
+/// steps grow.
 constexpr double most_growth = 2;
 
-/// A step that was begun has as long, so that the shortest of times is enough for one.
+/// The least time [s] that a run gives its steps, so that the shortest limit is enough for one.
 constexpr double least_seconds = 1;
 
 } // namespace

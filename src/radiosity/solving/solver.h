@@ -1,5 +1,5 @@
 #pragma once
-// A solver takes steps, each of which improves the solution.
+// Defines a solver: it takes steps, each of which improves the solution.
 
 #include "bvh/tracer.h"
 #include "parallel/ranks.h"
@@ -16,7 +16,8 @@ namespace hemilux {
 
 class Mesh;
 
-/// How a caller watches a run and ends it early. All members may be used from any thread.
+/// The means by which a caller watches a run and ends it early. All members may be used from any
+/// thread.
 struct Monitor {
     std::atomic<std::uint64_t> rays{0};         ///< traced so far, density rays included
     StopFlag interrupted;                       ///< set by the caller: stop as soon as possible
@@ -24,17 +25,18 @@ struct Monitor {
     std::atomic<const char*> phase{"starting"}; ///< a word for the progress bar
 };
 
-/// What a solver works on; all of it outlives the solver.
+/// The input of a solver; all of it outlives the solver.
 struct SolverInput {
     const Mesh& mesh;
     const Tracer& tracer;
     const SolveOptions& options;
     Monitor& monitor;
     const Needs& needs = everything_needed; ///< of this mesh: what is not needed may be left out
-    /// By patch: Solution::weight, for methods that take one (Method::aims). Empty: 1 everywhere.
+    /// The weight of each patch, Solution::weight, for methods that take one (Method::aims). It is
+    /// empty where all are 1.
     std::span<const double> target = {};
-    /// Those that solve it together, which the monitor's flag is one of (StopFlag::share). The
-    /// solution does not depend on their number.
+    /// The ranks that solve the problem together; the monitor's flag is one of theirs
+    /// (StopFlag::share). The solution does not depend on their number.
     const Ranks& ranks = one_rank();
 };
 
@@ -44,22 +46,22 @@ class StateReader;
 class Solver {
   public:
     virtual ~Solver() = default;
-    /// Improves the solution. False when interrupted: the solution is then that of the steps
-    /// before.
+    /// Improves the solution. Returns false when interrupted: the solution is then that of the
+    /// steps before.
     virtual bool step() = 0;
-    /// From now on steps are planned for this error, in place of that of SolveOptions::stop.
+    /// Plans the following steps for this error [-], in place of that of SolveOptions::stop.
     virtual void aim_at(double /*error*/) {}
     [[nodiscard]] virtual const Solution& solution() const = 0;
-    /// The next ones that are worked out already: they cost no time.
+    /// Returns the number of next steps that are worked out already: they cost no time.
     [[nodiscard]] virtual std::uint32_t steps_ready() const { return 0; }
-    /// The solver's own stop, e.g. nothing is left to shoot.
+    /// Returns whether the solver stops by itself, e.g. as nothing is left to shoot.
     [[nodiscard]] virtual bool finished() const { return false; }
 
-    /// Between two steps: all that the next ones depend on and that a new solver of the same scene
-    /// and options would not find again by itself. Only where Method::can_resume() holds; else
-    /// std::logic_error.
+    /// Saves, between two steps, all that the next ones depend on and that a new solver of the same
+    /// scene and options would not find again by itself. Throws std::logic_error unless
+    /// Method::can_resume() holds.
     virtual void save(StateWriter& state) const;
-    /// Of a new solver: goes on where the saved one was. Throws StateError for what save() cannot
+    /// Makes a new solver go on where the saved one was. Throws StateError for what save() cannot
     /// have written; the solver is then of no use.
     virtual void load(StateReader& state);
 };

@@ -1,6 +1,5 @@
 #pragma once
-// Why a solver is to stop as soon as possible: its caller wishes it, or the time of the run is
-// over.
+// Tells a solver to stop as soon as possible: its caller wishes it, or the time of the run is over.
 
 #include "parallel/ranks.h"
 
@@ -9,18 +8,18 @@
 
 namespace hemilux {
 
-/// As std::atomic<bool> it holds the caller's wish alone, which a signal handler may set. Converted
-/// to bool it is true for either reason.
+/// A flag with two reasons to stop. As std::atomic<bool> it holds the caller's wish alone, which a
+/// signal handler may set. Converted to bool it is true for either reason.
 ///
-/// Where several ranks solve one problem each has a flag, and all must stop at the same place: it
-/// is then true from the next call of agree() on.
+/// Where several ranks solve one problem each has a flag, and all must stop at the same place. The
+/// flag is then true from the next call of agree() on.
 class StopFlag : public std::atomic<bool> {
   public:
     StopFlag() : std::atomic<bool>(false) {}
     using std::atomic<bool>::operator=;
 
     operator bool() const { return wished() || out_of_time(); }
-    /// By the caller.
+    /// Returns whether the caller wishes it.
     [[nodiscard]] bool wished() const { return is_own() ? own_wish() : agreed_wish_.load(); }
     [[nodiscard]] bool out_of_time() const {
         return (is_own() ? out_of_time_ : agreed_time_).load();
@@ -30,11 +29,13 @@ class StopFlag : public std::atomic<bool> {
         agreed_time_ = agreed_time_ && is_over;
     }
 
-    /// From now on it is a flag of these ranks.
+    /// Makes it a flag of these ranks.
     void share(const Ranks& ranks) { ranks_ = ranks.are_several() ? &ranks : nullptr; }
-    /// Those that do together what it may stop: this one alone, unless the flag is shared.
+    /// Returns the ranks that do together what it may stop: this one alone, unless the flag is
+    /// shared.
     [[nodiscard]] const Ranks& ranks() const { return is_own() ? one_rank() : *ranks_; }
-    /// Called by all ranks: true where one of them is to stop. Of one rank, its own flag.
+    /// Returns true where one of the ranks is to stop; all call it. A single rank gets its own
+    /// flag.
     bool agree() const {
         if (ranks_) {
             const auto of_ranks = ranks_->of_each(Reasons{own_wish(), out_of_time_});
@@ -44,7 +45,7 @@ class StopFlag : public std::atomic<bool> {
         return *this;
     }
 
-    /// While it lives the flag is that of this rank alone: for work that no other rank does, and
+    /// Makes the flag that of this rank alone while it lives: for work that no other rank does, and
     /// whose end all agree on afterwards.
     class OfThisRank {
       public:

@@ -1,5 +1,5 @@
 #pragma once
-// When a run ends.
+// Decides when a run ends.
 
 #include <cstdint>
 #include <limits>
@@ -7,18 +7,18 @@
 
 namespace hemilux {
 
-/// The first that is met ends the run. With none given, `default_steps`.
+/// The first rule that is met ends the run. With none given, `default_steps` does.
 struct StopRule {
     std::optional<std::uint32_t> steps = {};
-    std::optional<double> seconds = {};
-    std::optional<double> error = {}; ///< estimated relative error [-], e.g. 0.01
-    /// Rays in all, after which no further step is begun: where light is rare an error may be out
-    /// of reach.
+    std::optional<double> seconds = {}; ///< of the run [s]
+    std::optional<double> error = {};   ///< estimated relative error [-], e.g. 0.01
+    /// The number of rays in all after which no further step is begun: where light is rare an error
+    /// may be out of reach.
     std::optional<std::uint64_t> rays = {};
     static constexpr std::uint32_t default_steps = 16;
 
-    /// Steps that will be taken, as far as that is known: more where the time ends the run, 0 where
-    /// the error does.
+    /// Returns the number of steps that will be taken, as far as that is known: more where the time
+    /// ends the run, 0 where the error does.
     [[nodiscard]] std::uint32_t expected_steps() const {
         return steps.value_or(seconds ? std::numeric_limits<std::uint32_t>::max() : 0);
     }

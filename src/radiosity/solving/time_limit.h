@@ -1,5 +1,5 @@
 #pragma once
-// A time limit that also holds within a step.
+// Limits the time of a run, also within a step.
 
 #include "radiosity/solving/stop_flag.h"
 
@@ -8,8 +8,8 @@
 
 namespace hemilux {
 
-/// While it lives, it sets the flag's out_of_time() once `seconds` have passed. Without a number it
-/// does nothing. The flag outlives it.
+/// A limit that, while it lives, sets the flag's out_of_time() once `seconds` have passed. Without
+/// a number it does nothing. The flag outlives it.
 class TimeLimit {
   public:
     TimeLimit(StopFlag& flag, std::optional<double> seconds);

@@ -1,7 +1,7 @@
 #pragma once
-// The light that is solved for: of each of its independent batches of rays, and of all
+// Holds the light that is solved for: of each of its independent batches of rays, and of all
 // together. Where rays had to be forgotten for want of memory (--memory), what they showed is kept
-// as a generation, and the light is the mean of the generations.
+// as a generation. The light is the mean of the generations.
 
 #include "radiosity/solution/solution.h"
 
@@ -26,15 +26,16 @@ class BatchLight {
         std::vector<Vec3> incident; ///< arrives at each patch [W/m2]
         EnergyBalance energy;       ///< local units
     };
-    /// The light by the rays of the present generation: of each batch, then of all together.
+    /// Returns the light by the rays of the present generation: of each batch, then of all
+    /// together.
     [[nodiscard]] std::vector<Light>& solved() { return solved_; }
 
-    /// Mean over the generations.
+    /// Returns the mean over the generations [W/m2].
     [[nodiscard]] Vec3 incident(std::size_t batch, std::size_t patch) const {
         const Vec3& now = solved_[batch].incident[patch];
         return before_.empty() ? now : (before_[batch].incident[patch] + now) / generations();
     }
-    /// How far each of the batches is off their mean [W/m2].
+    /// Returns how far each of the batches is off their mean [W/m2].
     [[nodiscard]] std::array<Vec3, batches> deviations(std::size_t patch) const {
         std::array<Vec3, batches> off;
         Vec3 mean(0.0);
@@ -44,17 +45,18 @@ class BatchLight {
             each -= mean;
         return off;
     }
-    /// Mean over the generations of what is absorbed and escapes, of all batches together.
+    /// Returns the mean over the generations of what is absorbed and escapes, of all batches
+    /// together.
     [[nodiscard]] EnergyBalance energy() const;
 
     [[nodiscard]] double generations() const { return static_cast<double>(generation_ + 1); }
-    /// Counts from 0.
+    /// Returns the number of the generation, from 0.
     [[nodiscard]] std::uint64_t generation() const { return generation_; }
-    /// From now on the light that was solved last counts as one more generation.
+    /// Begins a generation: the light that was solved last counts as one more.
     void begin_generation();
 
     void save(StateWriter& state) const;
-    /// Throws StateError for what save() cannot have written.
+    /// Loads a state; throws StateError for what save() cannot have written.
     void load(StateReader& state);
 
   private:

@@ -12,10 +12,10 @@
 namespace hemilux {
 namespace {
 
-/// Patches of a wall that are off by the same.
+/// The number of patches of a wall that are off by the same.
 constexpr double err_together = 64;
 
-/// Over the patches, of the weight and its square, times the area.
+/// The sums over the patches of the weight and its square, times the area.
 struct WeightSums {
     double first = 0, second = 0;
 };
@@ -73,7 +73,8 @@ TargetAim::TargetAim(const Mesh& mesh, const TransportSystem& system,
     }
 }
 
-/// What light cannot leave for the target, as far as is known, may yet turn out to.
+/// Keeps a least importance: where light cannot leave for the target, as far as is known, it may
+/// yet turn out to.
 void TargetAim::renew(const ExchangeMatrix& factors, const Workers& workers) {
     constexpr double least = 1e-9, roughly = .1; // numbers of rays are as its power 0.8
     learned_ = importance_of_rays(

@@ -37,7 +37,7 @@ class DisjointSets {
     std::vector<std::uint32_t> parent_;
 };
 
-/// The least name that any rank has for each patch, which its owner finds.
+/// Finds the least name that any rank has for each patch; the patch's owner finds it.
 void take_least(std::vector<std::uint32_t>& names, const OwnBlocks& own) {
     std::vector<std::vector<std::uint32_t>> sent(own.ranks().count());
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -48,7 +48,8 @@ void take_least(std::vector<std::uint32_t>& names, const OwnBlocks& own) {
     own.gather(names);
 }
 
-/// Each rank knows what its own rays have joined; until all know the same, they join what any does.
+/// Joins the sets of all ranks. Each rank knows what its own rays have joined; until all know the
+/// same, they join what any does.
 LinkedParts parts_of_all(DisjointSets& sets, const OwnBlocks& own, std::uint32_t patches) {
     for (bool differ = own.ranks().are_several(); differ;) {
         std::vector<std::uint32_t> names;

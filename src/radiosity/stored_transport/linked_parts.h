@@ -1,7 +1,7 @@
 #pragma once
-// Which patches exchange light with each other, directly or through others, as far as the stored
-// rays know. Reported errors need it: each part answers for the light that its own rays may have
-// missed (transport_errors.h).
+// Finds which patches exchange light with each other, directly or through others, as far as the
+// stored rays know. Reported errors need it: each part answers for the light that its own rays may
+// have missed (transport_errors.h).
 
 #include <cstdint>
 #include <span>
@@ -17,8 +17,9 @@ struct LinkedParts {
     std::uint32_t count = 0;
 };
 
-/// Two patches are of one part if a ray has passed between them, or between each of them and a
-/// third. Parts are numbered in the order of their first patches. O(entries).
+/// Finds the parts in O(entries) time. Two patches are of one part if a ray has passed between
+/// them, or between each of them and a third. Parts are numbered in the order of their first
+/// patches.
 [[nodiscard]] LinkedParts find_linked_parts(const ExchangeMatrix& factors);
 /// Finds the same from several batches of rays.
 [[nodiscard]] LinkedParts find_linked_parts(std::span<const RayCounts> batches);

@@ -12,23 +12,24 @@ namespace {
 
 constexpr double least_share = 1.0 / 8;
 
-/// The least where patches are not of the same importance. With an eighth, patches with many rays
-/// inherit too much of what those with few are off by (docs/design.md, D57).
+/// The least share of what is expected for a patch, where patches are not of the same importance.
+/// With an eighth, patches with many rays inherit too much of what those with few are off by
+/// (docs/design.md, D57).
 constexpr double least_of_expected = 1.0 / 4;
 
-/// The power of two nearest to a number, in logarithms: the largest up to sqrt(2) rays.
+/// Returns the power of two nearest to a number, in logarithms: the largest up to sqrt(2) rays.
 std::uint32_t power_of_two(double rays) {
     constexpr double most = 0x1p31;
     return std::bit_floor(
         static_cast<std::uint32_t>(std::min(most, std::numbers::sqrt2 * std::max(rays, 1.0))));
 }
 
-/// From -1/2 to 1/2, another for each patch.
+/// Returns a number from -1/2 to 1/2, another for each patch.
 double dither(std::size_t patch) { return Rng(hash_words({patch})).uniform() - .5; }
 
-/// To the nearest power of 2^(1/16) of the largest, so that rounding errors of areas decide
-/// nothing; then up to half an octave up or down by the patch's number, which says who is first to
-/// get more rays among patches of one shape.
+/// Rounds weights to the nearest power of 2^(1/16) of the largest, so that rounding errors of areas
+/// decide nothing. Then moves them up to half an octave up or down by the patch's number. This
+/// decides who is first to get more rays among patches of one shape.
 std::vector<double> rounded(std::span<const double> weights, double largest) {
     std::vector<double> result;
     for (std::size_t i = 0; i < weights.size(); ++i)
@@ -67,7 +68,7 @@ std::vector<std::uint32_t> allocate_rays(std::span<const double> given, double m
                 sum += rays[i] = rays_of(i, per_weight);
         return sum;
     };
-    // The number of rays per weight that allocates what there is, by bisection of its logarithm.
+    // Bisection of its logarithm finds the number of rays per weight that allocates what there is.
     // Where as many are allocated at both ends, all patches get as many at one as at the other.
     const double all =
         mean * double(std::ranges::count_if(weights, [](double weight) { return weight > 0; }));

@@ -7,16 +7,18 @@
 
 namespace hemilux {
 
-/// So many times the mean is the most that a patch gets: a wall of a finely tessellated model holds
-/// as much of the error as thousands of its facets.
+/// A patch gets at most so many times the mean. A wall of a finely tessellated model holds as much
+/// of the error as thousands of its facets.
 inline constexpr double most_share_of_rays = 1024;
 
-/// Rays per patch, `mean` of them on average, in proportion to the weights, but at least an eighth
-/// and at most `most_share_of_rays` times the mean, and never less than a patch has already. Powers
-/// of two, for which well-distributed points are best. A weight of 0 gets none.
+/// Returns the rays per patch, `mean` of them on average, in proportion to the weights. A patch
+/// gets at least an eighth and at most `most_share_of_rays` times the mean, and never less than it
+/// has already. Numbers are powers of two, for which well-distributed points are best. A weight of
+/// 0 gets none.
 ///
-/// `expected`: of each patch, over the mean, where patches are not of the same importance; empty:
-/// of the same. Then it is at least a quarter of that, and at most so many times the largest.
+/// `expected` gives what is expected for each patch, over the mean, where patches are not of the
+/// same importance; else it is empty. With it a patch gets at least a quarter of that, and at most
+/// `most_share_of_rays` times the largest.
 [[nodiscard]] std::vector<std::uint32_t> allocate_rays(std::span<const double> weights, double mean,
                                                        std::span<const std::uint32_t> already,
                                                        std::span<const double> expected = {});

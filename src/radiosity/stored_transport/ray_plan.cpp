@@ -12,42 +12,43 @@
 namespace hemilux {
 namespace {
 
-/// Rays per patch at which the run ends whatever the error.
+/// The rays per patch at which the run ends, whatever the error.
 constexpr double most_rays = 1u << 20;
 
-/// Of all rays in a step towards an error: more at once would trust the first few rays too much.
+/// The most rays of a step towards an error, over those before: more at once would trust the first
+/// few rays too much.
 constexpr double most_growth = 4;
 
 /// The part of an error asked for that a step is to reach, so that the run seldom takes one more.
 constexpr double aim_below = .97;
 
-/// Of all rays in a step towards an error, the least; and from one number to the next that is
-/// tried.
+/// The least rays of a step towards an error, over those before; and the factor from one number to
+/// the next that is tried.
 constexpr double least_step = 1.1, try_next = 1.04;
 
-/// Of the mean of shadow rays, what a patch gets that no light has reached: few, but not none, as
-/// an emitter may shine through a gap that all of them have missed.
+/// The share of the mean of shadow rays that a patch gets which no light has reached. It gets few,
+/// but not none, as an emitter may shine through a gap that all of them have missed.
 constexpr double share_of_unlit = 1.0 / 8;
 
-/// The mean that a first step with a target has at least, of one batch: the search for what light
-/// can reach takes a ray of each patch.
+/// The least mean of a first step with a target, of one batch: the search for what light can reach
+/// takes a ray of each patch.
 constexpr double least_first = 1.5;
 
-/// With a target, so many times as many rays in the first step as patches of the target would get
-/// if all were the target. More waste rays before it is known where they count; fewer take one more
+/// With a target, the first step has so many times as many rays as patches of the target would get
+/// if all were the target. More waste rays before it is known where they count. Fewer take one more
 /// step, and each step solves for all patches however few its rays are.
 constexpr double times_in_first = 4;
 
-/// And so large a part of the rays of a first step without a target, at the most: the others wait
-/// until it is known where they count. Where the target is nearly all of the scene, there is less
-/// to wait for.
+/// A first step with a target has at most so large a part of the rays of one without. The others
+/// wait until it is known where they count. Where the target is nearly all of the scene, there is
+/// less to wait for.
 constexpr double most_of_first = 1.0 / 3;
 
-/// With a target, what each of the two kinds gets of the rays that are added, at least: how much
-/// of the error comes from which kind is known of the target's own rays, and less of others'.
+/// With a target, each of the two kinds gets at least this part of the rays that are added. How
+/// much of the error comes from which kind is known of the target's own rays, and less of others'.
 constexpr double least_of_kind = 1.0 / 4;
 
-/// Throws StateError for rays that cannot have been allocated with this mean (ray_allocation.h): a
+/// Throws StateError for rays that cannot have been allocated with this mean (ray_allocation.h). A
 /// patch has at most sqrt(2) times `most_share_of_rays` of what is expected for it, and all have
 /// more than a small part of the mean.
 void check_allocated(std::span<const std::uint32_t> rays, double mean, double most_expected) {
@@ -89,9 +90,9 @@ void RayPlan::aim(std::span<const double> importance) {
         aim_.push_back(std::pow(each, 1 / (1 + variance_fall)));
 }
 
-/// By patch, over the mean of those that are to get more: as important as it is, but where a patch
-/// is of little importance all the same the mean. What many such patches send together is known by
-/// few rays each, but not by any number.
+/// Returns what is expected for each patch, over the mean of those that are to get more: as much as
+/// it is important. A patch of little importance counts as the mean all the same. What many such
+/// patches send together is known by few rays each, but not by any number.
 std::vector<double> RayPlan::expected_rays(std::span<const double> weights) const {
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < aim_.size(); ++i)
@@ -115,7 +116,7 @@ std::vector<std::uint32_t> RayPlan::allocate(std::span<const double> weights, do
     return allocate_rays(aimed, mean, already, expected_rays(weights));
 }
 
-/// Of one kind; less than without a target.
+/// Returns the mean of one kind in the first step; it is less than without a target.
 double RayPlan::first_mean(double mean) const {
     if (!has_target() || !goal_.growing)
         return mean;
@@ -163,8 +164,8 @@ void RayPlan::choose(const ErrorSoFar& known) {
     while (!(predicted(known) <= aim_below * goal_.aim) && (factor *= try_next) <= most_growth);
 }
 
-/// So many rays in all go to the two kinds so that the error is least, as far as variances fall
-/// with the power `variance_fall` of the rays; none is taken back.
+/// Splits so many rays in all between the two kinds so that the error is least. Variances are taken
+/// to fall with the power `variance_fall` of the rays. No ray is taken back.
 void RayPlan::split(double rays, const ErrorSoFar& known) {
     now_.random = rays;
     if (!(before_.to_emitters > 0))
@@ -183,7 +184,7 @@ void RayPlan::split(double rays, const ErrorSoFar& known) {
     now_.to_emitters = rays - now_.random;
 }
 
-/// The error that the planned rays will probably leave.
+/// Returns the error that the planned rays will probably leave.
 double RayPlan::predicted(const ErrorSoFar& known) const {
     const double of_emitters =
         known.variance > 0 ? std::min(known.variance_from_emitters / known.variance, 1.0) : 0;
@@ -195,7 +196,7 @@ double RayPlan::predicted(const ErrorSoFar& known) const {
 
 bool RayPlan::at_most() const { return std::max(now_.random, now_.to_emitters) >= most_rays; }
 
-/// What was planned, and what is known of the patches; the rest follows from the scene.
+/// Saves what was planned, and what is known of the patches; the rest follows from the scene.
 void RayPlan::save(StateWriter& state) const {
     for (const RayBudget* stage : {&before_, &now_}) {
         state.add(stage->random);

@@ -1,5 +1,6 @@
 #pragma once
-// How many rays are to be traced next, and of which kind. From which patches: ray_weights.h.
+// Plans how many rays are to be traced next, and of which kind. From which patches is decided in
+// ray_weights.h.
 
 #include "geometry/vector.h"
 #include "parallel/workers.h"
@@ -12,17 +13,18 @@
 
 namespace hemilux {
 
-/// Rays of each patch.
+/// The rays of each patch.
 struct PlannedRays {
     std::vector<std::uint32_t> random;      ///< cosine-distributed
     std::vector<std::uint32_t> to_emitters; ///< shadow rays
 };
 
-/// How many rays a step adds.
+/// The number of rays that a step adds.
 struct RayGoal {
-    /// As many as there are, or as it takes to reach `aim`; else as many as the first step had.
+    /// A growing step adds as many as there are, or as it takes to reach `aim`; else it adds as
+    /// many as the first step had.
     bool growing = true;
-    /// Relative error to be reached; 0: none is asked for.
+    /// The relative error to be reached [-]; 0 where none is asked for.
     double aim = 0;
 };
 
@@ -36,37 +38,39 @@ struct ErrorSoFar {
 
 class RayPlan {
   public:
-    /// The first step's means, of one batch; no `to_emitters`: there are no emitters to be reached.
-    /// The mesh outlives this.
+    /// Makes a plan from the first step's means, of one batch. `to_emitters` is 0 where there are
+    /// no emitters to be reached. The mesh outlives this.
     RayPlan(const Mesh& mesh, const Needs& needs, double random, double to_emitters,
             const RayGoal& goal);
 
     /// Plans a few rays of each patch, which show what light can reach: leave_out.
     void begin();
-    /// From the first step on, patches that no light has reached by these rays get no more.
+    /// Gives no more rays to patches that no light has reached by these rays, from the first step
+    /// on.
     void leave_out(const std::vector<bool>& lit) { weights_.leave_out(lit); }
-    /// From now on more rays to patches by whose light a target is lit: `importance` of the
-    /// variance at each (importance_of_rays), over that where all patches are the target. A step
-    /// that grows begins with as many rays of important patches as there would be without a target.
-    /// 0: no more rays. A plan does not save it.
+    /// Gives more rays in the following steps to patches by whose light a target is lit.
+    /// `importance` is that of the variance at each patch (importance_of_rays), over that where all
+    /// patches are the target; a patch with 0 gets no more rays. A step that grows begins with as
+    /// many rays of important patches as there would be without a target. A plan does not save the
+    /// importance.
     void aim(std::span<const double> importance);
 
-    /// From now on steps that grow are to reach this error, as RayGoal::aim.
+    /// Makes the following steps that grow reach this error, as RayGoal::aim.
     void aim_at(double error) { goal_.aim = error; }
 
     /// Plans more rays than before, at most `room` times as many random ones; `known` is not used
     /// for the first step.
     void grow(const ErrorSoFar& known, double room, const Workers& workers);
-    /// With less room than this there is no step.
+    /// There is no step with less room than this.
     static constexpr double least_growth = 1.19;
 
-    /// Counts them from the start until the next step ends.
+    /// Returns the rays, counted from the start until the next step ends.
     [[nodiscard]] const PlannedRays& rays() const { return now_.rays; }
     [[nodiscard]] bool at_most() const;
-    /// Whether the first step was planned.
+    /// Returns whether the first step was planned.
     [[nodiscard]] bool has_begun() const { return now_.random > 0; }
 
-    /// From now on more rays from some patches, as RayWeights says.
+    /// Gives more rays to some patches in the following steps, as RayWeights says.
     void weigh(std::span<const Vec3> variance, const std::vector<bool>& lit) {
         weights_.weigh(variance, lit);
     }

@@ -12,7 +12,7 @@
 namespace hemilux {
 namespace {
 
-/// The share of the weights that is measured; and what a patch's area counts.
+/// The share of the weights that is measured, and the power of a patch's area that counts.
 constexpr double trust = .5, area_exponent = .42;
 
 /// Black emitters count as if they reflected this: their rays show where their light goes.
@@ -45,7 +45,7 @@ void RayWeights::leave_out(const std::vector<bool>& lit) {
             random_[i] = to_emitters_[i] = 0;
 }
 
-/// The mean over its neighbours; of the patch itself where it has none.
+/// Returns the mean over a patch's neighbours; of the patch itself where it has none.
 double RayWeights::of_neighbours(std::uint32_t patch, std::span<const double> known) const {
     double sum = 0, count = 0;
     for_alike_neighbours(mesh_, patch, [&](std::uint32_t j) {
@@ -55,7 +55,7 @@ double RayWeights::of_neighbours(std::uint32_t patch, std::span<const double> kn
     return count > 0 ? sum / count : known[patch];
 }
 
-/// What is known counts as much as what was thought before; both have the same sum.
+/// Mixes weights: what is known counts as much as what was thought before; both have the same sum.
 void RayWeights::mix(std::span<const double> known, std::span<const double> prior,
                      std::vector<double>& weights) {
     const double sum = std::accumulate(known.begin(), known.end(), 0.0);
@@ -68,9 +68,9 @@ void RayWeights::mix(std::span<const double> known, std::span<const double> prio
         weights[i] = trust * known[i] * prior_sum / sum + (1 - trust) * prior[i];
 }
 
-/// A ray is most important where it takes most from the error. A patch counts by its area and its
-/// reflectance, and the variance of random rays is the spread of the light that comes from all
-/// sides, as far as it is known; half of the weight does not trust that.
+/// Learns from the first rays. A ray is most important where it takes most from the error. A patch
+/// counts by its area and its reflectance. The variance of random rays is the spread of the light
+/// that comes from all sides, as far as it is known. Half of the weight does not trust that.
 void RayWeights::learn(std::span<const Vec3> variance) {
     std::vector<double> known(variance.size()), smooth(variance.size());
     for (std::size_t i = 0; i < known.size(); ++i)
@@ -91,8 +91,8 @@ void RayWeights::weigh(std::span<const Vec3> variance, const std::vector<bool>& 
         random_[i] = lit[i] ? learned_random_[i] : 0;
 }
 
-/// With a variance that falls as v n^-f, f being variance_fall, the sum over patches is least for n
-/// as v^(1 / (1 + f)), v being what one ray alone would leave.
+/// With a variance that falls as v n^-f, where f is variance_fall, the sum over patches is least
+/// for n as v^(1 / (1 + f)). Here v is what one ray alone would leave.
 void RayWeights::weigh_emitters(std::span<const double> variance,
                                 std::span<const std::uint32_t> rays, const std::vector<bool>& lit) {
     if (std::ranges::none_of(lit, std::identity{}))
@@ -116,7 +116,7 @@ void RayWeights::weigh_emitters(std::span<const double> variance,
     mix(smooth, prior, to_emitters_);
 }
 
-/// The rest follows from the scene.
+/// Saves the weights; the rest follows from the scene.
 void RayWeights::save(StateWriter& state) const {
     for (const std::vector<double>* weights : {&random_, &learned_random_, &to_emitters_})
         state.add(std::span<const double>(*weights));
@@ -124,7 +124,8 @@ void RayWeights::save(StateWriter& state) const {
 }
 
 void RayWeights::load(StateReader& state) {
-    // What is learned shares out the weights that the patches have by themselves.
+    // Learning distributes the weights that the patches have by themselves, so their sum bounds
+    // each.
     const auto sum_of = [](std::span<const double> prior) {
         constexpr double rounding = 1 + 1e-9;
         return rounding * std::accumulate(prior.begin(), prior.end(), 0.0);

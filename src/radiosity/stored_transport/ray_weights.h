@@ -1,5 +1,5 @@
 #pragma once
-// From which patches rays are to be traced: how much a ray of each takes from the error.
+// Decides from which patches rays are to be traced: how much a ray of each takes from the error.
 
 #include "geometry/vector.h"
 #include "radiosity/scene/needs.h"
@@ -14,39 +14,39 @@ class Mesh;
 class StateReader;
 class StateWriter;
 
-/// Errors of well-distributed points fall about as rays^-.7, their squares so:
+/// Errors of well-distributed points fall about as rays^-.7, and their squares with this power:
 inline constexpr double variance_fall = 1.5;
 
 class RayWeights {
   public:
-    /// By area and reflectance, as long as nothing is known. The mesh outlives this.
+    /// Weighs patches by area and reflectance, as long as nothing is known. The mesh outlives this.
     RayWeights(const Mesh& mesh, const Needs& needs);
 
-    // By patch, in any unit: the importance of a cosine-distributed ray and of a shadow ray. 0: it
-    // gets no more.
+    // These return, by patch and in any unit, the importance of a cosine-distributed ray and of a
+    // shadow ray. A patch with 0 gets no more.
     [[nodiscard]] std::span<const double> random() const { return random_; }
     [[nodiscard]] std::span<const double> to_emitters() const { return to_emitters_; }
-    /// Whether light of emitters might reach it, and by the rays so far none has.
+    /// Returns whether light of emitters might reach a patch, but by the rays so far none has.
     [[nodiscard]] bool is_left_out(std::size_t patch) const {
         return to_emitters_[patch] == 0 && prior_to_emitters_[patch] > 0;
     }
 
-    /// Nothing more for patches that no light has reached (`lit`), unless none is lit.
+    /// Gives no more rays to patches that no light has reached (`lit`), unless none is lit.
     void leave_out(const std::vector<bool>& lit);
 
-    /// From now on more to patches to which light comes that is uneven; none to those that no light
-    /// reaches (`lit`), as far as all rays know. `variance`: of the light over the directions of
-    /// each patch, by channel.
+    /// Gives more rays to patches to which light comes that is uneven; none to those that no light
+    /// reaches (`lit`), as far as all rays know. `variance` is that of the light over the
+    /// directions of each patch, by channel.
     ///
-    /// How many rays a patch gets must not depend on what its own rays have found: where they
+    /// How many rays a patch gets must not depend on what its own rays have found. Where they
     /// missed something rare, their variance is too small, fewer rays would follow, and the mean of
-    /// all would stay wrong. So a patch is weighed by its neighbours, and but once, by the first
+    /// all would stay wrong. So a patch is weighed by its neighbours, and only once, by the first
     /// rays that found light, which are soon a small part of all.
     void weigh(std::span<const Vec3> variance, const std::vector<bool>& lit);
 
-    /// From now on more shadow rays from patches whose light from emitters is uncertain.
-    /// `variance`: of each patch, times its area, in any unit, as so many `rays` left it; negative:
-    /// it takes none.
+    /// Gives more shadow rays to patches whose light from emitters is uncertain. `variance` is that
+    /// of each patch, times its area, in any unit, as so many `rays` left it. Where it is negative
+    /// the patch takes none.
     void weigh_emitters(std::span<const double> variance, std::span<const std::uint32_t> rays,
                         const std::vector<bool>& lit);
 
@@ -62,7 +62,7 @@ class RayWeights {
                     std::vector<double>& weights);
 
     const Mesh& mesh_;
-    std::vector<Vec3> reflectance_;
+    std::vector<Vec3> reflectance_; ///< by patch [-]
     std::vector<double> random_, to_emitters_;
     std::vector<double> learned_random_; ///< were all patches lit
     bool has_learned_ = false;

@@ -19,7 +19,7 @@ namespace {
 constexpr unsigned batches = BatchLight::batches;
 constexpr std::size_t patches_per_chunk = 512;
 
-/// Of some patches.
+/// Sums over some patches.
 struct Sums {
     std::array<double, batches * batches> products{}; ///< of deviations
     double direct_variance = 0;
@@ -35,7 +35,7 @@ void add_products(const TransportResult& result, std::uint32_t i, Sums& sums) {
             sums.products[s * batches + t] += glm::dot(weight * off[s], off[t]);
 }
 
-/// Of the light that shadow rays bring to a patch.
+/// Returns the variance of the light that shadow rays bring to a patch.
 double direct_variance(const TransportResult& result, std::uint32_t i) {
     const Vec3 rho = result.system.reflectance()[i], mean = result.direct.irradiance(i);
     Vec3 squares(0.0);
@@ -46,7 +46,8 @@ double direct_variance(const TransportResult& result, std::uint32_t i) {
     return result.system.area()[i] * glm::dot(rho * rho, squares) / double(batches * (batches - 1));
 }
 
-/// One reflection of what half of the batches differ by from the others, which errs as their mean.
+/// Returns the share that one reflection leaves of what half of the batches differ by from the
+/// others. This difference errs as their mean.
 std::optional<double> reflected_share(const TransportResult& result, const Workers& workers) {
     static_assert(batches == 4);
     const std::span<const Vec3> rho = result.system.reflectance();

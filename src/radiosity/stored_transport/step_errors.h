@@ -1,6 +1,6 @@
 #pragma once
-// What a step of stored transport concludes from how its batches of rays differ: the errors that
-// its solution reports, and what the next rays are planned by.
+// Concludes from how the batches of rays differ after a step of stored transport. It finds the
+// errors that the solution reports, and what the next rays are planned by.
 
 #include "parallel/workers.h"
 #include "radiosity/solution/solution.h"
@@ -16,11 +16,11 @@ class StateWriter;
 class TargetAim;
 struct Needs;
 
-/// How the light differs between the batches.
+/// Holds how the light differs between the batches.
 struct BatchSpread {
     double freedom = 0;         ///< effective degrees of freedom (error_spread.h)
     double direct_variance = 0; ///< of the light by shadow rays: sum over patches, as Solution's
-    /// The same by patch, as if each were of the target; -1: it has no shadow rays.
+    /// The same by patch, as if each were of the target; -1 where it has no shadow rays.
     std::vector<double> direct_variances;
     /// Solution::reflected_share; nothing where the batches do not differ.
     std::optional<double> reflected_share;
@@ -29,7 +29,7 @@ struct BatchSpread {
 [[nodiscard]] BatchSpread spread_of_batches(const TransportResult& result, const TargetAim& aim,
                                             const Workers& workers);
 
-/// What is known of the error after a step, in the unit of Solution::variance.
+/// Holds what is known of the error after a step, in the unit of Solution::variance.
 struct StepErrors {
     double variance = 0;       ///< that more rays lower, all but `missed_in_dark`
     double from_emitters = 0;  ///< the part of it that comes from shadow rays
@@ -37,8 +37,8 @@ struct StepErrors {
 
     StepErrors() = default;
     StepErrors(const TransportErrors& errors, const BatchSpread& spread);
-    /// The relative error that the solution reports, but for what may be missed in the dark. The
-    /// solution is left as it is.
+    /// Returns the relative error that the solution reports, except for what may be missed in the
+    /// dark. The solution is left as it is.
     [[nodiscard]] double relative(const Mesh& mesh, Solution& solution) const;
 
     void save(StateWriter& state) const;

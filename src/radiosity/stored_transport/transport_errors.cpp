@@ -18,16 +18,16 @@
 namespace hemilux {
 namespace {
 
-/// What may be missed in a dark part counts where it is this share of the variance: more rays lower
-/// the one and not the other.
+/// What may be missed in a dark part counts from this share of the variance on: more rays lower the
+/// one and not the other.
 constexpr double share_of_dark = .01;
 
 bool any(const Vec3& v) { return v != Vec3(0.0); }
 
-/// Sums over the patches of a linked part, by channel.
+/// The sums over the patches of a linked part, by channel.
 struct PartLedger {
     Vec3 used{0.0};          ///< power that ends there: absorbed, or lost
-    Vec3 leaving{0.0};       ///< power that rays at random stand for
+    Vec3 leaving{0.0};       ///< power that random rays stand for
     Vec3 one_ray{0.0};       ///< its mean per ray, weighted by itself
     Vec3 loss_variance{0.0}; ///< of the power that random rays lose
     Vec3 absorbing{0.0};     ///< area times absorptance
@@ -95,7 +95,7 @@ class Account {
     }
 
   private:
-    /// What rays at random of a patch stand for [W/m2].
+    /// Returns what random rays of a patch stand for [W/m2].
     [[nodiscard]] Vec3 leaving(std::uint32_t i) const {
         return rho_[i] * incident_[i] + result_.system.sampled_emission()[i];
     }
@@ -116,8 +116,8 @@ class Account {
             part.loss_variance += power * power * variance_of_loss(i);
         }
     }
-    /// Of the share of a patch's rays that are lost. Where few are, each is lost by chance; of many
-    /// well-distributed ones only those at the edge of an opening are.
+    /// Returns the variance of the share of a patch's rays that are lost. Where few are, each is
+    /// lost by chance; of many well-distributed ones only those at the edge of an opening are.
     [[nodiscard]] double variance_of_loss(std::uint32_t i) const {
         constexpr double batches = BatchLight::batches;
         const double share = result_.factors.lost()[i].sum();
@@ -126,9 +126,10 @@ class Account {
     }
     [[nodiscard]] const PartLedger& ledger(std::uint32_t i) const { return ledgers_[parts_.of[i]]; }
 
-    /// If three rays of the part more had been lost: less light in all of it, in proportion to what
-    /// else takes light away. The mean of a Poisson distribution lies that far above any count
-    /// besides the multiple of its standard deviation (Garwood 1936).
+    /// Returns the light that would be missing if three more rays of the part had been lost. All of
+    /// the part has less light then, in proportion to what else takes light away. The mean of a
+    /// Poisson distribution lies that far above any count besides the multiple of its standard
+    /// deviation (Garwood 1936).
     [[nodiscard]] Vec3 missed_loss(std::uint32_t i) const {
         if (result_.system.closed())
             return Vec3(0.0);
@@ -137,8 +138,9 @@ class Account {
         return share * rho_[i] * incident_[i];
     }
 
-    /// One standard error of the light, as all of a part is the brighter the less light is lost: by
-    /// the numbers of rays that were lost, however alike the batches may be by chance.
+    /// Returns one standard error of the light, as all of a part is the brighter the less light is
+    /// lost. It follows from the numbers of rays that were lost, however alike the batches may be
+    /// by chance.
     [[nodiscard]] Vec3 known_loss(std::uint32_t i) const {
         if (result_.system.closed())
             return Vec3(0.0);
@@ -146,8 +148,8 @@ class Account {
         return ratio_or_zero(glm::sqrt(part.loss_variance), part.used) * rho_[i] * incident_[i];
     }
 
-    /// If rays had passed between a dark part and a lit one: what the part would hold then. Neither
-    /// the rays of the lit parts nor its own have.
+    /// Returns what a dark part would hold if rays had passed between it and a lit one. Neither the
+    /// rays of the lit parts nor its own have found such a path.
     [[nodiscard]] Vec3 missed_light(std::uint32_t i) const {
         const PartLedger& part = ledger(i);
         if (!(part.rays > 0))
@@ -158,8 +160,8 @@ class Account {
         return rho_[i] * ratio_or_zero(power, part.absorbing);
     }
 
-    /// What a single ray at random stands for, where light comes from: one of the patch's own rays,
-    /// or of those that others of its part send.
+    /// Returns what a single random ray stands for, where light comes from: one of the patch's own
+    /// rays, or of those that others of its part send.
     [[nodiscard]] Vec3 one_ray(std::uint32_t i) const {
         if (!(rays_[i] > 0))
             return Vec3(0.0);
@@ -169,8 +171,8 @@ class Account {
     [[nodiscard]] double shadow_rays_of(std::uint32_t i) const {
         return result_.direct.unblocked(i) > 0 ? double(result_.direct.samples(i)) : 0;
     }
-    /// The light that one shadow ray more or less would bring: through a gap that all have missed,
-    /// or behind a thing that none has met.
+    /// Returns the light that one shadow ray more or less would bring: through a gap that all have
+    /// missed, or behind a thing that none has met.
     [[nodiscard]] Vec3 one_shadow_ray(std::uint32_t i) const {
         const double samples =
             double(result_.direct.samples(i)) * double(result_.direct.estimates());
@@ -189,15 +191,16 @@ class Account {
     std::vector<Vec3> missed_by_rays_;
 };
 
-/// The standard error of a mean of a few samples is known badly. Where patches err each for itself
-/// it is pooled over neighbours; where they err together (0 to 1) that does not help, and it is
-/// raised as Student's t asks for, so that hardly any error is beyond three of them.
+/// Returns the factor by which a variance is raised. The standard error of a mean of a few samples
+/// is poorly known. Where patches err independently it is pooled over neighbours. Where they err
+/// together (0 to 1) that does not help. It is raised as Student's t asks for, so that hardly any
+/// error is beyond three of them.
 double raised(double together) {
     constexpr double of_few = 3; // of t with three degrees of freedom 96 of 100 are below 2 sqrt(3)
     return 1 + (of_few - 1) * together;
 }
 
-/// How far a patch and its neighbours are off the mean in each batch.
+/// Measures how far a patch and its neighbours are off the mean in each batch.
 class Window {
   public:
     void add(const std::array<Vec3, BatchLight::batches>& off) {
@@ -207,7 +210,7 @@ class Window {
         }
         ++count_;
     }
-    /// 1: all err alike; 0: each for itself.
+    /// Returns 1 where all err alike, 0 where each errs independently.
     [[nodiscard]] double together() const {
         if (count_ < 2 || !(squares_ > 0))
             return 1;

@@ -1,13 +1,13 @@
 #pragma once
-// How far off the light may be: what its independent batches of rays show, and what
-// none of their rays has shown.
+// Estimates how far off the light may be: what its independent batches of rays show, and what none
+// of their rays has shown.
 //
 // The batches differ by the noise of what they found. Nothing differs where none of them found
 // anything: a window that no ray has left through, a lit room that no ray has reached through a
-// hole. There the rule of three holds: of N rays none of which met something, the share that would
-// meet it is below 3 / N in 95 of 100 cases (missed_light.h). The errors below follow
-// from that share by the balance of energy of each part of the scene. docs/numerics.md has the
-// whole account and its assumptions.
+// hole. There the rule of three holds. If none of N rays met something, the share that would meet
+// it is below 3 / N in 95 of 100 cases (missed_light.h). The errors below follow from that share by
+// the balance of energy of each part of the scene. docs/numerics.md has the whole account and its
+// assumptions.
 
 #include "geometry/vector.h"
 
@@ -29,17 +29,18 @@ struct TransportErrors {
     std::vector<Vec3> standard_error; ///< of the radiosity by patch [W/m2]
     double variance = 0;  ///< by the batches: sum over patches of weight, local area and variance
     double of_losses = 0; ///< the part of it that comes from how many rays were lost, by counting
-    /// The same, of light that no random ray and that no shadow ray may have found.
+    /// The same, of light that no random ray may have found, and of light that no shadow ray may
+    /// have found.
     double missed = 0, missed_by_shadow_rays = 0;
     double missed_in_dark = 0; ///< the part of `missed` that more rays of `needs_rays` take away
     std::vector<std::uint32_t> part; ///< of each patch, see linked_parts.h
     std::vector<bool> lit; ///< by patch: whether light reaches it on any stored path, or it emits
-    /// Those that are lit, and those of dark parts whose few rays leave so much uncertain that it
-    /// counts beside `variance`.
+    /// The patches that are lit, and those of dark parts whose few rays leave so much uncertain
+    /// that it counts beside `variance`.
     std::vector<bool> needs_rays;
 };
 
-/// What is known of a solution; all of it outlives the call.
+/// The known parts of a solution; all of them outlive the call.
 struct TransportResult {
     const Mesh& mesh;
     const TransportSystem& system;
@@ -50,7 +51,7 @@ struct TransportResult {
     std::span<const double> weight = {}; ///< by patch, in the sums of errors; empty: 1
 };
 
-/// The weight of the squared error of a patch [local area].
+/// Returns the weight of the squared error of a patch [local area].
 [[nodiscard]] double weighted_area(const TransportResult& result, std::size_t patch);
 
 [[nodiscard]] TransportErrors errors_of(const TransportResult& result, const Workers& workers);

@@ -11,15 +11,15 @@
 namespace hemilux {
 namespace {
 
-/// Of the standard error, what may be left where solving ends: of the batches, which say no more
-/// than that error, and of the whole.
+/// The parts of the standard error that may be left where solving ends: for the batches, which say
+/// no more than that error, and for the whole.
 constexpr double left_of_batches = .1, left_of_all = 1e-3;
 
-/// Residuals, relative to the light: never less; and of the batches, times what a reflection takes
-/// away, never more.
+/// The limits of residuals, relative to the light: the first is the least. The second, times what a
+/// reflection takes away, is the largest for the batches.
 constexpr double least_residual = 1e-10, first_residual = 1e-3;
 
-/// Of one of them.
+/// Returns the variance of a single one of the values.
 Vec3 sample_variance(std::span<const Vec3> values) {
     const auto n = static_cast<double>(values.size());
     Vec3 mean(0.0), squares(0.0);
@@ -42,7 +42,7 @@ TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t
         sampled_emission_[emitter] = Vec3(0.0);
 }
 
-/// Each batch by itself; then the whole by all threads, from where their mean is.
+/// Solves each batch by itself; then the whole by all threads, from where the batches' mean is.
 ExchangeMatrix TransportSystem::solve(const StoredRays& rays, double error,
                                       std::vector<BatchLight::Light>& light, const Workers& workers,
                                       const StopFlag& interrupted) const {
@@ -77,7 +77,7 @@ Transport TransportSystem::transport(const ExchangeMatrix& factors) const {
             factors.lost(), factors.rays(),     closed_};
 }
 
-/// What arrives at each patch in the end, from what `light` holds on.
+/// Solves for what arrives at each patch in the end, from what `light` holds on.
 void TransportSystem::solve(const ExchangeMatrix& factors, std::vector<Vec3> direct,
                             const Vec3& variance, BatchLight::Light& light, const Workers& workers,
                             double residual, const StopFlag& interrupted) const {
@@ -87,7 +87,7 @@ void TransportSystem::solve(const ExchangeMatrix& factors, std::vector<Vec3> dir
     light.energy = balance_energy(transport(factors), light.incident);
 }
 
-/// Makes the last the mean of the batches; returns its relative standard error, of what is
+/// Sets the last to the mean of the batches. Returns the mean's relative standard error, of what is
 /// reflected.
 double TransportSystem::average(std::vector<BatchLight::Light>& light) const {
     const std::size_t batches = light.size() - 1;
@@ -107,9 +107,9 @@ double TransportSystem::average(std::vector<BatchLight::Light>& light) const {
     return squares > 0 ? std::sqrt(squares / size) : 0;
 }
 
-/// The light straight from the emitters: by shadow rays, of one batch or of all, and from those
-/// that shadow rays do not reach by rays at random. A patch without shadow rays has all from the
-/// latter: it is black, or they are better there.
+/// Returns the light straight from the emitters. It comes by shadow rays, of one batch or of all,
+/// and by random rays from the emitters that shadow rays do not reach. A patch without shadow rays
+/// has all from the latter: it is black, or they are better there.
 std::vector<Vec3> TransportSystem::straight_light(const ExchangeMatrix& factors,
                                                   const DirectLight& shadow_rays,
                                                   std::optional<std::size_t> batch,

@@ -1,7 +1,7 @@
 #pragma once
-// The linear system of stored transport: what arrives at each patch in the end, from the rays that
-// are kept. Solved once for each of some independent batches of rays, whose spread is the error,
-// and once for all together.
+// Solves the linear system of stored transport: what arrives at each patch in the end, from the
+// rays that are kept. It is solved once for each of some independent batches of rays, whose spread
+// is the error, and once for all together.
 
 #include "parallel/workers.h"
 #include "radiosity/form_factors/exchange_matrix.h"
@@ -20,8 +20,8 @@ namespace hemilux {
 class DirectLight;
 class StoredRays;
 
-/// Calls body(batch, workers) for each: by a thread of its own, or where ranks solve each together
-/// one after the other.
+/// Calls body(batch, workers) for each batch: by a thread of its own, or one after the other where
+/// ranks solve each together.
 template <class Body>
 void for_batches(std::size_t batches, const Ranks& ranks, const Workers& workers,
                  const Body& body) {
@@ -35,28 +35,31 @@ void for_batches(std::size_t batches, const Ranks& ranks, const Workers& workers
 
 class TransportSystem {
   public:
-    /// `emitters`: patches whose light comes by shadow rays, not by rays at random. `closed`: no
-    /// ray can leave the scene or meet the back of a face, as its geometry proves.
+    /// Prepares the system. The light of `emitters` comes by shadow rays, not by random rays.
+    /// `closed` says that no ray can leave the scene or meet the back of a face, as its geometry
+    /// proves.
     TransportSystem(const Mesh& mesh, std::span<const std::uint32_t> emitters, bool closed);
 
-    /// By patch: areas in local units, reflectances [-], emissions [W/m2].
+    /// Returns, by patch, areas in local units, reflectances [-], emissions [W/m2].
     [[nodiscard]] std::span<const double> area() const { return surfaces_.area; }
     [[nodiscard]] std::span<const Vec3> reflectance() const { return surfaces_.reflectance; }
     [[nodiscard]] std::span<const Vec3> emission() const { return surfaces_.emission; }
-    /// The emission [W/m2] of the patches that random rays are to find, 0 elsewhere.
+    /// Returns the emission [W/m2] of the patches that random rays are to find, 0 elsewhere.
     [[nodiscard]] std::span<const Vec3> sampled_emission() const { return sampled_emission_; }
-    /// Whether the geometry proves that no ray is lost.
+    /// Returns whether the geometry proves that no ray is lost.
     [[nodiscard]] bool closed() const { return closed_; }
 
-    /// `light`, of each batch and at last of all: from what it holds, on to the solution of these
-    /// rays, as exactly as their noise allows. Returns the factors of all. `error`: the relative
-    /// one of what is known so far; nan: unknown. Where it is interrupted `light` is of no use.
+    /// Solves for `light`, of each batch and at last of all, as exactly as the noise of these rays
+    /// allows. It starts from what `light` holds. Returns the factors of all. `error` is the
+    /// relative one of what is known so far; nan where it is unknown. Where solving is interrupted
+    /// `light` is of no use.
     ExchangeMatrix solve(const StoredRays& rays, double error,
                          std::vector<BatchLight::Light>& light, const Workers& workers,
                          const StopFlag& interrupted) const;
 
   private:
-    /// `direct`: light that comes straight from the emitters; `variance`: of its power, by channel.
+    /// Solves for one batch or for all. `direct` is the light that comes straight from the
+    /// emitters, and `variance` that of its power, by channel.
     void solve(const ExchangeMatrix& factors, std::vector<Vec3> direct, const Vec3& variance,
                BatchLight::Light& light, const Workers& workers, double residual,
                const StopFlag& interrupted) const;
@@ -67,8 +70,8 @@ class TransportSystem {
                                      const Workers& workers) const;
 
     Surfaces surfaces_;
-    std::vector<Vec3> sampled_emission_;
-    double lost_at_least_ = 1; ///< of what falls on a patch, in any channel
+    std::vector<Vec3> sampled_emission_; ///< [W/m2]
+    double lost_at_least_ = 1;           ///< of what falls on a patch, in any channel
     bool closed_;
 };
 

@@ -3,7 +3,8 @@
 //
 // The hemisphere is one cell: all rays of a patch follow the cosine law. Steps of few rays each are
 // combined by their numbers of rays; with equal steps the rule "divide by k what was received" is
-// the running mean. Needs no preprocessing and no memory. The yardstick for all others.
+// the running mean. The method needs no preprocessing and no memory. It is the yardstick for all
+// others.
 
 #include "radiosity/plain/plain.h"
 #include "radiosity/shooting/shooting.h"

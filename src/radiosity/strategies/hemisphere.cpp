@@ -1,20 +1,21 @@
 // Hemisphere subdivision (paper section 5; Plemenos and Jolivet 1998).
 //
-// Before solving, each patch counts along few rays how many surfaces lie in each direction and
+// Before solving, each patch counts along few rays how many surfaces lie in each direction. It
 // divides the triangles of its hemisphere where the mean count is above a threshold (density.h).
 // Each step then shoots rays in proportion to power and density:
 //
 //     N_tr = N_hemi A_tr / A_hemi D_tr / D_average,   Phi_tr = Phi_patch A_tr / A_hemi.
 //
-// A is the projected solid angle, so that Lambert's law holds whatever the triangles (D1), and
-// D_average is weighted by the same areas, so that the N_tr sum to N_hemi (D4). With --literal A is
-// the solid angle, as printed: the light is then distributed wrongly, however many rays are shot.
+// A is the projected solid angle, so that Lambert's law holds whatever the triangles (D1).
+// D_average is weighted by the same areas, so that the N_tr sum to N_hemi (D4). With --literal, A
+// is the solid angle, as printed: the light is then distributed wrongly, however many rays are
+// shot.
 //
-// Good where small objects crowd in few directions; little use where a wall hides a crowd, to
-// which it sends rays in vain. Costs at most 41 rays and bytes per patch at depth 2. With --guide
-// pyramid the density is that of the patches in the pyramid of a triangle (pyramids.h), with
-// --guide visible or learned rays follow what is seen, which the wall does not mislead
-// (visibility_guide.h).
+// The method is good where small objects crowd in few directions. It is of little use where a wall
+// hides a crowd, to which it sends rays in vain. It costs at most 41 rays and bytes per patch at
+// depth 2. With --guide pyramid, the density is that of the patches in the pyramid of a triangle
+// (pyramids.h). With --guide visible or learned, rays follow what is seen, which the wall does not
+// mislead (visibility_guide.h).
 
 #include "radiosity/guiding/guide.h"
 #include "radiosity/guiding/patch_boxes.h"
@@ -83,9 +84,9 @@ class HemisphereStrategy final : public Strategy {
             input.needs, options.keep_all ? DensityStore::everything : DensityStore::divided_only);
     }
 
-    /// In a small scene what is allocated is kept, 440 bytes a patch: patches shoot few rays at a
-    /// time, and walking their trees each time takes 1.3 times the instructions of a step
-    /// (room_1002). Large scenes need but the bytes.
+    /// In a scene of at most so many cells, what is allocated is kept, 440 bytes per patch. Patches
+    /// shoot few rays at a time there, and walking their trees each time takes 1.3 times the
+    /// instructions of a step (room_1002). Large scenes need only the bytes.
     static constexpr std::size_t most_kept_cells = 2'000'000;
 
     void keep_allocated(const SolverInput& input, const Workers& workers) {
@@ -106,7 +107,7 @@ class HemisphereStrategy final : public Strategy {
         allocate_leaves(leaves, allocated);
     }
 
-    /// What a patch of a convex enclosure would count: one surface in each direction.
+    /// Returns what a patch of a convex enclosure would count: one surface in each direction.
     [[nodiscard]] static std::vector<DensityLeaf>
     leaves_of_one_surface(const Hemisphere& hemisphere, double threshold) {
         const int level = is_divided(1, threshold) ? hemisphere.depth() : 0;
@@ -134,9 +135,9 @@ class HemisphereStrategy final : public Strategy {
             allocated.add(leaf.cell, sum > 0 ? due(leaf) / sum : 0);
     }
 
-    /// A triangle whose three vertices saw nothing may still hold something: it counts as one
-    /// surface, and as a share of the average, so that no ray carries more than five times the
-    /// mean. Where nothing is seen anywhere, rays then follow the power (D5).
+    /// A triangle whose three vertices saw nothing may still hold something. It counts as at least
+    /// one surface, and as at least a share of the average, so that no ray carries more than five
+    /// times the mean. Where nothing is seen anywhere, rays then follow the power (D5).
     static constexpr double least_density = 1, least_share = 0.25;
 
     bool printed_;

@@ -2,30 +2,30 @@
 // 1997), which section 5 improves upon.
 //
 // A patch is cut, in thought, into --parts parts with a divided hemisphere over the centre of each
-// (subdivision_1997.h). In each of n steps, --stored-steps, all triangles are divided into four, at
-// new directions on their edges that lie nearer to the end where more surfaces were counted, and
-// the counts along the new directions are stored with them. In m further steps, --estimated-steps,
-// triangles are divided likewise, but with estimated counts, and nothing is stored. Every triangle
-// gets the same number of rays and power by its area: where many surfaces are, triangles are small
-// and rays close. After n + m steps plain progressive refinement follows, the method
+// (subdivision_1997.h). In each of n steps, --stored-steps, all triangles are divided into four at
+// new directions on their edges. These lie nearer to the end where more surfaces were counted, and
+// the counts along them are stored with them. In m further steps, --estimated-steps, triangles are
+// divided likewise, but with estimated counts, and nothing is stored. Every triangle gets the same
+// number of rays and power by its area: where many surfaces are, triangles are small and rays
+// close. After n + m steps plain progressive refinement follows, the method
 // `progressive-monte-carlo`.
 //
 // By default the area of a triangle is its projected solid angle, so that Lambert's law holds
-// (docs/decisions.md, D1), rays start anywhere on the part (D2), and where there are fewer rays
-// than triangles they are allocated by systematic sampling (D4). Counting rays are shot before the
+// (docs/decisions.md, D1). Rays start anywhere on the part (D2). If there are fewer rays than
+// triangles, they are allocated by systematic sampling (D4). Counting rays are shot before the
 // first step and carry no energy.
 //
 // With --literal the area is the solid angle, rays start at the centre of the part, and each
 // triangle gets one ray at least. Subdivision then goes on between the steps: each begins by
-// dividing once more. And the rays that count carry energy too: besides its rays by chance each
-// triangle shoots one through each corner that the step has found, all with the same part of its
-// power (docs/decisions.md, D61). --depth and --threshold are not used.
+// dividing once more. The rays that count carry energy too. Besides its random rays, each triangle
+// shoots one through each corner that the step has found, all with the same part of its power
+// (docs/decisions.md, D61). --depth and --threshold are not used.
 //
-// Good for comparison. Bad because large triangles, where few surfaces are, get as few rays as
-// small ones: these rays carry much power each and their noise is seen. With the usual numbers it
-// costs 41 rays per part and, with directions stored in floats, 13 bytes for each of them: 2132
-// bytes per patch, where the method `hemisphere` needs 41. Each step more has four times as many
-// triangles, and there should not be many more of them than rays.
+// The method is good for comparison. It is bad because large triangles, where few surfaces are, get
+// as few rays as small ones: these rays carry much power each and their noise is seen. With the
+// usual numbers it costs 41 rays per part and 13 bytes for each of them, as directions are stored
+// in floats. That is 2132 bytes per patch, where the method `hemisphere` needs 41. Each further
+// step has four times as many triangles, and there should not be many more of them than rays.
 
 #include "parallel/workers.h"
 #include "radiosity/hemisphere/density.h"
@@ -99,10 +99,10 @@ class Hemisphere1997 final : public Strategy {
   private:
     void find(int level) { subdivision_.find(level, input_.tracer, workers_, input_.monitor); }
 
-    /// Of a part, at the present level.
+    /// Returns the number of triangles of a part, at the current level.
     [[nodiscard]] std::size_t triangles() const { return Subdivision1997::triangles(level_); }
 
-    /// The same number for every triangle, besides those that count.
+    /// Returns the same number for every triangle, besides the rays that count.
     [[nodiscard]] double rays_as_printed(std::size_t cell, double share) const {
         return std::max(std::round(input_.options.rays * share), 1.0) +
                static_cast<double>(subdivision_.corners_found(level_, cell % triangles()).size());

@@ -1,7 +1,8 @@
 // The control: the triangles of the hemisphere subdivision without any density.
 //
-// All triangles of the last level, rays in proportion to power: what the technique gains by merely
-// dividing the hemisphere, before it has looked at the scene. No density rays, no memory.
+// All triangles of the last level get rays in proportion to power. This is what the technique gains
+// by merely dividing the hemisphere, before it has looked at the scene. It needs no density rays
+// and no memory.
 
 #include "radiosity/shooting/shooting.h"
 

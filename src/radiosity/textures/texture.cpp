@@ -7,13 +7,14 @@
 namespace hemilux {
 namespace {
 
-/// Texels that an edge may cross; beyond that it matters little where its polygon ends.
+/// The largest number of texels that an edge may cross; beyond that it matters little where its
+/// polygon ends.
 constexpr double most_crossings = 16384;
 
-/// The remainder that is at least 0.
+/// Returns the remainder that is at least 0.
 std::int64_t modulo(std::int64_t i, std::int64_t n) { return (i % n + n) % n; }
 
-/// The row or column of the picture that stands at place i.
+/// Returns the row or column of the picture that stands at place i.
 std::size_t wrapped(std::int64_t i, std::int64_t n, Wrap wrap) {
     if (i >= 0 && i < n) // as nearly always; divisions take long
         return static_cast<std::size_t>(i);
@@ -25,7 +26,7 @@ std::size_t wrapped(std::int64_t i, std::int64_t n, Wrap wrap) {
     return static_cast<std::size_t>(j < n ? j : 2 * n - 1 - j);
 }
 
-/// After how many texels the picture repeats; 0: never.
+/// Returns after how many texels the picture repeats; 0 means never.
 double period(Wrap wrap, double n) {
     return wrap == Wrap::clamp ? 0 : wrap == Wrap::repeat ? n : 2 * n;
 }
@@ -33,7 +34,8 @@ double period(Wrap wrap, double n) {
 /// The places along an edge, from 0 to 1, where one coordinate is whole, in order.
 class Crossings {
   public:
-    /// From `begin` to `end`; where the picture is clamped nothing changes outside of it.
+    /// Finds the crossings from `begin` to `end`; where the picture is clamped nothing changes
+    /// outside of it.
     Crossings(double begin, double end, bool clamped, double n)
         : begin_(begin), way_(end - begin), step_(end > begin ? 1 : -1) {
         const double low = clamped ? std::max(std::min(begin, end), -1.0) : std::min(begin, end);
@@ -43,7 +45,7 @@ class Crossings {
         at_ = step_ > 0 ? first : last;
     }
     [[nodiscard]] double left() const { return left_; }
-    /// The next one; 1 where there is none.
+    /// Returns the next place; 1 where there is none.
     [[nodiscard]] double next() const {
         return left_ > 0 ? std::clamp((at_ - begin_) / way_, 0.0, 1.0) : 1;
     }
@@ -83,7 +85,7 @@ Vec3 Texture::texel(std::size_t column, std::size_t row) const {
     return {linear_[bytes[0]], linear_[bytes[1]], linear_[bytes[2]]};
 }
 
-/// Of texels from a column up to that before another.
+/// Sums the texels from a column up to that before another.
 Vec3 Texture::sum_between(std::size_t first, std::size_t column, std::size_t row) const {
     Vec3 sum(0.0);
     for (std::size_t i = first; i < column; ++i)
@@ -91,13 +93,13 @@ Vec3 Texture::sum_between(std::size_t first, std::size_t column, std::size_t row
     return sum;
 }
 
-/// Of the texels before a column; `column` may be the width.
+/// Sums the texels before a column; `column` may be the width.
 Vec3 Texture::sum_before(std::size_t column, std::size_t row) const {
     const std::size_t of = std::min(column / block, blocks_ - 1);
     return sums_[row * blocks_ + of] + sum_between(of * block, column, row);
 }
 
-/// From `start` to x, which lies in the column.
+/// Integrates a row from `start` to x, which lies in the column.
 Vec3 Texture::row_integral(double x, std::int64_t column, std::size_t row, Wrap wrap,
                            std::size_t start) const {
     if (start > 0) {
@@ -126,7 +128,7 @@ Vec3 Texture::at(const Vec2& place, Wraps wraps) const {
                  wrapped(static_cast<std::int64_t>(std::floor(place.y)), height_, wraps.y));
 }
 
-/// The integral of F dy.
+/// Returns the integral of F dy along an edge.
 Vec3 Texture::edge_integral(const Vec2& from, const Vec2& to, Wraps wraps,
                             std::size_t start) const {
     Crossings across(from.x, to.x, wraps.x == Wrap::clamp, width_);
@@ -150,7 +152,7 @@ Vec3 Texture::edge_integral(const Vec2& from, const Vec2& to, Wraps wraps,
     return sum;
 }
 
-/// Of places between the middle and the border.
+/// Returns the mean over places between the middle and the border.
 Vec3 Texture::sampled_mean(std::span<const Vec2> polygon, Wraps wraps) const {
     constexpr int steps = 8;
     constexpr double inwards = .25;
@@ -178,7 +180,7 @@ Vec3 Texture::mean_over(std::span<const Vec2> polygon, Wraps wraps) const {
         low = glm::min(low, corner);
         high = glm::max(high, corner);
     }
-    // Near the origin, where numbers are most precise.
+    // The polygon is moved near the origin, where numbers are most precise.
     Vec2 origin(0.0);
     for (int axis = 0; axis < 2; ++axis)
         if (periods[axis] > 0)

@@ -1,8 +1,8 @@
 #pragma once
-// A picture on surfaces: texels of one colour each, in linear light, and their exact mean over any
-// polygon.
+// Stores a picture on surfaces: texels of one colour each, in linear light. It gives their exact
+// mean over any polygon.
 //
-// The integral over a polygon follows from its border (Green's theorem): with F(x, y) the integral
+// The integral over a polygon follows from its border (Green's theorem). With F(x, y) the integral
 // of the row at y from 0 to x, it is the sum over the edges of the integral of F dy. Within a texel
 // F is linear in x, so the trapezoid rule is exact there. Only texels on the border are visited,
 // and sums along rows stand for those inside. Instead of 0 the rows may begin at any column.
@@ -17,7 +17,7 @@
 
 namespace hemilux {
 
-/// What lies beyond the picture.
+/// The ways in which a picture continues beyond its border.
 enum class Wrap : std::uint8_t { repeat, clamp, mirror };
 struct Wraps {
     Wrap x = Wrap::repeat, y = Wrap::repeat;
@@ -25,18 +25,18 @@ struct Wraps {
 
 class Texture {
   public:
-    /// `rgb`: three bytes per texel, row by row from the top; `linear`: the light that a byte
-    /// means, by byte.
+    /// Makes a texture of `rgb`, three bytes per texel, row by row from the top. `linear` gives the
+    /// light that a byte means [-], by byte.
     Texture(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgb,
             const std::array<double, 256>& linear);
 
     [[nodiscard]] std::uint32_t width() const { return width_; }
     [[nodiscard]] std::uint32_t height() const { return height_; }
-    /// The mean of the whole picture.
+    /// Returns the mean of the whole picture.
     [[nodiscard]] const Vec3& mean() const { return mean_; }
-    /// The mean over a polygon of three or more places; x from 0 (left) to 1, y from 0 (top) to 1.
-    /// Edges across more than 16384 texels see the picture's mean; polygons without area are
-    /// sampled.
+    /// Returns the mean over a polygon of three or more places; x runs from 0 (left) to 1, y from 0
+    /// (top) to 1. Where edges cross more than 16384 texels it is the picture's mean; polygons
+    /// without area are sampled.
     [[nodiscard]] Vec3 mean_over(std::span<const Vec2> polygon, Wraps wraps) const;
     [[nodiscard]] double bytes() const;
 
@@ -44,7 +44,8 @@ class Texture {
     [[nodiscard]] Vec3 texel(std::size_t column, std::size_t row) const;
     [[nodiscard]] Vec3 sum_between(std::size_t first, std::size_t column, std::size_t row) const;
     [[nodiscard]] Vec3 sum_before(std::size_t column, std::size_t row) const;
-    /// `start` is a column: above 0 for polygons within the picture and right of it.
+    /// Integrates a row from the column `start` to x. `start` is above 0 for polygons within the
+    /// picture and right of this column.
     [[nodiscard]] Vec3 row_integral(double x, std::int64_t column, std::size_t row, Wrap wrap,
                                     std::size_t start) const;
     [[nodiscard]] Vec3 at(const Vec2& place, Wraps wraps) const;
@@ -61,7 +62,7 @@ class Texture {
     Vec3 mean_{0.0};
 };
 
-/// The light that bytes mean by the sRGB curve (IEC 61966-2-1).
+/// Returns the light that bytes mean by the sRGB curve (IEC 61966-2-1).
 [[nodiscard]] const std::array<double, 256>& srgb_to_linear();
 
 } // namespace hemilux

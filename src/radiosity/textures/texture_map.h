@@ -1,5 +1,5 @@
 #pragma once
-// How a texture lies on the faces of a material.
+// Describes how a texture lies on the faces of a material.
 
 #include "radiosity/textures/texture.h"
 
@@ -12,7 +12,7 @@
 
 namespace hemilux {
 
-/// Texture coordinates of a facet's corners.
+/// The texture coordinates of a facet's corners.
 using Texcoords = std::array<glm::vec2, 4>;
 
 /// The colour at a place is `factor` times the texel at origin + u x + v y, which counts from the
@@ -32,7 +32,7 @@ struct MaterialTextures {
     [[nodiscard]] bool any() const { return reflectance.texture || emission.texture; }
 };
 
-/// What the faces of a scene carry.
+/// The textures that the faces of a scene carry.
 struct SceneTextures {
     std::vector<MaterialTextures> of_material;     ///< empty: no texture at all
     std::vector<std::vector<Texcoords>> texcoords; ///< by set and facet

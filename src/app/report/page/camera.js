@@ -43,7 +43,7 @@ class OrbitCamera {
   zoom(factor) {
     this.distance = clamp(this.distance * factor, 0.02 * this.radius, 12 * this.radius);
   }
-  /** To the right and up, in shares of the picture's height. */
+  /** Moves the pivot to the right and up, in shares of the picture's height. */
   move(x, y) {
     const { right, top } = this.axes();
     const size = 2 * this.distance * Math.tan(this.fov / 2);
@@ -60,7 +60,7 @@ class OrbitCamera {
   /** Half of the picture's height at distance 1; a narrow picture shows as much in width as one of 4 : 3. */
   halfHeight(aspect) { return Math.tan(this.fov / 2) * Math.max(1, 4 / 3 / aspect); }
 
-  /** From the scene to the cube of clip space. */
+  /** The matrix from the scene to the cube of clip space. */
   matrix(aspect, reach) {
     const { right, top, back, eye } = this.axes();
     const near = Math.max(0.002 * this.radius, 0.3 * (length(eye) - 1.2 * this.radius));

@@ -17,7 +17,7 @@ function leavesOf(run, i) {
   return leaves;
 }
 
-/** Weighted by Lambert's law [surfaces per ray]. */
+/** The mean density of a patch, weighted by Lambert's law [surfaces per ray]. */
 const meanDensity = (run, i) =>
   leavesOf(run, i).reduce((sum, { cell, density }) => sum + run.shares[cell] * density, 0);
 

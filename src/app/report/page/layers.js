@@ -1,6 +1,6 @@
 // Layers: what colours the surfaces. One with `light` has linear light, the others tints.
 
-// From dark to bright, of even steps in lightness.
+// The colours go from dark to bright, in even steps of lightness.
 const rampColours = [[0.13, 0.08, 0.35], [0.23, 0.26, 0.62], [0.15, 0.5, 0.64], [0.25, 0.7, 0.45], [0.72, 0.83, 0.2],
   [1, 0.93, 0.55]];
 function rampColour(share) {
@@ -71,7 +71,7 @@ function layersOf(run, view) {
   return layers;
 }
 
-/** As pictures are exposed: nine tenths of the surface shown are at most 0.8 of white. */
+/** The exposure that pictures have: nine tenths of the surface shown are at most 0.8 of white. */
 function exposureFor(run, layer) {
   const lit = [];
   const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b; // ITU-R BT.709

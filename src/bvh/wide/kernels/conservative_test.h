@@ -1,9 +1,9 @@
-// Ray against triangle in floats, with a bound on the error: the test of Moeller and Trumbore
-// (1997), after which a lane is certainly missed, certainly hit, or uncertain.
+// Ray against triangle in floats, with a bound on the error. This is the test of Moeller and
+// Trumbore (1997), after which a lane is certainly missed, certainly hit, or uncertain.
 //
-// With A = corner - origin, edges e1, e2, normal N = e1 x e2 and direction d, the point hit has
-// t = A.N / D, u = U / D, v = W / D where D = d.N, U = d.(e2 x A), W = d.(A x e1).
-// No #pragma once: see simd.h.
+// A is corner - origin, e1 and e2 are edges, N = e1 x e2 is the normal and d the direction. The
+// point hit then has t = A.N / D, u = U / D, v = W / D where D = d.N, U = d.(e2 x A), W = d.(A x
+// e1). No #pragma once: see simd.h.
 
 #include "bvh/wide/wide_layout.h"
 
@@ -21,14 +21,14 @@ inline V3 cross(V3 a, V3 b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// |x| + |y| + |z|, at least the length.
+/// Returns |x| + |y| + |z|, which is at least the length.
 inline F8 sum_abs(V3 a) { return abs(a.x) + abs(a.y) + abs(a.z); }
 
 inline F8 max_abs(V3 a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
 
-/// Bounds the error of U, W, D and D - U - W. Counted over the roundings of corner, origin and
-/// direction (2^-24 of at most 1), of the edges and of each operation, it is at most
-/// 2^-24 E (78 |A| + 63 E + 11) with E the largest edge component and |A| the sum of components.
+/// Bounds the error of U, W, D and D - U - W. The roundings of corner, origin and direction (2^-24
+/// of at most 1), of the edges and of each operation are counted. The error is then at most 2^-24 E
+/// (78 |A| + 63 E + 11) with E the largest edge component and |A| the sum of components.
 inline F8 error_bound(V3 a, F8 e) {
     return F8::splat(error_share) * e * (sum_abs(a) + e + F8::splat(error_offset));
 }
@@ -41,8 +41,8 @@ struct EdgeFunctions {
     EdgeFunctions(F8 u_, F8 w_, F8 d_, F8 error_)
         : u(u_), w(w_), d(d_), rest(d_ - u_ - w_), error(error_) {}
 
-    /// Not certainly missed, were the triangle's plane hit at a right t. NaN is not certainly
-    /// missed.
+    /// Returns the lanes that are not certainly missed if the triangle's plane is hit at a right t.
+    /// A NaN is not certainly missed.
     [[nodiscard]] Bits may_hit() const {
         const F8 zero = F8::splat(0);
         constexpr Bits all = (Bits{1} << width) - 1;
@@ -57,8 +57,8 @@ struct EdgeFunctions {
     [[nodiscard]] Bits front() const { return less(d, F8::splat(0)); }
 };
 
-/// Bounds of t where they are known: elsewhere anything. `volume` is A.N, whose error is at most
-/// E times that of D.
+/// Bounds of t where they are known; elsewhere they mean nothing. `volume` is A.N, whose error is
+/// at most E times that of D.
 struct Interval {
     F8 low, high;
     Bits known;

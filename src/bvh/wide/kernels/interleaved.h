@@ -1,6 +1,6 @@
 // Many independent rays in turn, a step of each: while one waits for memory or for a chain of
 // operations, the others go on. Steps through nodes and through leaves are done in turns, and what
-// follows from them in loops of its own: so the processor can foresee the branches, and finds many
+// follows from them in loops of its own. So the processor can foresee the branches, and finds many
 // states within its window. No #pragma once: see simd.h.
 
 namespace hemilux::wide::HEMILUX_KERNELS {
@@ -33,7 +33,7 @@ struct alignas(64) RayState {
 /// With an even number of lines the states would crowd in a few sets of the cache.
 static_assert(sizeof(RayState) / 64 % 2 == 1);
 
-/// Where a node or leaf lies, without a branch on which it is.
+/// Returns where a node or leaf lies, without a branch on which of the two it is.
 inline const char* place_of(const Tree& tree, std::uint32_t child) {
     const char* const base[2] = {reinterpret_cast<const char*>(tree.nodes),
                                  reinterpret_cast<const char*>(tree.leaves)};
@@ -42,7 +42,7 @@ inline const char* place_of(const Tree& tree, std::uint32_t child) {
     return base[is_leaf] + size[is_leaf] * (child & ~flag);
 }
 
-/// Ray states by what they do next.
+/// A list of ray states by what they do next.
 struct Queue {
     RayState* state[rays_in_flight];
     unsigned size = 0;
@@ -50,8 +50,8 @@ struct Queue {
         state[size] = w;
         size += is_mine;
     }
-    /// Empties the queue; returns how many it held. They may still be read one after the other
-    /// while no more than have been read are added.
+    /// Empties the queue; returns how many states it held. They may still be read one after the
+    /// other, as long as no more are added than have been read.
     unsigned empty() {
         const unsigned held = size;
         size = 0;
@@ -80,7 +80,7 @@ struct Queues {
 };
 
 /// Sends rays through the tree. begin(state) makes it the next ray and returns false when there is
-/// none; on_leaf(state, leaf) may shrink state.t_max and returns true when the ray is done.
+/// none. on_leaf(state, leaf) may shrink state.t_max and returns true when the ray is done.
 template <Rays rays, class Begin, class OnLeaf>
 inline void traverse_interleaved(const Tree& tree, const Begin& begin, const OnLeaf& on_leaf) {
     RayState states[rays_in_flight];

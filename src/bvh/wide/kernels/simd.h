@@ -1,7 +1,7 @@
-// Eight floats at once, in whatever pieces the instruction set has: vectors of the compiler, and
-// intrinsics only for what those cannot say (minimum, comparison to bits). A comparison gives bits,
-// lane i in bit i, in every instruction set. No #pragma once: included once per instruction set,
-// into a namespace of its own.
+// Eight floats at once, in whatever pieces the instruction set has. The code uses the compiler's
+// vectors, and intrinsics only for what those cannot say (minimum, comparison to bits). A
+// comparison gives bits, lane i in bit i, in every instruction set. There is no #pragma once, as
+// the file is included once per instruction set, into a namespace of its own.
 
 #include <cstdint>
 
@@ -95,7 +95,7 @@ struct F8 {
 };
 #endif
 
-/// Which of sixteen floats are at most `limit`.
+/// Returns which of sixteen floats are at most `limit`.
 inline Bits at_most(const float* sixteen, float limit) {
 #if defined(__AVX512F__)
     return _mm512_cmp_ps_mask(_mm512_load_ps(sixteen), _mm512_set1_ps(limit), _CMP_LE_OQ);
@@ -105,7 +105,7 @@ inline Bits at_most(const float* sixteen, float limit) {
 #endif
 }
 
-/// Which of eight words, but for the bits of `ignored`, are `word`.
+/// Returns which of eight words, but for the bits of `ignored`, are `word`.
 inline Bits equal(const std::uint32_t* words, std::uint32_t ignored, std::uint32_t word) {
 #if defined(__AVX2__)
     const __m256i eight = _mm256_load_si256(reinterpret_cast<const __m256i*>(words));

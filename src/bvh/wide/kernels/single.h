@@ -1,9 +1,9 @@
-// One ray at a time: eight boxes against the ray, eight triangles against the ray.
-// No #pragma once: see simd.h.
+// Kernels for one ray at a time: eight boxes against the ray, eight triangles against the ray. No
+// #pragma once: see simd.h.
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-/// Covers the relative rounding errors of a slab test.
+/// This factor covers the relative rounding errors of a slab test.
 inline constexpr float slab_slack = 1 + 0x1p-20f;
 
 /// The ray as the box tests take it: a plane p is met at p * inverse + offset.
@@ -38,7 +38,7 @@ inline void visit_node(const Node& node, const SlabRay& ray, float t_max, Stack&
     stack.push<rays>(node, ray.octant, enter, leave * F8::splat(slab_slack));
 }
 
-/// Depth-first; leaf(const Leaf&) returns true to stop; t_max may shrink meanwhile,
+/// Walks the tree depth-first. leaf(const Leaf&) returns true to stop. t_max may shrink meanwhile,
 /// where rays are stopped.
 template <Rays rays, class OnLeaf>
 inline void walk(const Tree& tree, const FloatRay& ray, const float& t_max, OnLeaf&& on_leaf) {
@@ -62,7 +62,7 @@ inline V3 load3(const float (&p)[3][width]) {
     return {F8::load(p[0]), F8::load(p[1]), F8::load(p[2])};
 }
 
-/// A leaf's triangles against one ray.
+/// The test of a leaf's triangles against one ray.
 struct LeafTest {
     V3 a, e1, e2;
     F8 e;
@@ -82,8 +82,8 @@ struct LeafTest {
     }
 };
 
-/// The slots of a leaf that a ray strikes before it ends: certainly, or perhaps. Its end is known
-/// to lie between `low` and `high`.
+/// The slots of a leaf that a ray strikes before it ends, certainly or perhaps. Its end is known to
+/// lie between `low` and `high`.
 struct HitMask {
     Bits certain, uncertain;
 
@@ -98,7 +98,7 @@ struct HitMask {
     }
 };
 
-/// Bounds of t for each slot of a leaf, and what to take where no slot is nearer.
+/// The bounds of t for each slot of a leaf, and what to take where no slot is nearer.
 struct Candidates {
     alignas(64) float low[2 * width], high[2 * width];
     alignas(64) std::uint32_t slot[2 * width];
@@ -119,7 +119,7 @@ struct Candidates {
     }
 };
 
-/// The slots of a leaf against the nearest so far, one after the other.
+/// Compares the slots of a leaf with the nearest hit so far, one after the other.
 inline void consider(const HitMask& mask, const Candidates& candidates, Bits known, unsigned index,
                      Nearest& nearest, const ExactTest& exact) {
     for (Bits left = mask.certain | mask.uncertain; left; left &= left - 1) {
@@ -134,8 +134,8 @@ inline void consider(const HitMask& mask, const Candidates& candidates, Bits kno
     }
 }
 
-/// A leaf against the nearest so far. Nearly always one slot is nearer or none, and certainly so:
-/// that is seen to without a branch, which the processor could not foresee.
+/// Compares a leaf with the nearest hit so far. Nearly always one slot or none is nearer, and
+/// certainly so. That case needs no branch, which the processor could not foresee.
 [[gnu::always_inline]] inline void closest_in(const Leaf& leaf, const FloatRay& ray, unsigned index,
                                               Nearest& nearest, const ExactTest& exact) {
     const LeafTest test(leaf, ray);
@@ -156,7 +156,7 @@ inline void closest(const Tree& tree, const FloatRay& ray, unsigned index, Neare
     });
 }
 
-/// Whether anything in a leaf but `target` is hit before t.
+/// Returns whether anything in a leaf but `target` is hit before t.
 inline bool blocks(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low, float t_high,
                    std::uint32_t target, const ExactTest& exact) {
     const LeafTest test(leaf, ray);
@@ -180,7 +180,7 @@ inline bool occluded(const Tree& tree, const FloatRay& ray, unsigned index, floa
     return blocked;
 }
 
-/// How many facets of a leaf are pierced.
+/// Returns how many facets of a leaf are pierced.
 inline std::uint32_t count_in(const Leaf& leaf, const FloatRay& ray, unsigned index, float t_low,
                               float t_high, const ExactTest& exact) {
     const LeafTest test(leaf, ray);

@@ -1,10 +1,11 @@
-// What a ray has still to visit. The children that it meets are pushed in an order that was fixed
-// when the tree was built, one for each octant of directions (after Ylitie, Karras and Laine 2017):
-// that needs no sorting and no branch on how many they are. No #pragma once: see simd.h.
+// A stack of what a ray has still to visit. The children that it meets are pushed in an order that
+// was fixed when the tree was built, one for each octant of directions (after Ylitie, Karras and
+// Laine 2017). That needs no sorting and no branch on how many they are. No #pragma once: see
+// simd.h.
 
 namespace hemilux::wide::HEMILUX_KERNELS {
 
-/// Which octant a direction belongs to, from the signs of its components.
+/// Returns the octant that a direction belongs to, from the signs of its components.
 inline unsigned octant_of(const float* direction) {
     return unsigned{direction[0] < 0} | unsigned{direction[1] < 0} << 1 |
            unsigned{direction[2] < 0} << 2;
@@ -12,13 +13,13 @@ inline unsigned octant_of(const float* direction) {
 
 #if defined(__AVX2__)
 
-/// Eight words of 32 bits brought into a node's order, of which those in a mask are stored without
-/// gaps. Words behind them are overwritten too.
+/// A permutation that brings eight words of 32 bits into a node's order and stores those in a mask
+/// without gaps. Words behind them are overwritten too.
 struct Ordering {
     __m256i place;
     unsigned met;
 
-    /// The lanes with low <= high.
+    /// Takes the lanes with low <= high.
     Ordering(const Node& node, unsigned octant, F8 low, F8 high) {
         place = _mm256_srlv_epi32(_mm256_set1_epi32(static_cast<int>(node.order[octant])),
                                   _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
@@ -46,7 +47,7 @@ struct Ordering {
         _mm256_storeu_si256(static_cast<__m256i*>(to), ordered);
     }
 #if !defined(__AVX512VL__)
-    /// The lanes in the mask, then anything.
+    /// Returns the lanes in the mask, then anything.
     static __m256i gaps_closed(unsigned mask) {
         struct Table {
             unsigned char lane[256][8] = {};
@@ -93,10 +94,12 @@ struct Ordering {
 
 #endif
 
-/// Whether rays are stopped by what they hit, or pierce everything up to an end that is known.
+/// This says whether rays are stopped by what they hit, or pierce everything up to an end that is
+/// known.
 enum class Rays { stop, pierce };
 
-/// What remains to be visited, the nearest on top. At the bottom lies an entry that says so.
+/// The nodes and leaves that remain to be visited, the nearest on top. At the bottom lies an entry
+/// that says so.
 struct Stack {
     static constexpr unsigned at_once = 16; ///< entries that are compared together
     static constexpr unsigned room = (stack_size + width) / at_once + 1;
@@ -119,11 +122,11 @@ struct Stack {
             ordering.store(from, enter + t);
         top = t + ordering.count();
     }
-    /// The topmost entry; no_facet: there is none.
+    /// Returns the topmost entry; no_facet: there is none.
     std::uint32_t pop() { return child[--top]; }
-    /// The same after the ray was perhaps stopped: entries behind `limit` are passed over. One that
-    /// lies below others may stay; its children are not met then. Without branches that depend on
-    /// how many they are, which the processor cannot foresee.
+    /// Does the same after the ray was perhaps stopped: entries behind `limit` are passed over. One
+    /// that lies below others may stay; its children are not met then. No branch depends on how
+    /// many they are, which the processor could not foresee.
     template <Rays rays>
     std::uint32_t pop_before(float limit) {
         if constexpr (rays == Rays::pierce)

@@ -16,7 +16,7 @@ constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
 
 std::string at_byte(std::size_t at) { return "byte " + std::to_string(at) + ": "; }
 
-/// The chunk at this place of a binary file.
+/// Returns the chunk at this place of a binary file.
 std::string_view chunk_at(std::string_view bytes, std::size_t at, const std::string& path) {
     const std::size_t left = bytes.size() - at - chunk_header;
     const std::uint32_t length = word_at(bytes, at);

@@ -17,7 +17,8 @@ struct Container {
     std::optional<std::string_view> binary; ///< the first buffer of a binary file
 };
 
-/// Throws InputError for a file that cannot be read or whose lengths contradict each other.
+/// Reads a file. Throws InputError for one that cannot be read or whose lengths contradict each
+/// other.
 [[nodiscard]] Container read_container(const std::string& path, const ReadGuard& guard);
 
 } // namespace hemilux::gltf

@@ -5,7 +5,8 @@
 namespace hemilux::gltf {
 namespace {
 
-/// Those that are read, and those without which the geometry and its diffuse light are the same.
+/// The extensions that are read, and those without which the geometry and its diffuse light are the
+/// same.
 constexpr std::array<std::string_view, 14> known_extensions{"KHR_lights_punctual",
                                                             "KHR_materials_anisotropy",
                                                             "KHR_materials_clearcoat",

@@ -58,11 +58,11 @@ struct Accessor {
     std::optional<Sparse> sparse;
 };
 
-/// Which texture, on which coordinates (section 3.9.2 and KHR_texture_transform).
+/// A texture, and the coordinates on which it lies (section 3.9.2 and KHR_texture_transform).
 struct TextureInfo {
     std::size_t texture = 0, set = 0;
     Vec2 offset{0.0}, scale{1.0};
-    double rotation = 0;
+    double rotation = 0; ///< [rad]
 };
 
 struct MaterialInfo {
@@ -96,7 +96,7 @@ struct Node {
     bool has_skin = false;
 };
 
-/// KHR_lights_punctual; photometric units.
+/// A light of KHR_lights_punctual, in photometric units.
 struct Light {
     enum class Kind : std::uint8_t { point, spot, directional };
     Kind kind = Kind::point;
@@ -115,7 +115,7 @@ struct ImageInfo {
     Index view;
     std::string uri, media_type;
 };
-/// 33071, 33648 and 10497 in the file.
+/// The wrapping of a texture: 10497, 33071 and 33648 in the file.
 enum class Wrapping : std::uint8_t { repeat, clamp, mirror };
 struct TextureSource {
     Index image;
@@ -132,8 +132,7 @@ struct Document {
     std::vector<std::size_t> roots; ///< of the scene that is shown
     std::vector<Light> lights;
     std::vector<CameraInfo> cameras;
-    /// Images and textures that no material uses may be wrong: those of unused ones are not
-    /// looked at.
+    /// Images and textures that no material in use refers to may be wrong: they are not looked at.
     std::vector<ImageInfo> images;
     std::vector<TextureSource> textures;
 };
@@ -141,7 +140,7 @@ struct Document {
 /// Throws InputError.
 [[nodiscard]] Document read_document(const JsonValue& root);
 
-/// The parts that have files of their own.
+/// Each of these reads a part of the document that has a source file of its own.
 void read_buffers(const JsonValue& root, Document& document);
 void read_materials(const JsonValue& root, Document& document);
 void read_nodes(const JsonValue& root, Document& document);

@@ -47,7 +47,7 @@ std::size_t element_size(const ElementType& type, Component component) {
     return type.columns == 1 ? column : type.columns * ((column + 3) / 4 * 4);
 }
 
-/// Where `count` elements of this size lie; throws where they do not fit into their view.
+/// Reads where `count` elements of this size lie; throws where they do not fit into their view.
 Span read_span(const JsonValue& value, const Document& document, std::size_t element,
                const JsonValue& count) {
     Span span;

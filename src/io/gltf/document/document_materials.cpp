@@ -28,7 +28,7 @@ std::optional<TextureInfo> read_texture(const JsonValue& owner, std::string_view
     return info;
 }
 
-/// Numbers of at least 0; a colour may have more than the three.
+/// Reads numbers of at least 0; a colour may have more than the three.
 template <std::size_t n>
 Vec3 read_colour(const JsonValue& owner, std::string_view key, std::array<double, n> numbers) {
     owner.numbers_of(key, numbers);

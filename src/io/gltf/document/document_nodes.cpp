@@ -11,7 +11,7 @@
 namespace hemilux::gltf {
 namespace {
 
-/// Of the node: a matrix, or translation after rotation after scale.
+/// Reads the transform of a node: a matrix, or translation after rotation after scale.
 glm::dmat4 read_transform(const JsonValue& value) {
     if (const auto matrix = value.find("matrix")) {
         std::array<double, 16> columns{};
@@ -45,7 +45,8 @@ Node read_node(const JsonValue& value, std::size_t nodes, const Document& docume
     return node;
 }
 
-/// Each node has one parent at most, and none is its own ancestor. Returns those without parents.
+/// Checks that each node has one parent at most and that none is its own ancestor. Returns those
+/// without parents.
 std::vector<std::size_t> check_trees(const std::vector<JsonValue>& values,
                                      const std::vector<Node>& nodes) {
     std::vector<bool> has_parent(nodes.size()), reached(nodes.size());
@@ -74,7 +75,7 @@ std::vector<std::size_t> check_trees(const std::vector<JsonValue>& values,
     return roots;
 }
 
-/// Those of the scene that the file shows first; all where the file has no scenes.
+/// Returns the roots of the scene that the file shows first; all where the file has no scenes.
 std::vector<std::size_t> roots_of_scene(const JsonValue& root, std::size_t nodes,
                                         std::vector<std::size_t> all) {
     const std::vector<JsonValue> scenes = root.elements_of("scenes");

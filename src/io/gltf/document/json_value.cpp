@@ -11,7 +11,7 @@
 namespace hemilux::gltf {
 namespace {
 
-/// A value in a message.
+/// Returns a value as words for a message.
 std::string text_of(const nlohmann::json& node) {
     constexpr std::size_t longest = 40;
     if (node.is_object())

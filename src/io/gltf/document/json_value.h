@@ -1,5 +1,5 @@
 #pragma once
-// JSON that is read with its path in mind: whatever is missing or of another kind than expected is
+// JSON that is read with its path in mind. Whatever is missing or of another kind than expected is
 // an InputError such as "room.gltf: /accessors/3/count: expected a whole number from 1 to 12, found
 // 40".
 
@@ -27,24 +27,24 @@ class JsonValue {
     /// Throws the error of this value.
     [[noreturn]] void fail(const std::string& message) const;
 
-    /// The member of an object; empty where there is none.
+    /// Returns the member of an object; empty where there is none.
     [[nodiscard]] std::optional<JsonValue> find(std::string_view key) const;
     [[nodiscard]] JsonValue at(std::string_view key) const;
-    /// The elements of an array.
+    /// Returns the elements of an array.
     [[nodiscard]] std::vector<JsonValue> elements() const;
 
     [[nodiscard]] std::string text() const;
     [[nodiscard]] bool flag() const;
-    /// A finite number whose absolute value is at most `largest_number` (text_words.h).
+    /// Returns a finite number whose absolute value is at most `largest_number` (text_words.h).
     [[nodiscard]] double number() const;
-    /// A whole number from `low` to `high`.
+    /// Returns a whole number from `low` to `high`.
     [[nodiscard]] std::size_t whole(std::size_t low, std::size_t high) const;
-    /// An index into an array of `count` elements; `of` says of what, for messages.
+    /// Returns an index into an array of `count` elements; `of` says of what, for messages.
     [[nodiscard]] std::size_t index(std::size_t count, const char* of) const;
-    /// An array of just so many numbers.
+    /// Reads an array of just so many numbers.
     void numbers(std::span<double> values) const;
 
-    /// Members that may be missing.
+    /// These read members that may be missing.
     [[nodiscard]] std::vector<JsonValue> elements_of(std::string_view key) const;
     [[nodiscard]] std::string text_or(std::string_view key, std::string otherwise) const;
     [[nodiscard]] bool flag_or(std::string_view key, bool otherwise) const;
@@ -54,7 +54,7 @@ class JsonValue {
     [[nodiscard]] std::optional<std::size_t> index_in(std::string_view key, std::size_t count,
                                                       const char* of) const;
     void numbers_of(std::string_view key, std::span<double> values) const;
-    /// The extension of this name.
+    /// Returns the extension of this name.
     [[nodiscard]] std::optional<JsonValue> extension(std::string_view name) const;
 
   private:
@@ -77,7 +77,7 @@ class JsonDocument {
 
     [[nodiscard]] JsonValue root() const;
 
-    /// Bytes that a character of JSON takes at most, about, once it was read.
+    /// The bytes that a character of JSON takes at most, about, once it is read.
     static constexpr double bytes_per_character = 40;
 
   private:

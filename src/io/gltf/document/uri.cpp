@@ -46,7 +46,7 @@ std::optional<std::string> decode_base64(std::string_view text) {
     return count < 6 ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
-/// %20 and the like. What is no such code stays.
+/// Decodes %20 and the like. What is no such code stays.
 std::string without_percents(std::string_view uri) {
     std::string path;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -63,7 +63,7 @@ std::string without_percents(std::string_view uri) {
     return path;
 }
 
-/// Empty for what is no base 64.
+/// Returns the bytes of a data URI; empty for what is no base 64.
 std::optional<std::string> decode_data_uri(std::string_view uri) {
     constexpr std::string_view base64 = ";base64";
     const std::size_t comma = uri.find(',');
@@ -72,8 +72,8 @@ std::optional<std::string> decode_data_uri(std::string_view uri) {
     return decode_base64(uri.substr(comma + 1));
 }
 
-/// Seen from the folder of the scene. Empty for other schemes and absolute paths, which glTF does
-/// not allow.
+/// Returns the path of a URI, as seen from the folder of the scene. It is empty for other schemes
+/// and absolute paths, which glTF does not allow.
 std::optional<std::string> path_of_uri(std::string_view uri, const std::string& scene) {
     namespace fs = std::filesystem;
     const std::string name = without_percents(uri);

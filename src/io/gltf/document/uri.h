@@ -1,5 +1,6 @@
 #pragma once
-// What a glTF file refers to: bytes within the text (RFC 2397, in base 64), or a file beside it.
+// The things that a glTF file refers to: bytes within the text (RFC 2397, in base 64), or a file
+// beside it.
 
 #include <optional>
 #include <string>
@@ -12,9 +13,9 @@ struct UriContent {
     std::string file;                 ///< the path of any other
 };
 
-/// What a URI of the file `scene` refers to. `place` is where it stands, such as /images/3/uri.
-/// Throws InputError for data that are no base 64, for other schemes and for absolute paths, which
-/// glTF does not allow.
+/// Returns what a URI of the file `scene` refers to. `place` is where it stands, such as
+/// /images/3/uri. Throws InputError for data that are no base 64, for other schemes and for
+/// absolute paths, which glTF does not allow.
 [[nodiscard]] UriContent content_of_uri(std::string_view uri, const std::string& scene,
                                         const std::string& place);
 

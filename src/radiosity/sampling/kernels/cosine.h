@@ -1,11 +1,11 @@
-// Cosine-distributed directions. No #pragma once: see sobol.h.
+// Draws cosine-distributed directions. There is no #pragma once: see sobol.h.
 
 #include "radiosity/sampling/sampling_kernels.h"
 
 namespace hemilux::HEMILUX_KERNELS {
 
-// Sine and cosine of pi/4 t for |t| <= 1: Taylor's series, whose first term left out is below half
-// of the last bit.
+// These functions give sine and cosine of pi/4 t for |t| <= 1 by Taylor's series, whose first term
+// left out is below half of the last bit.
 
 inline double sine_of_eighths(double x2, double x) {
     double sum = 1.0 / 355687428096000; // 17!

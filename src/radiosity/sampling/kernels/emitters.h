@@ -1,5 +1,5 @@
-// How likely emitters are drawn (radiosity/emitters/emitter_choice.h). No #pragma once: see
-// sobol.h.
+// Estimates how likely emitters are drawn (radiosity/emitters/emitter_choice.h). There is no
+// #pragma once: see sobol.h.
 
 #include "radiosity/sampling/sampling_kernels.h"
 
@@ -21,7 +21,7 @@ inline void weigh_emitters(const EmitterArrays& emitters, std::size_t count,
         const double ahead = to.normal[0] * x + to.normal[1] * y + to.normal[2] * z;
         const double below = -(nx[k] * x + ny[k] * y + nz[k] * z);
 
-        // As in may_see: a corner of each must lie in front of the other's plane.
+        // The test is that of may_see: a corner of each must lie in front of the other's plane.
         double highest = ahead, lowest = below; // of the centres
         double least_ahead = ahead, least_below = below;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -67,7 +67,8 @@ inline void weigh_clusters(const ClusterArrays& clusters, std::size_t count,
         const double height = to.normal[0] * x + to.normal[1] * y + to.normal[2] * z + reach;
         const double cosine = r > reach ? lesser(height / r, 1.0) : 1.0;
         const double square = pi * (r2 + clusters.radius[k] * clusters.radius[k]);
-        // Of one of them, which is drawn by its power, to the points that it is nearest to.
+        // The gap is that of one emitter of the cluster, which is drawn by its power, to the points
+        // that it is nearest to.
         const double gap = greater(r - to.radius, height - reach), radius = clusters.radius[k];
         const double nearest = gap > 2 * radius ? gap : greater(gap - radius, 0.0);
         const double excess = __builtin_sqrt(square / (pi * nearest * nearest + clusters.area[k]));

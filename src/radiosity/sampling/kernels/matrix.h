@@ -1,5 +1,5 @@
-// Products with the rows of a sparse matrix. No #pragma once: included once per instruction set,
-// into a namespace of its own.
+// Multiplies the rows of a sparse matrix. There is no #pragma once: the file is included once per
+// instruction set, into a namespace of its own.
 
 #include "radiosity/sampling/sampling_kernels.h"
 
@@ -12,7 +12,7 @@ inline void add_product(const MatrixEntry& entry, const Lanes* x, double* sum) {
         sum[c] += value * lane[c];
 }
 
-/// In two sums that do not wait for each other.
+/// Adds up in two sums that do not wait for each other.
 inline void row_times(const MatrixEntry* row, std::size_t count, const Lanes* x, Lanes* sum) {
     double even[4] = {}, odd[4] = {};
     std::size_t k = 0;

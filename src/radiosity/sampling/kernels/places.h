@@ -1,10 +1,10 @@
-// Places among running sums. No #pragma once: see sobol.h.
+// Finds places among running sums. There is no #pragma once: see sobol.h.
 
 #include "radiosity/sampling/sampling_kernels.h"
 
 namespace hemilux::HEMILUX_KERNELS {
 
-/// Branch-free binary search: whichever half is taken, the next is known in time.
+/// Searches without branches, by halves: whichever half is taken, the next is known in time.
 inline void find_places(const double* sums, std::size_t size, std::size_t count,
                         const double* __restrict at, std::uint64_t* __restrict places) {
     for (std::size_t k = 0; k < count; ++k)
@@ -14,7 +14,8 @@ inline void find_places(const double* sums, std::size_t size, std::size_t count,
             places[k] += sums[places[k] + half] <= at[k] ? half : 0;
 }
 
-/// Rays that stand at whole numbers: no branch, and no number of rays that is not whole.
+/// Finds the rays, which stand at whole numbers, without a branch and without a number of rays that
+/// is not whole.
 inline std::uint64_t last_rays(const PatchOnLine& line, std::size_t count,
                                const float* __restrict up_to, std::int64_t* __restrict last) {
     const double before = line.before, after = line.after, rays = line.rays;

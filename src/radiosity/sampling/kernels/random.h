@@ -1,10 +1,11 @@
-// Random numbers by their place, and directions into cells. No #pragma once: see sobol.h.
+// Draws random numbers by their place, and directions into cells. There is no #pragma once: see
+// sobol.h.
 
 #include "radiosity/sampling/sampling_kernels.h"
 
 namespace hemilux::HEMILUX_KERNELS {
 
-/// pcg4d of Jarzynski and Olano (2020, "Hash functions for GPU rendering").
+/// Computes pcg4d of Jarzynski and Olano (2020, "Hash functions for GPU rendering").
 inline void random(const RandomKeys& keys, std::size_t count, std::uint32_t attempt,
                    double* __restrict a, double* __restrict b, double* __restrict c,
                    double* __restrict d) {

@@ -1,12 +1,13 @@
-// Points of an Owen-scrambled Sobol sequence (radiosity/sampling/sobol.h). No #pragma once:
-// included once per instruction set, into a namespace of its own.
+// Computes points of an Owen-scrambled Sobol sequence (radiosity/sampling/sobol.h). There is no
+// #pragma once: the file is included once per instruction set, into a namespace of its own.
 
 #include "radiosity/sampling/sampling_kernels.h"
 
 namespace hemilux::HEMILUX_KERNELS {
 
-/// A hash in which each bit depends on itself and lower bits only: on reversed words it is a nested
-/// uniform scrambling. The constants are those of Vegdahl (2021, "Building a better LK hash").
+/// Hashes a word so that each bit depends on itself and lower bits only: on reversed words this is
+/// a nested uniform scrambling. The constants are those of Vegdahl (2021, "Building a better LK
+/// hash").
 inline std::uint32_t permute(std::uint32_t x, std::uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;

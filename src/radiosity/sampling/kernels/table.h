@@ -1,5 +1,5 @@
-// All kernels of one instruction set, gathered for the choice at run time. The file that
-// includes this names the set in HEMILUX_KERNELS.
+// Gathers all kernels of one instruction set for the choice at run time. The file that includes
+// this names the set in HEMILUX_KERNELS.
 
 #include "radiosity/sampling/sampling_kernels.h"
 
