@@ -77,6 +77,16 @@ TEST_CASE("a binary file is read, also one that begins like a text", "[stl]") {
     CHECK(result.scene.vertices.size() == 4);
 }
 
+TEST_CASE("corners at one place are one vertex, also where a 0 is negative", "[stl]") {
+    const TemporaryFolder folder;
+    std::string other = facet;
+    other.replace(other.find("vertex 0 0 0"), 12, "vertex -0 0 0");
+    const ReadResult result =
+        read_stl(folder.write("s.stl", "solid\n" + facet + other + "endsolid\n"));
+    CHECK(result.scene.faces == 2);
+    CHECK(result.scene.vertices.size() == 3);
+}
+
 TEST_CASE("triangles without area are left out", "[stl]") {
     std::vector<float> numbers = two;
     std::fill(numbers.begin(), numbers.begin() + 9, 1.f);

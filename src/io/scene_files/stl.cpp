@@ -5,6 +5,7 @@
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
 #include "io/polygons/polygon_division.h"
+#include "radiosity/scene/welded_edges.h"
 
 #include <algorithm>
 #include <array>
@@ -44,17 +45,9 @@ class StlReader {
         throw InputError(path_, "byte " + std::to_string(at) + ": " + message);
     }
 
-    struct Hash {
-        std::size_t operator()(const std::array<double, 3>& place) const {
-            std::size_t sum = 0;
-            for (const double x : place)
-                sum = (sum ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15 ^ (sum >> 29);
-            return sum;
-        }
-    };
     std::string path_;
     const ReadGuard& guard_;
-    std::unordered_map<std::array<double, 3>, std::uint32_t, Hash> vertices_;
+    std::unordered_map<Vec3, std::uint32_t, PositionHash> vertices_;
     std::vector<Vec3> corners_; ///< of the facet that is read
     std::uint32_t group_ = 0;
     PolygonDivision division_;
@@ -172,7 +165,7 @@ void StlReader::add_triangle(const std::array<Vec3, 3>& corners) {
 /// Corners at one place are one vertex, as the format repeats them.
 std::uint32_t StlReader::vertex_at(const Vec3& place) {
     const auto next = static_cast<std::uint32_t>(result_.scene.vertices.size());
-    const auto [found, is_new] = vertices_.try_emplace({place.x, place.y, place.z}, next);
+    const auto [found, is_new] = vertices_.try_emplace(place, next);
     if (is_new)
         result_.scene.vertices.push_back(place);
     return found->second;
