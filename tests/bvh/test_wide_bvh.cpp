@@ -234,6 +234,7 @@ TEST_CASE("The wide tree over nothing, and over bad coordinates") {
     CHECK_FALSE(empty.closest(up));
     CHECK(empty.count(up) == 0);
     CHECK_FALSE(empty.occluded(up));
+    CHECK(empty.quality().bytes == 0);
     FacetHit nearest{7, true};
     empty.closest_stream({&up, 1}, {&nearest, 1});
     CHECK(nearest.facet == none);

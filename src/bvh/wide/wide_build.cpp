@@ -33,7 +33,9 @@ class Builder {
         Built built;
         find_bounds(built);
         make_items();
-        if (items_.empty() || (!hierarchy && items_.size() <= width)) {
+        if (items_.empty())
+            return built;
+        if (!hierarchy && items_.size() <= width) {
             make_only_leaf(built);
             return built;
         }

@@ -15,8 +15,8 @@
 namespace hemilux::wide {
 
 struct Built {
-    HugeArray<Node> nodes;  ///< none: the only leaf is the root
-    HugeArray<Leaf> leaves; ///< at least one, without triangles where there is nothing to hit
+    HugeArray<Node> nodes;            ///< none: the only leaf is the root
+    HugeArray<Leaf> leaves;           ///< none: nothing to hit
     Box bounds{Vec3(0.0), Vec3(0.0)}; ///< of all facets, in the soup's units
     BvhQuality quality;
 };
@@ -25,8 +25,8 @@ struct Built {
 [[nodiscard]] double size_of(const Box& bounds);
 
 /// Builds the tree with so many `threads`, 0 being one per core. Facets with coordinates that are
-/// not finite are left out. An empty soup becomes one leaf with no node above it, and so do up to
-/// eight triangles without `hierarchy`.
+/// not finite are left out. Without `hierarchy` up to eight triangles are one leaf with no node
+/// above it.
 [[nodiscard]] Built build(const FacetSoup& soup, unsigned threads, bool hierarchy = true);
 
 } // namespace hemilux::wide

@@ -81,7 +81,7 @@ WideBvh::WideBvh(const FacetSoup& soup, const WideBvhOptions& options)
 
 std::optional<Hit> WideBvh::closest(const Ray& ray) const {
     FloatRay scaled;
-    const Fit fit = scale_ray(ray, space_, scaled);
+    const Fit fit = fit_ray(ray, scaled);
     if (fit == Fit::too_far)
         return BruteForce(soup_).closest(ray);
     if (fit == Fit::misses)
@@ -95,7 +95,7 @@ std::optional<Hit> WideBvh::closest(const Ray& ray) const {
 
 bool WideBvh::occluded(const Ray& ray, std::uint32_t target) const {
     FloatRay scaled;
-    const Fit fit = scale_ray(ray, space_, scaled);
+    const Fit fit = fit_ray(ray, scaled);
     if (fit == Fit::too_far)
         return BruteForce(soup_).occluded(ray, target);
     if (fit == Fit::misses)
@@ -107,7 +107,7 @@ bool WideBvh::occluded(const Ray& ray, std::uint32_t target) const {
 
 std::uint32_t WideBvh::count(const Ray& ray) const {
     FloatRay scaled;
-    const Fit fit = scale_ray(ray, space_, scaled);
+    const Fit fit = fit_ray(ray, scaled);
     if (fit == Fit::too_far)
         return BruteForce(soup_).count(ray);
     if (fit == Fit::misses)
@@ -127,6 +127,8 @@ Hit WideBvh::locate(const Ray& ray, std::uint32_t facet) const {
 }
 
 std::size_t WideBvh::triangles_around(const Vec3& point) const {
+    if (built_.leaves.size() == 0)
+        return 0;
     const Vec3 scaled = point / space_.size;
     const auto holds = [&](const wide::Node& node, unsigned k) {
         for (unsigned i = 0; i < 3; ++i) {
@@ -161,6 +163,10 @@ wide::Tree WideBvh::tree() const {
             built_.quality.bytes > cache};
 }
 
+Fit WideBvh::fit_ray(const Ray& ray, FloatRay& scaled) const {
+    return built_.leaves.size() == 0 ? Fit::misses : scale_ray(ray, space_, scaled);
+}
+
 /// Some rays of a stream, ready for the kernels. Those that the kernels cannot trace end before
 /// they begin.
 struct WideBvh::Block {
@@ -172,7 +178,7 @@ struct WideBvh::Block {
 
     Block(const WideBvh& bvh, std::span<const Ray> rays) {
         for (std::size_t k = 0; k < rays.size(); ++k) {
-            fit[k] = scale_ray(rays[k], bvh.space_, scaled[k]);
+            fit[k] = bvh.fit_ray(rays[k], scaled[k]);
             if (fit[k] == Fit::good) {
                 nearest[k] = nothing_before(scaled[k], rays[k].t_max);
             } else {
@@ -184,6 +190,10 @@ struct WideBvh::Block {
 };
 
 void WideBvh::closest_stream(std::span<const Ray> rays, std::span<FacetHit> out) const {
+    if (built_.leaves.size() == 0) {
+        std::fill_n(out.begin(), rays.size(), FacetHit{});
+        return;
+    }
     for (; !rays.empty(); rays = rays.subspan(std::min(rays.size(), Block::size))) {
         const auto now = rays.first(std::min(rays.size(), Block::size));
         Block block(*this, now);
@@ -199,6 +209,10 @@ void WideBvh::closest_stream(std::span<const Ray> rays, std::span<FacetHit> out)
 
 void WideBvh::occluded_stream(std::span<const Ray> rays, std::span<const std::uint32_t> targets,
                               std::span<std::uint8_t> out) const {
+    if (built_.leaves.size() == 0) {
+        std::fill_n(out.begin(), rays.size(), std::uint8_t{0});
+        return;
+    }
     for (std::size_t begin = 0; begin < rays.size(); begin += Block::size) {
         const auto now = rays.subspan(begin, std::min(rays.size() - begin, Block::size));
         Block block(*this, now);

@@ -37,6 +37,7 @@ class WideBvh final : public Tracer {
 
   private:
     struct Block;
+    [[nodiscard]] wide::Fit fit_ray(const Ray& ray, wide::FloatRay& scaled) const;
     [[nodiscard]] wide::Tree tree() const;
 
     FacetSoup soup_;
