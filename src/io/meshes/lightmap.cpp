@@ -10,8 +10,6 @@
 namespace hemilux {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
-
 /// A corner of a triangle in the picture.
 struct Corner {
     Vec2 place;

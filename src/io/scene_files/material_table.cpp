@@ -194,22 +194,19 @@ void MaterialTable::add_texture(std::size_t material, const std::optional<MtlTex
 }
 
 void MaterialTable::warn_of_undefined() {
-    constexpr std::size_t longest_list = 8;
-    std::size_t count = 0;
-    std::string names, where;
+    std::vector<std::string> names;
+    std::string where;
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         if (entries_[i].definition || entries_[i].first_use == 0)
             continue;
-        if (count == 0)
+        if (names.empty())
             where = path_ + ":" + std::to_string(entries_[i].first_use) + ": ";
-        if (count++ < longest_list)
-            names += (names.empty() ? "" : ", ") + in_quotes(result_.scene.materials[i].name);
+        names.push_back(in_quotes(result_.scene.materials[i].name));
     }
-    if (count > longest_list)
-        names += " and " + std::to_string(count - longest_list) + " more";
-    if (count > 0)
-        result_.warnings.push_back(where + counted_materials(count) + " used but not defined (" +
-                                   names + "): reflectance 0.5, no emission");
+    if (!names.empty())
+        result_.warnings.push_back(where + counted_materials(names.size()) +
+                                   " used but not defined (" + list_names(names) +
+                                   "): reflectance 0.5, no emission");
 }
 
 void MaterialTable::warn_of_textures() {
