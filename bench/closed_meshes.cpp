@@ -1,6 +1,6 @@
 #include "closed_meshes.h"
 
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 #pragma once
 // Meshes without a hole, seen from inside: neighbours share their vertices, and fronts face inward.
 
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 
 #include <cstddef>
 #include <cstdint>

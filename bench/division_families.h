@@ -2,7 +2,7 @@
 // Scenes on which the whole error of a division is compared with the true one: few large faces,
 // furniture that stands on them, and one difficulty each.
 
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 
 #include <functional>
 #include <string>

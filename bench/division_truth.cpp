@@ -15,12 +15,12 @@
 #include "division_families.h"
 #include "parallel/workers.h"
 #include "path_reference.h"
-#include "radiosity/division/adaptive_division.h"
-#include "radiosity/final_gather/final_gather.h"
-#include "radiosity/final_gather/linear_light.h"
-#include "radiosity/rays/make_tracer.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/needs.h"
+#include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/light/division/adaptive_division.h"
+#include "radiosity/light/final_gather/final_gather.h"
+#include "radiosity/light/final_gather/linear_light.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/needs.h"
 
 #include <algorithm>
 #include <cmath>

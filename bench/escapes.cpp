@@ -10,8 +10,8 @@
 #include "closed_meshes.h"
 #include "io/scene_files/obj.h"
 #include "parallel/workers.h"
-#include "radiosity/rays/patch_start.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/rays/patch_start.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,12 +1,12 @@
 // What the tree costs where all triangles fit one of its leaves: nanoseconds a ray with the tree,
-// without it (radiosity/scene/needs.h leaves it out there), and by a loop over the facets one after
-// the other. One thread.
+// without it (radiosity/paper/scene/needs.h leaves it out there), and by a loop over the facets one
+// after the other. One thread.
 //
 //     few_facets
 #include "bvh/brute_force.h"
 #include "bvh/wide/wide_bvh.h"
-#include "radiosity/rays/shot.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "timed_rounds.h"
 
 #include <cstdio>

@@ -11,10 +11,10 @@
 #include "clock.h"
 #include "geometry/projected_polygon.h"
 #include "io/scene_files/obj.h"
-#include "radiosity/form_factors/exact_form_factors.h"
-#include "radiosity/form_factors/hemicube.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/engine/form_factors/exact_form_factors.h"
+#include "radiosity/engine/form_factors/hemicube.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
 #include <cmath>

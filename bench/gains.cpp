@@ -12,10 +12,10 @@
 #include "bvh/wide/wide_bvh.h"
 #include "clock.h"
 #include "io/scene_files/obj.h"
-#include "radiosity/guiding/guide.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/method.h"
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/run.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/research/guiding/guide.h"
 
 #include <array>
 #include <cmath>

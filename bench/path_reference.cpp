@@ -1,7 +1,7 @@
 #include "path_reference.h"
 
 #include "geometry/frame.h"
-#include "radiosity/rays/shot.h"
+#include "radiosity/paper/rays/shot.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // The light at points of surfaces, by nothing but paths of rays: no solution, no patches and no
 // gather have a part in it. Slow and obviously right, a reference for what the program reports.
 
-#include "radiosity/final_gather/surface_points.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/light/final_gather/surface_points.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include "bvh/tracer.h"
 

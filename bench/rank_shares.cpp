@@ -8,13 +8,13 @@
 // nothing else took time, and the largest number of bytes that a rank gets of hits of others.
 #include "io/scene_files/obj.h"
 #include "parallel/ranks.h"
-#include "radiosity/emitters/small_emitters.h"
-#include "radiosity/form_factors/ray_counts.h"
-#include "radiosity/rays/make_tracer.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
-#include "radiosity/stored_transport/ray_plan.h"
+#include "radiosity/engine/emitters/small_emitters.h"
+#include "radiosity/engine/form_factors/ray_counts.h"
+#include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/engine/stored_transport/ray_plan.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -3,7 +3,7 @@
 // the hemisphere; patches in spatial order.
 
 #include "bvh/tracer.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "scenes.h"
 
 #include "geometry/frame.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // The scenes of the measurement, made in code: a closed Cornell box and a room full of boxes and
 // spheres, of triangles alone, at any fineness.
 
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 
 #include <cstdint>
 #include <string>

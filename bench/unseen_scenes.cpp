@@ -1,7 +1,7 @@
 #include "unseen_scenes.h"
 
 #include "../examples/scenes/furniture.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <array>

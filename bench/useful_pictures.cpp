@@ -13,9 +13,9 @@
 #include "clock.h"
 #include "io/rendering/render.h"
 #include "io/scene_files/obj.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/method.h"
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/run.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "ssim.h"
 
 #include <algorithm>

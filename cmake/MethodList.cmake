@@ -1,6 +1,6 @@
 # hemilux_list_methods(OUTPUT FILE...): writes the source file that lists the methods which the files
 # define, each named as its file.
-set(HEMILUX_METHOD_LIST_TEMPLATE ${CMAKE_CURRENT_LIST_DIR}/../src/radiosity/solving/methods.cpp.in)
+set(HEMILUX_METHOD_LIST_TEMPLATE ${CMAKE_CURRENT_LIST_DIR}/../src/radiosity/engine/solving/methods.cpp.in)
 function(hemilux_list_methods output)
   set(method_declarations "")
   set(method_addresses "")

@@ -6,7 +6,7 @@
 // Prints: a row per level with the number of triangles and of distinct vertices up to that level,
 // and the smallest and largest solid angle and projected solid angle of the level's triangles.
 
-#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/paper/hemisphere/hemisphere.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -8,9 +8,9 @@
 
 #include "bvh/wide/wide_bvh.h"
 #include "parallel/workers.h"
-#include "radiosity/hemisphere/density.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/engine/densities/density.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
 #include <cmath>

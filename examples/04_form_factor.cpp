@@ -8,7 +8,7 @@
 
 #include "geometry/polygon.h"
 #include "geometry/projected_polygon.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <cmath>
 #include <cstdio>

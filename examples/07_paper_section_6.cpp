@@ -10,9 +10,9 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/rendering/render.h"
 #include "io/scene_files/obj.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/method.h"
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/run.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <array>
 #include <chrono>

@@ -9,10 +9,10 @@
 
 #include "bvh/wide/wide_bvh.h"
 #include "geometry/projected_polygon.h"
-#include "radiosity/form_factors/exchange_area.h"
-#include "radiosity/form_factors/hemicube.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/engine/form_factors/exchange_area.h"
+#include "radiosity/engine/form_factors/hemicube.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solving/solver.h"
 
 #include <array>
 #include <cmath>

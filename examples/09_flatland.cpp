@@ -10,7 +10,7 @@
 // light. Draws, where a file is named: the room, its light, and the lines.
 
 #include "geometry/vector.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <cmath>

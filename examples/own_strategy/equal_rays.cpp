@@ -10,10 +10,10 @@
 // and --method equal-rays is there, in `hemilux compare` too, and all property tests hold for it:
 // shares that sum to 1, Lambert's law, the furnace, agreement with `matrix`. Its option is in
 // --help, in files of --config, in what shells complete and in checkpoints. A file in
-// src/radiosity/strategies/ is found without being named.
+// src/radiosity/engine/methods/ is found without being named.
 
-#include "radiosity/shooting/shooting.h"
-#include "radiosity/solving/method_option.h"
+#include "radiosity/engine/shooting/shooting.h"
+#include "radiosity/engine/solving/method_option.h"
 
 #include <array>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 #include "furniture.h"
 
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 
 namespace hemilux {
 

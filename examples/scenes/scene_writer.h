@@ -5,7 +5,7 @@
 // sqrt are used, and coordinates are rounded to a picometre, so that any machine writes the same
 // bytes and turned furniture stays planar.
 
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 
 #include <array>
 #include <map>

@@ -4,7 +4,7 @@
 #include "furniture.h"
 #include "scenes.h"
 
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 
 namespace hemilux {
 

@@ -3,7 +3,7 @@
 #include "app/check_fails.h"
 #include "app/running.h"
 #include "io/results/checkpoint.h"
-#include "radiosity/solving/method.h"
+#include "radiosity/engine/solving/method.h"
 #include "support/catch.h"
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 // What `hemilux compare` writes and says.
 #include "app/check_fails.h"
 #include "app/split.h"
-#include "radiosity/solving/method.h"
+#include "radiosity/engine/solving/method.h"
 #include "support/catch.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "app/program.h"
 #include "app/running.h"
 #include "app/settings/memory.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

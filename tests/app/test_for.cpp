@@ -3,7 +3,7 @@
 #include "app/running/target_weights.h"
 #include "app/statistics_file.h"
 #include "io/scene_files/obj.h"
-#include "radiosity/rays/make_tracer.h"
+#include "radiosity/engine/rays/make_tracer.h"
 #include "support/catch.h"
 
 #include <algorithm>

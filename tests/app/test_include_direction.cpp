@@ -17,34 +17,42 @@ namespace fs = std::filesystem;
 
 /// Folders of src/; those of radiosity, io and app have no files of their own but main.cpp.
 const std::vector<std::string> rooms{
-    "parallel",
     "geometry",
-    "mpi",
     "bvh",
+    "radiosity/paper/sampling",
+    "radiosity/paper/scene",
+    "radiosity/paper/rays",
+    "radiosity/paper/hemisphere",
+    "radiosity/paper/solution",
+    "radiosity/paper/solving",
+    "radiosity/paper/pages",
+    "parallel",
     "bvh/wide",
-    "radiosity/sampling",
-    "radiosity/textures",
-    "radiosity/scene",
-    "radiosity/rays",
-    "radiosity/sides",
-    "radiosity/solution",
-    "radiosity/solving",
-    "radiosity/saving",
-    "radiosity/form_factors",
-    "radiosity/linear",
-    "radiosity/hierarchy",
-    "radiosity/hemisphere",
-    "radiosity/plain",
-    "radiosity/shooting",
-    "radiosity/progressive",
-    "radiosity/guiding",
-    "radiosity/emitters",
-    "radiosity/stored_transport",
-    "radiosity/final_gather",
-    "radiosity/light_error",
-    "radiosity/strategies",
-    "radiosity/solvers",
-    "radiosity/division",
+    "radiosity/engine/sampling",
+    "radiosity/engine/rays",
+    "radiosity/engine/target",
+    "radiosity/engine/needs",
+    "radiosity/engine/solving",
+    "radiosity/engine/saving",
+    "radiosity/engine/form_factors",
+    "radiosity/engine/linear",
+    "radiosity/engine/densities",
+    "radiosity/engine/shooting",
+    "radiosity/engine/progressive",
+    "radiosity/engine/emitters",
+    "radiosity/engine/stored_transport",
+    "radiosity/engine/methods",
+    "radiosity/research/hierarchy",
+    "radiosity/research/guiding",
+    "radiosity/research/targets",
+    "radiosity/research/methods",
+    "radiosity/light/textures",
+    "radiosity/light/layers",
+    "radiosity/light/sides",
+    "radiosity/light/final_gather",
+    "radiosity/light/light_error",
+    "radiosity/light/division",
+    "mpi",
     "io/files",
     "io/textures",
     "io/polygons",
@@ -145,11 +153,12 @@ TEST_CASE("the rule about includes tells right from wrong") {
     CHECK(allowed("app/command_line/arguments.cpp", "#include <CLI/CLI.hpp>"));
     CHECK(allowed("app/main.cpp", "int include = 3; // \"io/scene_files/obj.h\""));
     CHECK_FALSE(allowed("geometry/box.h", "#include \"bvh/tracer.h\""));
-    CHECK_FALSE(allowed("radiosity/scene/mesh.cpp", "  #  include \"io/files/error.h\""));
+    CHECK_FALSE(allowed("radiosity/paper/scene/mesh.cpp", "  #  include \"io/files/error.h\""));
     CHECK_FALSE(allowed("bvh/build.cpp", "#include \"build.h\""));
-    CHECK_FALSE(allowed("radiosity/scene/mesh.h", "#include \"radiosity/solving/solver.h\""));
+    CHECK_FALSE(
+        allowed("radiosity/paper/scene/mesh.h", "#include \"radiosity/paper/solving/solver.h\""));
     CHECK_FALSE(allowed("io/pictures/image.h", "#include <stb_image_write.h>"));
-    CHECK_FALSE(allowed("radiosity/solving/solver.h", "#include <nlohmann/json.hpp>"));
+    CHECK_FALSE(allowed("radiosity/paper/solving/solver.h", "#include <nlohmann/json.hpp>"));
     CHECK_FALSE(allowed("app/main.cpp", "#include <CLI/CLI.hpp>"));
     CHECK_FALSE(allowed("io/scene_files/obj.cpp", "#include <CLI/CLI.hpp>"));
     CHECK_FALSE(allowed("geometry/box.h", "#include <unistd.h>"));

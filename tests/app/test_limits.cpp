@@ -1,7 +1,7 @@
 // --time and --memory hold whatever else is asked for.
 #include "app/program.h"
 #include "app/running/step_size.h"
-#include "radiosity/solving/method.h"
+#include "radiosity/engine/solving/method.h"
 #include "support/catch.h"
 
 #include <cmath>

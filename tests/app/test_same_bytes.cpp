@@ -1,7 +1,7 @@
 // The script that compares two builds finds no difference between instruction sets, and any other.
 
 #include "app/program.h"
-#include "radiosity/solving/method.h"
+#include "radiosity/engine/solving/method.h"
 #include "support/catch.h"
 
 #include <cstdlib>

@@ -3,7 +3,7 @@
 #include "app/program.h"
 #include "io/results/tables.h"
 #include "io/scene_files/obj.h"
-#include "radiosity/sides/orientation.h"
+#include "radiosity/light/sides/orientation.h"
 #include "support/catch.h"
 
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // The BVH against brute force, and what must not break it.
 #include "bvh/brute_force.h"
 #include "bvh/bvh.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 
 #include <limits>

@@ -1,7 +1,7 @@
 // No ray leaks between neighbours, and none is counted twice: closed meshes, seen from inside.
 #include "bvh/wide/wide_bvh.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

@@ -4,10 +4,10 @@
 #include "bvh/brute_force.h"
 #include "io/files/error.h"
 #include "io/results/checkpoint.h"
-#include "radiosity/saving/state.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solution/solve_error.h"
-#include "radiosity/solving/method.h"
+#include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solution/solve_error.h"
 #include "saved_runs.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "fuzz/input_file.h"
 #include "io/files/error.h"
 #include "io/scene_files/obj.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <stdexcept>
 

@@ -1,9 +1,9 @@
 #pragma once
 // The runs whose checkpoints are in corpus/checkpoint_sealed (make_checkpoints.sh).
 
-#include "radiosity/guiding/guide.h"
-#include "radiosity/scene/scene.h"
-#include "radiosity/solving/method.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/paper/scene/scene.h"
+#include "radiosity/research/guiding/guide.h"
 
 #include <utility>
 #include <vector>

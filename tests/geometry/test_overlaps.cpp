@@ -1,6 +1,6 @@
 // What flat polygons have in common.
 #include "geometry/flat_polygon.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Triangles and planar quads as one type: area, normal, centre of mass and uniform points.
 
 #include "geometry/polygon.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/directions.h"
 #include "support/statistics.h"

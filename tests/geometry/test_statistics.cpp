@@ -1,6 +1,6 @@
 // The tests' own statistics against values known in closed form or from tables.
 
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/statistics.h"
 

@@ -1,5 +1,5 @@
 #include "io/meshes/baked_light.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

@@ -2,7 +2,7 @@
 #include "io/pictures/automatic_camera.h"
 #include "io/pictures/camera.h"
 #include "io/scene_files/emitter_shapes.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

@@ -1,5 +1,5 @@
 #include "io/drawings/error_curves.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 
 #include <cmath>

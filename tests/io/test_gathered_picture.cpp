@@ -2,7 +2,7 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/files/error.h"
 #include "io/rendering/render.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/closed_forms.h"
 #include "support/scenes.h"

@@ -3,7 +3,7 @@
 #include "io/gltf/document/container.h"
 #include "io/gltf/gltf.h"
 #include "io/meshes/glb.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"

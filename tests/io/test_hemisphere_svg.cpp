@@ -3,7 +3,7 @@
 #include "io/drawings/density_picture.h"
 #include "io/drawings/hemisphere_svg.h"
 #include "parallel/workers.h"
-#include "radiosity/hemisphere/density.h"
+#include "radiosity/engine/densities/density.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,6 +1,6 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/meshes/indirect_light.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

@@ -1,7 +1,7 @@
 // The charts of a lightmap and what they show.
 #include "io/meshes/lightmap.h"
 #include "io/results/smooth.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

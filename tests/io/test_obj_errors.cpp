@@ -2,7 +2,7 @@
 
 #include "io/files/error.h"
 #include "io/scene_files/obj.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 

@@ -1,6 +1,6 @@
 // The subdivision in a plane: what it cuts of a scene, and what is drawn.
 #include "io/drawings/plane_svg.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

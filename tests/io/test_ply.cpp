@@ -1,7 +1,7 @@
 #include "io/files/error.h"
 #include "io/meshes/ply.h"
 #include "io/pictures/image.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"

@@ -3,7 +3,7 @@
 #include "geometry/frame.h"
 #include "geometry/polygon.h"
 #include "io/polygons/ear_clipping.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/rendering/render.h"
 #include "io/results/smooth.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

@@ -1,6 +1,6 @@
 #include "io/results/smooth.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

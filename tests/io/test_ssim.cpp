@@ -1,5 +1,5 @@
 #include "../../bench/ssim.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 
 #include <algorithm>

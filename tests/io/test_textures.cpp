@@ -5,8 +5,8 @@
 #include "io/rendering/render.h"
 #include "io/scene_files/obj.h"
 #include "io/textures/texture_files.h"
-#include "radiosity/rays/make_tracer.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 

@@ -1,8 +1,8 @@
 // What is filled row by row is what rays of the camera see.
 #include "bvh/wide/wide_bvh.h"
 #include "io/rendering/visible_facets.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

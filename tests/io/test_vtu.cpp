@@ -3,7 +3,7 @@
 #include "io/meshes/vtu.h"
 #include "io/results/csv.h"
 #include "io/results/tables.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"

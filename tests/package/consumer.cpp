@@ -1,8 +1,8 @@
 // Uses the library from its installed headers: a lamp above a floor, solved in one step.
 #include "bvh/wide/wide_bvh.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/method.h"
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/run.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <cstdio>
 

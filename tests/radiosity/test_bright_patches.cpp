@@ -1,5 +1,5 @@
 // Rays that gathers aim at bright patches, against light in closed form.
-#include "radiosity/final_gather/gather_in_parts.h"
+#include "radiosity/light/final_gather/gather_in_parts.h"
 #include "support/closed_forms.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,8 +1,8 @@
 // Directions into the cells of the hemisphere, many at once.
 
 #include "parallel/instruction_set.h"
-#include "radiosity/hemisphere/cell_directions.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/engine/densities/cell_directions.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/directions.h"
 #include "support/statistics.h"

@@ -1,9 +1,9 @@
 // What is left to chance: streams of random numbers that have nothing in common, the turn of the
 // hemispheres, and the roulettes of pairs and of whole rays.
 #include "geometry/frame.h"
-#include "radiosity/hemisphere/cell_directions.h"
-#include "radiosity/progressive/shot_factors.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/engine/densities/cell_directions.h"
+#include "radiosity/engine/progressive/shot_factors.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/statistics.h"

@@ -1,10 +1,10 @@
 // Facets that lie over each other in one plane: all are found, and offset in an order.
 #include "geometry/flat_polygon.h"
 #include "geometry/frame.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/coplanar_layers.h"
-#include "radiosity/scene/coplanar_overlaps.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/light/layers/coplanar_layers.h"
+#include "radiosity/light/layers/coplanar_overlaps.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

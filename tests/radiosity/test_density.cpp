@@ -1,5 +1,5 @@
 // The density store: what is counted, and in how many bytes.
-#include "radiosity/hemisphere/density.h"
+#include "radiosity/engine/densities/density.h"
 
 #include "parallel/workers.h"
 #include "support/catch.h"

@@ -1,5 +1,5 @@
 // How well an estimated error is known: parts of an error, and what follows from few of them.
-#include "radiosity/solution/error_spread.h"
+#include "radiosity/paper/solution/error_spread.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,7 +1,7 @@
 // The linear solver against systems with known solutions.
-#include "radiosity/linear/gmres.h"
+#include "radiosity/engine/linear/gmres.h"
 
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 
 #include <cmath>

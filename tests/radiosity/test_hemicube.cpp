@@ -1,10 +1,10 @@
 // Form factors by hemicubes: delta factors and closed forms, convergence to the exact factors, what
 // pixels miss, and the methods that solve with them.
 #include "geometry/compensated_sum.h"
-#include "radiosity/form_factors/exact_form_factors.h"
-#include "radiosity/form_factors/factor_options.h"
-#include "radiosity/form_factors/hemicube.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/engine/form_factors/exact_form_factors.h"
+#include "radiosity/engine/form_factors/factor_options.h"
+#include "radiosity/engine/form_factors/hemicube.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/closed_forms.h"
 #include "support/directions.h"

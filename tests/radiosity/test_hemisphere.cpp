@@ -1,8 +1,8 @@
 // The shared table of the divided hemisphere: counts, numbering, areas; and that every triangle of
 // levels 0 to 2 is sampled by the cosine.
 
-#include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/hemisphere/hemisphere.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/directions.h"
 #include "support/statistics.h"

@@ -1,10 +1,10 @@
 // Hierarchical radiosity: trees over patches, links that cover each pair once, their factors, and
 // the solution.
-#include "radiosity/form_factors/exchange_area.h"
-#include "radiosity/form_factors/pair_factor.h"
-#include "radiosity/hierarchy/links.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/solution/solve_error.h"
+#include "radiosity/engine/form_factors/exchange_area.h"
+#include "radiosity/engine/form_factors/pair_factor.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/solution/solve_error.h"
+#include "radiosity/research/hierarchy/links.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

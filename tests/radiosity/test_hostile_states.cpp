@@ -1,10 +1,10 @@
 // States that no solver has saved: bytes and numbers changed at many places, as a checkpoint with a
 // right checksum may hold them. Each is refused, or the run goes on to finite numbers.
 
-#include "radiosity/guiding/guide.h"
-#include "radiosity/linear/energy_ledger.h"
-#include "radiosity/saving/state.h"
-#include "radiosity/solution/solve_error.h"
+#include "radiosity/engine/linear/energy_ledger.h"
+#include "radiosity/engine/saving/state.h"
+#include "radiosity/paper/solution/solve_error.h"
+#include "radiosity/research/guiding/guide.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

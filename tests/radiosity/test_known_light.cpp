@@ -1,7 +1,7 @@
 // Solutions on patches against the light itself at points of the surfaces.
 #include "parallel/workers.h"
-#include "radiosity/final_gather/known_light.h"
-#include "radiosity/light_error/division_error.h"
+#include "radiosity/light/final_gather/known_light.h"
+#include "radiosity/light/light_error/division_error.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,6 +1,6 @@
 // The order in which monte-carlo takes the patches.
-#include "radiosity/sampling/largest_first.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/engine/sampling/largest_first.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 
 #include <cmath>

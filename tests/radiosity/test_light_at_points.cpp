@@ -1,7 +1,7 @@
 // The light at points that a user names, against closed forms.
 #include "geometry/box.h"
 #include "parallel/workers.h"
-#include "radiosity/final_gather/light_at_points.h"
+#include "radiosity/light/final_gather/light_at_points.h"
 #include "support/closed_forms.h"
 #include "support/scenes.h"
 #include "support/solve.h"

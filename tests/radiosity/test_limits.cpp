@@ -1,9 +1,9 @@
 // What a small file or a large option may cost: counted, or ended by the time of the run.
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/coplanar_layers.h"
-#include "radiosity/scene/coplanar_overlaps.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/time_limit.h"
+#include "radiosity/engine/solving/time_limit.h"
+#include "radiosity/light/layers/coplanar_layers.h"
+#include "radiosity/light/layers/coplanar_overlaps.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/watched_tracer.h"
 
 #include "support/catch.h"

@@ -1,9 +1,9 @@
 // The mean of independent steps, their spread and the power of a ray, against sums done here.
 
-#include "radiosity/rays/shot.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/solution/solve_error.h"
-#include "radiosity/solving/mean_of_steps.h"
+#include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/solution/solve_error.h"
+#include "radiosity/paper/solving/mean_of_steps.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,8 +1,8 @@
 // Division of facets into patches, and the way back from a hit to its patch.
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include "bvh/bvh.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 

@@ -1,8 +1,8 @@
 // Every method on scenes whose solution is known in closed form, patch by patch: a mean would not
 // see a broken direction law. Scenes where a method is added inherit all of this.
-#include "radiosity/rays/shot.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/solving/one_shot.h"
+#include "radiosity/engine/solving/one_shot.h"
+#include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

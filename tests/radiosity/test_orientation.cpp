@@ -1,8 +1,8 @@
 // Faces that look away from the light: found where the evidence is clear, left alone where not.
 #include "geometry/polygon.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/sides/orientation.h"
-#include "radiosity/sides/shells.h"
+#include "radiosity/light/sides/orientation.h"
+#include "radiosity/light/sides/shells.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/sided_scenes.h"

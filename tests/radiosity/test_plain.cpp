@@ -1,7 +1,7 @@
-// The engine against the pages of src/radiosity/plain: the same bits where the random numbers are
-// the same, within standard errors for stored-transport.
+// The engine against the pages of src/radiosity/paper/pages: the same bits where the random numbers
+// are the same, within standard errors for stored-transport.
 #include "io/scene_files/obj.h"
-#include "radiosity/hemisphere/subdivision_1997.h"
+#include "radiosity/engine/densities/subdivision_1997.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,7 +1,7 @@
 // Progressive radiosity against the matrix, its energy, and its options.
-#include "radiosity/form_factors/pair_factor.h"
-#include "radiosity/progressive/progressive_pass.h"
-#include "radiosity/solving/one_shot.h"
+#include "radiosity/engine/form_factors/pair_factor.h"
+#include "radiosity/engine/progressive/progressive_pass.h"
+#include "radiosity/engine/solving/one_shot.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,13 +1,13 @@
 // The pyramidal guide: which patches lie in a pyramid, what a tree of boxes finds of them, and that
 // nothing hides between three corners.
-#include "radiosity/guiding/guide.h"
-#include "radiosity/guiding/pyramids.h"
+#include "radiosity/research/guiding/guide.h"
+#include "radiosity/research/guiding/pyramids.h"
 
 #include "parallel/workers.h"
-#include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/shooting/strategy.h"
+#include "radiosity/engine/shooting/strategy.h"
+#include "radiosity/paper/hemisphere/hemisphere.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/directions.h"
 #include "support/scenes.h"

@@ -1,8 +1,8 @@
 // The same bytes on any number of ranks, which are threads here: solutions, logs and states.
 #include "parallel/workers.h"
-#include "radiosity/final_gather/final_gather.h"
-#include "radiosity/final_gather/surface_points.h"
-#include "radiosity/light_error/division_error.h"
+#include "radiosity/light/final_gather/final_gather.h"
+#include "radiosity/light/final_gather/surface_points.h"
+#include "radiosity/light/light_error/division_error.h"
 #include "support/catch.h"
 #include "support/rank_threads.h"
 #include "support/same_solution.h"

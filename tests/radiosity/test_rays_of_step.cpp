@@ -1,8 +1,8 @@
 // End to end: the rays of whole steps, as they are traced, against
 // N_tr = N_hemi A_tr / A_hemi D_tr / D_average (paper section 5b).
 #include "parallel/workers.h"
-#include "radiosity/hemisphere/density.h"
-#include "radiosity/hemisphere/hemisphere.h"
+#include "radiosity/engine/densities/density.h"
+#include "radiosity/paper/hemisphere/hemisphere.h"
 #include "support/catch.h"
 #include "support/directions.h"
 #include "support/scenes.h"

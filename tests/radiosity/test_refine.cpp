@@ -1,9 +1,9 @@
 // Patches that are divided further: nothing is lost, and rays find the pieces.
-#include "radiosity/division/adaptive_division.h"
-#include "radiosity/division/division_weights.h"
-#include "radiosity/division/inherited.h"
-#include "radiosity/division/patch_levels.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/light/division/adaptive_division.h"
+#include "radiosity/light/division/division_weights.h"
+#include "radiosity/light/division/inherited.h"
+#include "radiosity/light/division/patch_levels.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

@@ -2,9 +2,9 @@
 
 #include "geometry/vector.h"
 #include "parallel/instruction_set.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/sampling_kernels.h"
-#include "radiosity/sampling/sobol.h"
+#include "radiosity/engine/sampling/sampling_kernels.h"
+#include "radiosity/engine/sampling/sobol.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/sobol.h"
 

@@ -1,8 +1,8 @@
 // The points are nets, uniform, independent between seeds, and integrate smooth functions faster
 // than random numbers do.
 
-#include "radiosity/sampling/rng.h"
-#include "radiosity/sampling/sobol.h"
+#include "radiosity/engine/sampling/sobol.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 #include "support/sobol.h"
 #include "support/statistics.h"

@@ -1,7 +1,7 @@
 // Sparse matrices by rows: their mean against sums over dense ones.
-#include "radiosity/form_factors/sparse_rows.h"
+#include "radiosity/engine/form_factors/sparse_rows.h"
 
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 
 #include <algorithm>

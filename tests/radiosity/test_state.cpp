@@ -1,6 +1,6 @@
 // Solver::save and load, for all methods that say that they have them.
 
-#include "radiosity/saving/state.h"
+#include "radiosity/engine/saving/state.h"
 #include "support/catch.h"
 #include "support/same_solution.h"
 #include "support/scenes.h"

@@ -1,8 +1,8 @@
 // What every strategy owes, whatever it guides its rays by: shares that sum to 1, Lambert's law,
 // and rays for every cell that carries power.
 #include "parallel/workers.h"
-#include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/shooting/strategy.h"
+#include "radiosity/engine/shooting/strategy.h"
+#include "radiosity/paper/hemisphere/hemisphere.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

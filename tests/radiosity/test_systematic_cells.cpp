@@ -1,8 +1,8 @@
 // Rays of a patch and its cells: however many there are, each ray goes to the cell on whose part of
 // the line it stands.
 
-#include "radiosity/sampling/rng.h"
-#include "radiosity/shooting/systematic_cells.h"
+#include "radiosity/engine/shooting/systematic_cells.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 
 #include <numeric>

@@ -1,7 +1,7 @@
 // Balls around what counts most of a target: where they are, and what rays to them carry.
-#include "radiosity/rays/shot.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/shooting/target_balls.h"
+#include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/research/targets/target_balls.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,9 +1,9 @@
 // Means of textures over polygons, beside sums over many points.
 
-#include "radiosity/textures/texture.h"
+#include "radiosity/light/textures/texture.h"
 
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 
 #include <array>

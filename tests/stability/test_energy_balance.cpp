@@ -1,7 +1,7 @@
 // Where all light goes: emitted = absorbed + escaped + unshot to the last digits that doubles have,
 // for every method, and what stands for chance in it is small.
 #include "geometry/compensated_sum.h"
-#include "radiosity/solving/one_shot.h"
+#include "radiosity/engine/solving/one_shot.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

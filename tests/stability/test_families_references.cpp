@@ -1,6 +1,6 @@
 // The references of the hard scenes, compared with closed forms and with each other: what they are
 // made of, what must hold for all of them, and walks from patch to patch that know nothing of it.
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/solving/run.h"
 #include "support/catch.h"
 #include "support/closed_forms.h"
 #include "support/families/builders.h"

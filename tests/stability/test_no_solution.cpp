@@ -1,7 +1,7 @@
 // Scenes that have no solution, or none in doubles: said with patch and step instead of an endless
 // run or an infinite number; and scenes of reflectance 1 that do have one.
-#include "radiosity/solution/solve_error.h"
-#include "radiosity/solving/lossless_component.h"
+#include "radiosity/paper/solution/solve_error.h"
+#include "radiosity/paper/solving/lossless_component.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,9 +1,9 @@
 // Scenes in which one thing is far larger, brighter, thinner or nearer than another, or in which
 // faces lie where no real surface could: each against the same scene without the oddity, against a
 // closed form, or against the balance of energy.
-#include "radiosity/form_factors/factor_options.h"
-#include "radiosity/scene/needs.h"
-#include "radiosity/solving/one_shot.h"
+#include "radiosity/engine/form_factors/factor_options.h"
+#include "radiosity/engine/solving/one_shot.h"
+#include "radiosity/paper/scene/needs.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -1,8 +1,8 @@
 // Two rooms joined by a slit of a thousandth of a wall, light in one of them: hardly any ray
 // passes, and all light of the other room does. The wall is a sheet with a face for each room.
 #include "geometry/horizon_clip.h"
-#include "radiosity/form_factors/exchange_area.h"
-#include "radiosity/sampling/sobol.h"
+#include "radiosity/engine/form_factors/exchange_area.h"
+#include "radiosity/engine/sampling/sobol.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/sobol.h"

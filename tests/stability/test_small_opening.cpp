@@ -1,6 +1,6 @@
 // A room of reflectance 1 that emits, closed but for a slit: all light leaves by the slit, however
 // small it is. There is a solution, brighter than the emission by the surface over the slit.
-#include "radiosity/solution/solve_error.h"
+#include "radiosity/paper/solution/solve_error.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

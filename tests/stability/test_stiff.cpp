@@ -1,6 +1,6 @@
 // Closed rooms that reflect nearly all: there the tail of the series of bounces is the solution,
 // and the smallest loss of energy between patches would be multiplied by 1 / (1 - rho).
-#include "radiosity/form_factors/factor_options.h"
+#include "radiosity/engine/form_factors/factor_options.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

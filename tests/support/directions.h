@@ -4,7 +4,7 @@
 #include "geometry/polygon.h"
 #include "geometry/spherical_triangle.h"
 #include "geometry/vector.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 // Scenes whose solution is known, made in code.
 
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 
 namespace hemilux::test {
 

@@ -1,6 +1,6 @@
 #include "support/sided_scenes.h"
 
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/scenes.h"
 
 #include <cmath>

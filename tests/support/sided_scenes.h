@@ -2,7 +2,7 @@
 // Scenes whose faces all face the right way: rooms and open grounds with lamps, furniture, sheets,
 // shades and walls as people model them. Some of their surfaces are lit from behind on purpose.
 
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-#include "radiosity/sampling/sobol.h"
+#include "radiosity/engine/sampling/sobol.h"
 
 namespace hemilux::test {
 

@@ -2,10 +2,10 @@
 // A mesh with the tracer of the program, and a run of a method over it.
 
 #include "bvh/wide/wide_bvh.h"
-#include "radiosity/saving/state.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/method.h"
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/run.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <cstring>
 #include <string>

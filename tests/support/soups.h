@@ -2,7 +2,7 @@
 // Facets for the tests of tracers: random ones, and those on which tracers have failed.
 
 #include "bvh/intersect.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <cmath>
 #include <vector>

@@ -2,9 +2,9 @@
 // Targets of scenes, and the true error of what is found for them.
 
 #include "io/scene_files/obj.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solution/solution.h"
-#include "radiosity/solution/target.h"
+#include "radiosity/engine/target/target.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solution/solution.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 

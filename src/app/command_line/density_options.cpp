@@ -2,7 +2,7 @@
 #include "app/command_line/option_kinds.h"
 #include "app/command_line/options.h"
 #include "app/settings/names.h"
-#include "radiosity/guiding/guide.h"
+#include "radiosity/research/guiding/guide.h"
 
 #include <limits>
 

@@ -21,7 +21,7 @@ namespace {
 void add_plain_option(Command command, bool& plain) {
     command.add_flag(
         "--plain", plain,
-        "by the page of src/radiosity/plain that shows the method: slower, one thread; "
+        "by the page of src/radiosity/paper/pages that shows the method: slower, one thread; "
         "these have one: " +
             methods_with_a_page());
 }

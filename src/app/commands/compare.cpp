@@ -20,7 +20,7 @@
 #include "app/terminal/unused_options.h"
 #include "app/terminal/wrap.h"
 #include "io/files/error.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <atomic>
 #include <iostream>

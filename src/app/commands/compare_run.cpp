@@ -3,7 +3,7 @@
 #include "app/running/step_size.h"
 #include "app/settings/memory.h"
 #include "app/terminal/stopwatch.h"
-#include "radiosity/solving/time_limit.h"
+#include "radiosity/engine/solving/time_limit.h"
 
 #include <algorithm>
 #include <bit>

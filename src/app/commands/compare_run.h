@@ -6,8 +6,8 @@
 #include "app/report/run_data.h"
 #include "app/settings/settings.h"
 #include "io/results/tables.h"
-#include "radiosity/final_gather/known_light.h"
-#include "radiosity/solution/solve_error.h"
+#include "radiosity/light/final_gather/known_light.h"
+#include "radiosity/paper/solution/solve_error.h"
 
 #include <functional>
 #include <vector>

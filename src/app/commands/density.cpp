@@ -17,8 +17,8 @@
 #include "io/drawings/density_picture.h"
 #include "io/drawings/plane_svg.h"
 #include "io/files/atomic_file.h"
-#include "radiosity/guiding/guide.h"
-#include "radiosity/hemisphere/subdivision_1997.h"
+#include "radiosity/engine/densities/subdivision_1997.h"
+#include "radiosity/research/guiding/guide.h"
 
 #include <algorithm>
 #include <array>

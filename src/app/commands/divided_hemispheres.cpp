@@ -1,12 +1,12 @@
 #include "app/commands/divided_hemispheres.h"
 
 #include "parallel/workers.h"
-#include "radiosity/guiding/guide.h"
-#include "radiosity/guiding/pyramids.h"
-#include "radiosity/hemisphere/density.h"
-#include "radiosity/hemisphere/subdivision_1997.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/shooting/strategy.h"
+#include "radiosity/engine/densities/density.h"
+#include "radiosity/engine/densities/subdivision_1997.h"
+#include "radiosity/engine/shooting/strategy.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/research/guiding/guide.h"
+#include "radiosity/research/guiding/pyramids.h"
 
 namespace hemilux {
 

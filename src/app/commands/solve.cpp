@@ -28,8 +28,8 @@
 #include "app/terminal/unused_options.h"
 #include "io/results/points.h"
 #include "parallel/workers.h"
-#include "radiosity/scene/needs.h"
-#include "radiosity/solving/left_out.h"
+#include "radiosity/engine/solving/left_out.h"
+#include "radiosity/paper/scene/needs.h"
 
 #include <algorithm>
 #include <span>

@@ -6,10 +6,10 @@
 #include "app/terminal/log.h"
 #include "app/terminal/summary.h"
 #include "parallel/workers.h"
-#include "radiosity/hemisphere/hemisphere.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/sides/light_paths.h"
-#include "radiosity/solution/error_spread.h"
+#include "radiosity/light/sides/light_paths.h"
+#include "radiosity/paper/hemisphere/hemisphere.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solution/error_spread.h"
 
 #include <algorithm>
 #include <cmath>

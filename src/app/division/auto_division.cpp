@@ -6,10 +6,10 @@
 #include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
 #include "parallel/workers.h"
-#include "radiosity/division/adaptive_division.h"
-#include "radiosity/light_error/division_error.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/solving/time_limit.h"
+#include "radiosity/engine/solving/time_limit.h"
+#include "radiosity/light/division/adaptive_division.h"
+#include "radiosity/light/light_error/division_error.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <cmath>

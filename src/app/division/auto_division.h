@@ -3,8 +3,8 @@
 
 #include "app/settings/settings.h"
 #include "io/results/statistics.h"
-#include "radiosity/light_error/division_error.h"
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/solving/run.h"
+#include "radiosity/light/light_error/division_error.h"
 
 #include <functional>
 #include <memory>

@@ -3,7 +3,7 @@
 // takes at the most.
 
 #include "app/settings/settings.h"
-#include "radiosity/division/adaptive_division.h"
+#include "radiosity/light/division/adaptive_division.h"
 
 #include <cstddef>
 #include <cstdint>

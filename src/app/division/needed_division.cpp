@@ -2,9 +2,9 @@
 
 #include "app/division/default_division.h"
 #include "parallel/workers.h"
-#include "radiosity/division/adaptive_division.h"
-#include "radiosity/light_error/division_error.h"
-#include "radiosity/solution/solve_error.h"
+#include "radiosity/light/division/adaptive_division.h"
+#include "radiosity/light/light_error/division_error.h"
+#include "radiosity/paper/solution/solve_error.h"
 
 #include <cmath>
 

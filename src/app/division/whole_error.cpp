@@ -3,8 +3,8 @@
 #include "app/settings/text.h"
 #include "app/terminal/stopwatch.h"
 #include "parallel/workers.h"
-#include "radiosity/light_error/division_error.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/light/light_error/division_error.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Puts the lights of the command line into a scene.
 
 #include "app/settings/settings.h"
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 
 #include <string>
 #include <vector>

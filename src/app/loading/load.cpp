@@ -18,7 +18,7 @@
 #include "io/scene_files/obj.h"
 #include "io/scene_files/stl.h"
 #include "parallel/workers.h"
-#include "radiosity/scene/convex_enclosure.h"
+#include "radiosity/engine/needs/convex_enclosure.h"
 
 #include <algorithm>
 #include <cmath>

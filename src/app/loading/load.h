@@ -4,8 +4,8 @@
 #include "app/settings/settings.h"
 #include "io/files/error.h"
 #include "io/scene_files/read_result.h"
-#include "radiosity/rays/make_tracer.h"
-#include "radiosity/solution/solve_error.h"
+#include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/paper/solution/solve_error.h"
 
 #include <cstdint>
 #include <span>

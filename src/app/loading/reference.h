@@ -2,7 +2,7 @@
 // A known solution on the same patches, to tell the true error of a run.
 
 #include "io/results/tables.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <span>
 #include <string>

@@ -3,8 +3,8 @@
 // error of 0 % does not pass for a result.
 
 #include "app/settings/settings.h"
-#include "radiosity/rays/make_tracer.h"
-#include "radiosity/sides/orientation.h"
+#include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/light/sides/orientation.h"
 
 #include <span>
 #include <string>

@@ -3,7 +3,7 @@
 #include "app/report/assets.h"
 #include "app/report/mesh_arrays.h"
 #include "app/report/page_file.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 namespace hemilux {
 namespace {

@@ -1,6 +1,6 @@
 #include "app/report/mesh_arrays.h"
 
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <array>
 #include <span>

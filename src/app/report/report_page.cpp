@@ -3,8 +3,8 @@
 #include "app/report/assets.h"
 #include "app/report/mesh_arrays.h"
 #include "app/report/page_file.h"
-#include "radiosity/hemisphere/density.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/engine/densities/density.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <numbers>

@@ -2,7 +2,7 @@
 
 #include "app/terminal/machine.h"
 #include "io/files/text_words.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <nlohmann/json.hpp>
 

@@ -5,7 +5,7 @@
 #include "app/settings/numbers.h"
 #include "app/terminal/log.h"
 #include "io/files/error.h"
-#include "radiosity/saving/state.h"
+#include "radiosity/engine/saving/state.h"
 
 #include <algorithm>
 

@@ -4,8 +4,8 @@
 #include "io/drawings/density_picture.h"
 #include "io/files/error.h"
 #include "parallel/workers.h"
-#include "radiosity/light_error/division_error.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/light/light_error/division_error.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <cmath>

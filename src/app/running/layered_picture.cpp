@@ -5,7 +5,7 @@
 #include "io/meshes/baked_light.h"
 #include "io/rendering/render.h"
 #include "parallel/workers.h"
-#include "radiosity/hemisphere/density.h"
+#include "radiosity/engine/densities/density.h"
 
 #include <algorithm>
 #include <bit>

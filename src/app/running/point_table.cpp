@@ -3,7 +3,7 @@
 #include "app/settings/view.h"
 #include "io/files/error.h"
 #include "parallel/workers.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
 #include <cmath>

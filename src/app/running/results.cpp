@@ -18,9 +18,9 @@
 #include "io/pictures/image.h"
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
-#include "radiosity/guiding/guide.h"
-#include "radiosity/hemisphere/density.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/engine/densities/density.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/research/guiding/guide.h"
 
 #include <algorithm>
 #include <mutex>

@@ -7,7 +7,7 @@
 #include "io/results/points.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
-#include "radiosity/solving/solver.h"
+#include "radiosity/paper/solving/solver.h"
 
 #include <span>
 #include <string>

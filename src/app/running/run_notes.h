@@ -2,7 +2,7 @@
 // The notes on how a run ended that a user must know besides its numbers: that an error is not
 // known, that it was not reached, that the estimate has jumped.
 
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/solving/run.h"
 
 #include <string>
 #include <vector>

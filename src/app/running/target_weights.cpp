@@ -5,7 +5,7 @@
 #include "app/settings/names.h"
 #include "io/files/error.h"
 #include "parallel/workers.h"
-#include "radiosity/solution/target.h"
+#include "radiosity/engine/target/target.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "app/settings/memory.h"
 
 #include "app/settings/text.h"
-#include "radiosity/scene/coplanar_overlaps.h"
+#include "radiosity/light/layers/coplanar_overlaps.h"
 
 #include <algorithm>
 #include <array>

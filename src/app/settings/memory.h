@@ -3,7 +3,7 @@
 // code 3 where that is too much.
 
 #include "app/settings/settings.h"
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 
 #include <algorithm>
 #include <cstdint>

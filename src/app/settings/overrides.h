@@ -2,7 +2,7 @@
 // What the command line says about materials: `--emission lamp=10,10,8`, `--reflectance '*=.5'`.
 
 #include "app/settings/numbers.h"
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 
 #include <optional>
 #include <string>

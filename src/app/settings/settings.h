@@ -10,8 +10,8 @@
 #include "io/meshes/ply.h"
 #include "io/pictures/camera.h"
 #include "io/results/statistics.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solving/method.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <array>
 #include <cstdint>

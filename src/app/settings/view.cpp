@@ -5,7 +5,7 @@
 #include "io/meshes/baked_light.h"
 #include "io/pictures/exr.h"
 #include "io/rendering/render.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <cmath>
 

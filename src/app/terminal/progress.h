@@ -2,8 +2,8 @@
 // The progress bar: a line on the terminal that a thread of its own redraws a few times a second
 // from the solver's monitor.
 
-#include "radiosity/solving/method.h"
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/run.h"
 
 #include <chrono>
 #include <condition_variable>

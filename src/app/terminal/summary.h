@@ -4,7 +4,7 @@
 #include "bvh/quality.h"
 #include "io/results/statistics.h"
 #include "io/results/tables.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <optional>
 #include <string>

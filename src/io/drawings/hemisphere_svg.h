@@ -7,7 +7,7 @@
 #include "geometry/polygon.h"
 #include "geometry/spherical_triangle.h"
 #include "io/drawings/canvas.h"
-#include "radiosity/hemisphere/edge_division.h"
+#include "radiosity/paper/hemisphere/edge_division.h"
 
 #include <span>
 #include <string>

@@ -1,7 +1,7 @@
 #include "io/drawings/plane_svg.h"
 
 #include "io/drawings/canvas.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <cmath>

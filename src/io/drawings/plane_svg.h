@@ -3,7 +3,7 @@
 // and the half circle over it, with rays at the directions of the subdivision. It also shows what
 // the plane cuts of the scene.
 
-#include "radiosity/hemisphere/edge_division.h"
+#include "radiosity/paper/hemisphere/edge_division.h"
 
 #include <array>
 #include <string>

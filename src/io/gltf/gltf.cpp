@@ -5,7 +5,7 @@
 #include "io/gltf/lights.h"
 #include "io/gltf/scene_meshes.h"
 #include "io/scene_files/emitter_shapes.h"
-#include "radiosity/sides/shells.h"
+#include "radiosity/light/sides/shells.h"
 
 #include <algorithm>
 #include <array>

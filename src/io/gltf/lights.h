@@ -9,7 +9,7 @@
 
 #include "geometry/box.h"
 #include "io/gltf/document/document.h"
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 
 #include <string>
 

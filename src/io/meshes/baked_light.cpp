@@ -2,7 +2,7 @@
 
 #include "geometry/numeric.h"
 #include "io/pictures/image.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 namespace hemilux {
 namespace {

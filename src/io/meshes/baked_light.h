@@ -3,7 +3,7 @@
 
 #include "io/pictures/tone.h"
 #include "io/results/smooth.h"
-#include "radiosity/final_gather/linear_light.h"
+#include "radiosity/light/final_gather/linear_light.h"
 
 #include <array>
 #include <vector>

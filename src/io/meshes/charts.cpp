@@ -1,8 +1,8 @@
 #include "io/meshes/charts.h"
 
 #include "bvh/tracer.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/scene/welded_edges.h"
+#include "radiosity/engine/needs/welded_edges.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <cmath>

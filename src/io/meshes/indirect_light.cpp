@@ -1,6 +1,6 @@
 #include "io/meshes/indirect_light.h"
 
-#include "radiosity/rays/patch_start.h"
+#include "radiosity/paper/rays/patch_start.h"
 
 namespace hemilux {
 

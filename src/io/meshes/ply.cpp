@@ -3,7 +3,7 @@
 #include "io/files/atomic_file.h"
 #include "io/files/little_endian.h"
 #include "io/pictures/image.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <span>
 

@@ -5,7 +5,7 @@
 
 #include "io/files/provenance.h"
 #include "io/results/smooth.h"
-#include "radiosity/solution/solution.h"
+#include "radiosity/paper/solution/solution.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 
 #include "geometry/frame.h"
 #include "io/files/text_words.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <charconv>
 #include <cmath>

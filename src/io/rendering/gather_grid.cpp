@@ -1,6 +1,6 @@
 #include "io/rendering/gather_grid.h"
 
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "io/rendering/visible_facets.h"
 #include "parallel/workers.h"
-#include "radiosity/final_gather/surface_points.h"
+#include "radiosity/light/final_gather/surface_points.h"
 
 #include <cstddef>
 #include <cstdint>

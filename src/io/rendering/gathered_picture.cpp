@@ -2,7 +2,7 @@
 
 #include "io/rendering/pixel_colours.h"
 #include "parallel/workers.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 #include "io/rendering/picture_gather.h"
 
 #include "parallel/workers.h"
-#include "radiosity/rays/shot.h"
-#include "radiosity/sampling/rng.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <optional>

@@ -14,7 +14,7 @@
 #include "geometry/vector.h"
 #include "io/rendering/gather_grid.h"
 #include "io/rendering/slow_light.h"
-#include "radiosity/final_gather/gather_in_parts.h"
+#include "radiosity/light/final_gather/gather_in_parts.h"
 
 #include <functional>
 #include <span>

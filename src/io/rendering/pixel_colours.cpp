@@ -1,6 +1,6 @@
 #include "io/rendering/pixel_colours.h"
 
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <array>
 #include <cmath>

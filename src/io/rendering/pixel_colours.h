@@ -2,7 +2,7 @@
 // The colours of a textured surface that a pixel shows.
 
 #include "io/rendering/visible_facets.h"
-#include "radiosity/scene/textured_facets.h"
+#include "radiosity/light/textures/textured_facets.h"
 
 namespace hemilux {
 

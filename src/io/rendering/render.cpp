@@ -8,8 +8,8 @@
 #include "io/rendering/visible_facets.h"
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/solution/solution.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solution/solution.h"
 
 #include <functional>
 #include <optional>

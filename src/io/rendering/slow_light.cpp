@@ -1,6 +1,6 @@
 #include "io/rendering/slow_light.h"
 
-#include "radiosity/rays/shot.h"
+#include "radiosity/paper/rays/shot.h"
 
 #include <algorithm>
 #include <cmath>

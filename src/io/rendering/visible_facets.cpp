@@ -1,7 +1,7 @@
 #include "io/rendering/visible_facets.h"
 
 #include "parallel/workers.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
-#include "radiosity/saving/state.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/engine/saving/state.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <limits>
 

@@ -2,8 +2,8 @@
 // A run that can be resumed: its options, its scene and what it had computed.
 //
 // The file begins with a line that names the format and its version. Then follow the length of the
-// content, the content (radiosity/saving/state.h) and a checksum of all of it. It replaces the one
-// before only when it is on the disk, so there is always a good one.
+// content, the content (radiosity/engine/saving/state.h) and a checksum of all of it. It replaces
+// the one before only when it is on the disk, so there is always a good one.
 
 #include "io/results/tables.h"
 

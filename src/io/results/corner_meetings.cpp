@@ -1,7 +1,7 @@
 #include "io/results/corner_meetings.h"
 
-#include "radiosity/scene/mesh.h"
-#include "radiosity/scene/welded_edges.h"
+#include "radiosity/engine/needs/welded_edges.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
 #include "io/results/csv.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // Points at which a user wants to know the light (sensors), and the table of it.
 
 #include "geometry/vector.h"
-#include "radiosity/final_gather/light_at_points.h"
+#include "radiosity/light/final_gather/light_at_points.h"
 
 #include <cstddef>
 #include <span>

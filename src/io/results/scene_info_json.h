@@ -2,7 +2,7 @@
 // The findings of `info` in a scene, for other programs.
 
 #include "io/scene_files/inspect.h"
-#include "radiosity/sides/orientation.h"
+#include "radiosity/light/sides/orientation.h"
 
 #include <optional>
 

@@ -4,8 +4,8 @@
 #include "geometry/numeric.h"
 #include "io/polygons/convex_triangles.h"
 #include "io/results/corner_meetings.h"
-#include "radiosity/final_gather/linear_light.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/light/final_gather/linear_light.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <cmath>

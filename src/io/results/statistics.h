@@ -2,8 +2,8 @@
 // The figures of a run, as the JSON object that other tools read (docs: the program's outputs).
 
 #include "parallel/ranks.h"
-#include "radiosity/solution/solution.h"
-#include "radiosity/solving/left_out.h"
+#include "radiosity/engine/solving/left_out.h"
+#include "radiosity/paper/solution/solution.h"
 
 #include <cstdint>
 #include <limits>

@@ -3,7 +3,7 @@
 #include "geometry/frame.h"
 #include "io/files/atomic_file.h"
 #include "io/results/csv.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 // that gives back the same double.
 
 #include "parallel/workers.h"
-#include "radiosity/solution/solution.h"
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/solving/run.h"
+#include "radiosity/paper/solution/solution.h"
 
 #include <cstdint>
 #include <optional>

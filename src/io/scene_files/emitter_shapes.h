@@ -3,7 +3,7 @@
 // sun, the sky. Radiosity knows emitting surfaces only.
 
 #include "geometry/box.h"
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 
 #include <array>
 #include <cstdint>

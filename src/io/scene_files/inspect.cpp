@@ -3,10 +3,10 @@
 #include "geometry/polygon.h"
 #include "io/files/text_words.h"
 #include "io/scene_files/emitter_shapes.h"
-#include "radiosity/scene/coplanar_layers.h"
-#include "radiosity/scene/mesh.h"
-#include "radiosity/scene/welded_edges.h"
-#include "radiosity/solving/check_input.h"
+#include "radiosity/engine/needs/welded_edges.h"
+#include "radiosity/light/layers/coplanar_layers.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solving/check_input.h"
 
 #include <algorithm>
 #include <charconv>

@@ -3,7 +3,7 @@
 
 #include "geometry/box.h"
 #include "io/scene_files/read_result.h"
-#include "radiosity/solving/left_out.h"
+#include "radiosity/engine/solving/left_out.h"
 
 #include <cstddef>
 #include <span>

@@ -5,7 +5,7 @@
 #include "io/files/text_reader.h"
 #include "io/files/text_words.h"
 #include "io/polygons/polygon_division.h"
-#include "radiosity/scene/welded_edges.h"
+#include "radiosity/engine/needs/welded_edges.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 // Textures from PNG and JPEG files, each read once. Their bytes are colours by the sRGB curve.
 
-#include "radiosity/textures/texture.h"
+#include "radiosity/light/textures/texture.h"
 
 #include <functional>
 #include <map>

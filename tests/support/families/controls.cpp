@@ -2,9 +2,9 @@
 // Their references are means of several runs of the method `matrix`, whose spread is their error.
 
 #include "io/scene_files/obj.h"
-#include "radiosity/rays/make_tracer.h"
-#include "radiosity/solving/method.h"
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/solving/run.h"
 #include "support/families/builders.h"
 #include "support/families/families.h"
 #include "support/scenes.h"

@@ -2,7 +2,7 @@
 // The radiosity equation of a scene, one patch a facet, with form factors without chance, solved by
 // elimination. The slow and obviously right way: patches^2 integrals and patches^3 operations.
 
-#include "radiosity/scene/scene.h"
+#include "radiosity/paper/scene/scene.h"
 #include "support/families/exchange.h"
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 // emitters, narrow holes, bright interiors, emissions many powers of ten apart. Each comes with a
 // reference that no method of the library made, but for the controls (controls.cpp).
 
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,8 +1,8 @@
 #include "support/families/reliability.h"
 
 #include "geometry/compensated_sum.h"
-#include "radiosity/solution/solve_error.h"
-#include "radiosity/solving/run.h"
+#include "radiosity/engine/solving/run.h"
+#include "radiosity/paper/solution/solve_error.h"
 #include "support/families/watchdog.h"
 
 #include <algorithm>

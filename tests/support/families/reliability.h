@@ -2,8 +2,8 @@
 // How well the errors that a method reports fit the true ones: many runs of a hard scene, judged
 // one by one and together.
 
-#include "radiosity/rays/make_tracer.h"
-#include "radiosity/solving/method.h"
+#include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/engine/solving/method.h"
 #include "support/families/hard_scene.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "support/families/walks.h"
 
 #include "geometry/frame.h"
-#include "radiosity/sampling/rng.h"
+#include "radiosity/paper/sampling/rng.h"
 #include "support/statistics.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // the plainest estimator there is, to compare other references with. Slow; for tests.
 
 #include "bvh/tracer.h"
-#include "radiosity/scene/mesh.h"
+#include "radiosity/paper/scene/mesh.h"
 
 #include <cstdint>
 #include <span>

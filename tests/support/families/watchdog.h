@@ -1,7 +1,7 @@
 #pragma once
 // Ends a run that takes too long, also in the midst of a step.
 
-#include "radiosity/solving/solver.h"
+#include "radiosity/paper/solving/solver.h"
 
 #include <condition_variable>
 #include <mutex>

@@ -1,0 +1,172 @@
+#include "radiosity/engine/form_factors/exact_form_factors.h"
+
+#include "geometry/box.h"
+#include "radiosity/engine/form_factors/exchange_area.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solving/solver.h"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <limits>
+
+namespace hemilux {
+
+namespace {
+
+constexpr double plane_rounding = 1e-9; ///< of the scene's size: what is nearer to a plane is in it
+constexpr double sampled = -1;          ///< marks an entry
+
+/// Returns whether two boxes share more than their boundaries.
+bool overlap(const Box& a, const Box& b) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(a.low[axis] < b.high[axis] - plane_rounding &&
+              a.high[axis] > b.low[axis] + plane_rounding))
+            return false;
+    return true;
+}
+
+/// Returns the lowest and the highest place of outlines along a direction.
+Vec2 range_along(const Vec3& direction, std::initializer_list<const Outline*> outlines) {
+    Vec2 range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
+    for (const Outline* const outline : outlines)
+        for (const Vec3& p : *outline) {
+            range.x = std::min(range.x, glm::dot(direction, p));
+            range.y = std::max(range.y, glm::dot(direction, p));
+        }
+    return range;
+}
+
+/// Returns whether a plane of one of a few directions separates a facet's part from the hull of a
+/// pair. All lines of sight run in this hull.
+bool separated(const Outline& part, const Vec3& normal, const FacingPair& pair) {
+    const std::array<Vec3, 11> directions{{normal,
+                                           {1, 1, 0},
+                                           {1, -1, 0},
+                                           {1, 0, 1},
+                                           {1, 0, -1},
+                                           {0, 1, 1},
+                                           {0, 1, -1},
+                                           {1, 1, 1},
+                                           {1, 1, -1},
+                                           {1, -1, 1},
+                                           {-1, 1, 1}}};
+    return std::ranges::any_of(directions, [&](const Vec3& direction) {
+        const Vec2 of_part = range_along(direction, {&part});
+        const Vec2 of_pair = range_along(direction, {&pair.from, &pair.to});
+        return of_part.y <= of_pair.x + plane_rounding || of_part.x >= of_pair.y - plane_rounding;
+    });
+}
+
+/// Returns whether no facet can stand between two patches. None may have a part that is in front of
+/// both planes, within the box of both and not separated from their hull.
+bool nothing_between(const Mesh& mesh, std::span<const Box> facet_boxes, const FacingPair& pair,
+                     const Patch& from, const Patch& to) {
+    const Plane first{from.shape.corner[0], from.normal}, second{to.shape.corner[0], to.normal};
+    Box box = box_of(pair.from);
+    box.include(box_of(pair.to));
+    for (std::uint32_t f = 0; f < facet_boxes.size(); ++f) {
+        if (f == from.facet || f == to.facet || !overlap(facet_boxes[f], box))
+            continue;
+        const Polygon shape = mesh.shape_of(f);
+        const Outline part =
+            in_front(in_front(outline_of(shape), first, plane_rounding), second, plane_rounding);
+        if (!part.empty() && overlap(box_of(part), box) && !separated(part, shape.normal(), pair))
+            return false;
+    }
+    return true;
+}
+
+} // namespace
+
+ExactFormFactors::ExactFormFactors(const Mesh& mesh, const Workers& workers, const Monitor& monitor)
+    : mesh_(mesh), rows_(mesh.patches().size()) {
+    std::vector<Box> boxes;
+    for (std::uint32_t f = 0; f < mesh.soup().facets.size(); ++f)
+        boxes.push_back(box_of(mesh.shape_of(f).corner));
+    workers.for_chunks(rows_.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end && !monitor.interrupted; ++i)
+            find_row(static_cast<std::uint32_t>(i), boxes);
+    });
+    // The lower half follows by reciprocity.
+    const auto patches = mesh.patches();
+    for (std::uint32_t i = 0; i < rows_.size(); ++i) {
+        for (const Entry& entry : rows_[i]) {
+            if (entry.patch > i)
+                rows_[entry.patch].push_back({i, entry.factor < 0 ? sampled
+                                                                  : entry.factor * patches[i].area /
+                                                                        patches[entry.patch].area});
+        }
+    }
+    for (std::vector<Entry>& row : rows_)
+        std::ranges::sort(row, {}, &Entry::patch);
+}
+
+void ExactFormFactors::find_row(std::uint32_t i, std::span<const Box> facet_boxes) {
+    const auto patches = mesh_.patches();
+    for (std::uint32_t j = i + 1; j < patches.size(); ++j) {
+        const FacingPair pair = facing_parts(patches[i].shape, patches[j].shape, plane_rounding);
+        if (pair.from.empty())
+            continue;
+        const double smaller = std::min(patches[i].area, patches[j].area);
+        const double factor = nothing_between(mesh_, facet_boxes, pair, patches[i], patches[j])
+                                  ? exchange_area(pair.from, pair.to, smaller) / patches[i].area
+                                  : sampled;
+        rows_[i].push_back({j, factor});
+    }
+}
+
+SparseMatrix ExactFormFactors::matrix(const SampledFormFactors& samples) const {
+    const SparseMatrix all = samples.matrix();
+    SparseMatrix result;
+    result.row_begin.push_back(0);
+    for (std::uint32_t i = 0; i < rows_.size(); ++i) {
+        double exact = 0, drawn = 0;
+        std::vector<std::size_t> open; // entries that were drawn
+        std::size_t k = all.row_begin[i];
+        for (const Entry& entry : rows_[i]) {
+            while (k < all.row_begin[i + 1] && all.column[k] < entry.patch)
+                ++k;
+            const bool seen = k < all.row_begin[i + 1] && all.column[k] == entry.patch;
+            const double factor = entry.factor >= 0 ? entry.factor : seen ? all.value[k] : 0;
+            if (!(factor > 0))
+                continue;
+            if (entry.factor < 0)
+                open.push_back(result.value.size());
+            (entry.factor < 0 ? drawn : exact) += factor;
+            result.column.push_back(entry.patch);
+            result.value.push_back(factor);
+        }
+        const EscapeFraction& lost = samples.lost()[i];
+        const double left = 1 - lost.escaped - lost.absorbed - exact;
+        if (left > 0 && drawn > 0)
+            for (const std::size_t place : open)
+                result.value[place] *= left / drawn;
+        result.row_begin.push_back(result.value.size());
+    }
+    return result;
+}
+
+std::optional<double> ExactFormFactors::factor(std::uint32_t i, std::uint32_t j) const {
+    const auto found = std::ranges::lower_bound(rows_[i], j, {}, &Entry::patch);
+    if (found == rows_[i].end() || found->patch != j)
+        return 0.0;
+    return found->factor >= 0 ? std::optional(found->factor) : std::nullopt;
+}
+
+std::uint64_t ExactFormFactors::exact_pairs() const {
+    std::uint64_t count = 0;
+    for (const std::vector<Entry>& row : rows_)
+        count += static_cast<std::uint64_t>(
+            std::ranges::count_if(row, [](const Entry& e) { return e.factor >= 0; }));
+    return count / 2;
+}
+
+std::uint64_t ExactFormFactors::sampled_pairs() const {
+    std::uint64_t count = 0;
+    for (const std::vector<Entry>& row : rows_)
+        count += row.size();
+    return count / 2 - exact_pairs();
+}
+
+} // namespace hemilux

@@ -1,0 +1,91 @@
+#include "radiosity/engine/form_factors/factor_options.h"
+
+#include "radiosity/engine/form_factors/exact_form_factors.h"
+#include "radiosity/engine/form_factors/hemicube.h"
+
+#include <array>
+#include <charconv>
+#include <stdexcept>
+#include <string>
+
+namespace hemilux {
+namespace {
+
+constexpr std::array<std::string_view, 3> kind_names{"rays", "exact", "hemicube"};
+constexpr std::string_view with_edge = "hemicube:";
+
+bool set_factors(SolveOptions& options, std::string_view text) {
+    auto& factors = options.own.of<FactorOptions>();
+    if (text.starts_with(with_edge)) {
+        const std::string_view number = text.substr(with_edge.size());
+        std::uint32_t edge = 0;
+        const auto [end, error] =
+            std::from_chars(number.data(), number.data() + number.size(), edge);
+        if (error != std::errc() || end != number.data() + number.size() ||
+            !Hemicube::is_edge(edge))
+            throw std::invalid_argument("hemicube:N with an even N from 2 to 1024");
+        factors = {FactorKind::hemicube, edge};
+        return true;
+    }
+    const auto found = std::ranges::find(kind_names, text);
+    if (found == kind_names.end())
+        return false;
+    factors = {.kind = static_cast<FactorKind>(found - kind_names.begin())};
+    return true;
+}
+
+std::string factors_text(const SolveOptions& options) {
+    const auto& factors = options.own.of<FactorOptions>();
+    if (factors.kind == FactorKind::hemicube &&
+        factors.hemicube_edge != FactorOptions().hemicube_edge)
+        return std::string(with_edge) + std::to_string(factors.hemicube_edge);
+    return std::string(kind_names.at(static_cast<std::size_t>(factors.kind)));
+}
+
+bool is_exact(const SolveOptions& options) {
+    return options.own.of<FactorOptions>().kind == FactorKind::exact;
+}
+
+} // namespace
+
+MethodOption factors_option(bool with_exact) {
+    const auto set = [with_exact](SolveOptions& options, std::string_view text) {
+        return (with_exact || text != "exact") && set_factors(options, text);
+    };
+    return {.name = "--factors",
+            .help = "form factors by rays; exact: as --exact; hemicube: by a hemicube over each "
+                    "patch, N pixels along its edge [rays; N 64]",
+            .values = with_exact
+                          ? std::vector<std::string>{"rays", "exact", "hemicube", "hemicube:N"}
+                          : std::vector<std::string>{"rays", "hemicube", "hemicube:N"},
+            .set = set,
+            .get = factors_text};
+}
+
+MethodOption exact_option() {
+    return {
+        .name = "--exact",
+        .help = "form factors without chance where patches see each other fully; for up to " +
+                std::to_string(most_patches_for_exact_factors) + " patches",
+        .values = {},
+        .set = [](SolveOptions& options,
+                  std::string_view text) { return text == "yes" && set_factors(options, "exact"); },
+        .get = [](const SolveOptions& options) { return is_exact(options) ? "yes" : "no"; },
+        .excludes = "--factors"};
+}
+
+void check_exact(const SolveOptions& options, std::size_t patches) {
+    if (is_exact(options) && patches > most_patches_for_exact_factors)
+        throw std::invalid_argument(
+            "--exact is for up to " + std::to_string(most_patches_for_exact_factors) +
+            " patches, not " + std::to_string(patches) + "; leave it out and take more --rays");
+}
+
+void adapt_to_factors(MethodWork& work, const SolveOptions& options) {
+    if (options.own.of<FactorOptions>().kind != FactorKind::hemicube)
+        return;
+    work.pairs = work.passes = false;
+    work.estimates_error = false;
+}
+
+} // namespace hemilux

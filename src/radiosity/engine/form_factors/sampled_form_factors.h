@@ -1,0 +1,94 @@
+#pragma once
+// Computes form factors of all patches by well-distributed rays, and puts together what each pair
+// of patches saw of the other.
+//
+// From every patch N rays follow the cosine law; origin and direction together are a scrambled
+// Sobol point. By reciprocity, A_i F_ij = A_j F_ji, the rays from i to j and from j to i estimate
+// the same number. Weighted by the inverse of its variance, F_ij = A_j (c_ij + c_ji) / (N (A_i +
+// A_j)), where c are the counts. Few rays find a small emitter. So the columns of emitters come
+// from the closed form of point and polygon (Lambert) times the visibility along a ray drawn inside
+// it. Rows are then closed: they sum to 1 minus the escape fraction, the share of the row's own
+// rays that met no patch.
+
+#include "bvh/tracer.h"
+#include "parallel/workers.h"
+#include "radiosity/engine/form_factors/ray_counts.h"
+#include "radiosity/paper/scene/needs.h"
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+struct Monitor;
+
+/// A sparse matrix by rows; the entries of a row are in any order, each column once [-]. The
+/// reference is solved to a residual of 1e-12 and written to files. So its values are doubles, and
+/// what two patches saw of each other is merged. Stored transport has rows of floats without
+/// merging (sparse_rows.h): its rays err more than floats round.
+struct SparseMatrix {
+    std::vector<std::size_t> row_begin; ///< one more than rows
+    std::vector<std::uint32_t> column;
+    std::vector<double> value; ///< F [-]
+
+    [[nodiscard]] std::size_t rows() const { return row_begin.size() - 1; }
+    /// Computes y = M x.
+    void multiply(std::span<const double> x, std::span<double> y, const Workers& workers) const;
+};
+
+/// The shares of a patch's rays [-] that met no patch.
+struct EscapeFraction {
+    double escaped = 0;  ///< left the scene
+    double absorbed = 0; ///< fell on the back of a one-sided face
+
+    [[nodiscard]] double sum() const { return escaped + absorbed; }
+};
+
+class SampledFormFactors {
+  public:
+    /// Makes factors without rays. The columns of `emitters` are computed in closed form; there may
+    /// be none. The mesh, the tracer and the needs must outlive this. Patches that never hold power
+    /// shoot no rays; their rows come from the rays of others and are not closed.
+    SampledFormFactors(const Mesh& mesh, const Tracer& tracer, std::vector<std::uint32_t> emitters,
+                       std::uint64_t seed, const Needs& needs = everything_needed);
+
+    /// Traces until there are `rays` rays per patch (and about as many to the emitters). Returns
+    /// the number of rays that this call traced; the factors are void if the monitor was
+    /// interrupted meanwhile.
+    std::uint64_t trace_up_to(std::uint32_t rays, const Workers& workers, Monitor& monitor);
+
+    /// Returns F, merged and closed.
+    [[nodiscard]] SparseMatrix matrix() const;
+    /// Returns the escape fractions by patch.
+    [[nodiscard]] std::span<const EscapeFraction> lost() const { return lost_; }
+    [[nodiscard]] std::span<const std::uint32_t> emitters() const { return emitters_; }
+    /// Returns the share of an emitter's light that arrives [-], by the closed form; `emitter` is
+    /// an index in emitters(). It is only right if all_receive().
+    [[nodiscard]] double arriving_from(std::size_t emitter) const;
+    /// Returns whether no patch is black; one that reflects and emits nothing may look at no
+    /// emitter.
+    [[nodiscard]] bool all_receive() const;
+
+  private:
+    std::uint64_t trace_emitters(std::uint32_t patch, std::uint32_t begin, std::uint32_t end);
+    [[nodiscard]] std::vector<std::vector<RayCounts::Count>> merged_counts() const;
+    [[nodiscard]] std::uint32_t emitter_samples(std::uint32_t rays) const;
+    [[nodiscard]] double factor_per_hit(std::uint32_t i, std::uint32_t j) const;
+
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    std::vector<std::uint32_t> emitters_;
+    std::vector<bool> is_emitter_;
+    std::uint64_t seed_;
+    const Needs& needs_;
+    std::uint32_t rays_ = 0; ///< per patch, so far
+    RayCounts counts_;
+    std::vector<EscapeFraction> lost_;
+    std::vector<double> emitter_sum_; ///< per patch and emitter: sum of the samples
+};
+
+} // namespace hemilux

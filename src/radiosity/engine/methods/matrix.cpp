@@ -1,0 +1,242 @@
+// The full matrix (paper section 2; Goral et al. 1984): the reference for all other methods.
+//
+// Form factors between all pairs of patches are found by well-distributed rays
+// (sampled_form_factors.h), and the system B = E + rho F B is solved to a residual of 1e-12.
+// Several independent batches of the factors give several solutions; their mean is the result, and
+// their spread gives its standard error. Each step doubles the rays; the run ends when the
+// estimated error is small enough (.002 unless asked otherwise). With --factors exact, factors
+// between patches that see each other fully are found without chance, by contour integration
+// (exact_form_factors.h). Rays are used for the other pairs alone. With --factors hemicube, a
+// hemicube over each patch gives its factors (hemicube.h). That is one step, and its error is not
+// estimated (linear/hemicube_matrix.h).
+//
+// The method is consistent: a solution depends on its factors in a non-linear way, so its bias
+// falls as one over the rays, well below its error. It is good up to some ten thousand patches:
+// memory is 8 bytes per batch and per pair of patches that see each other. Exact factors are for
+// small scenes: their time grows as patches^2 faces.
+
+#include "radiosity/engine/form_factors/exact_form_factors.h"
+#include "radiosity/engine/form_factors/factor_options.h"
+#include "radiosity/engine/form_factors/sampled_form_factors.h"
+#include "radiosity/engine/form_factors/sparse_rows.h"
+#include "radiosity/engine/linear/batch_solutions.h"
+#include "radiosity/engine/linear/emitter_losses.h"
+#include "radiosity/engine/linear/hemicube_matrix.h"
+#include "radiosity/engine/linear/surfaces.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solution/missed_light.h"
+#include "radiosity/paper/solving/check_input.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace hemilux {
+namespace {
+
+constexpr std::size_t batches = 8;
+/// The rays per patch and batch at which the run ends whatever the error.
+constexpr std::uint32_t most_rays = 1u << 20;
+
+/// Returns the patches whose columns get the closed form: all that emit, unless they are so many
+/// that rays find them anyway.
+std::vector<std::uint32_t> few_emitters(const Mesh& mesh) {
+    std::vector<std::uint32_t> emitters;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        const Vec3& emission = mesh.material(i).emission;
+        if (emission.x + emission.y + emission.z > 0)
+            emitters.push_back(i);
+    }
+    if (emitters.size() > std::max<std::size_t>(16, mesh.patches().size() / 16))
+        emitters.clear();
+    return emitters;
+}
+
+class MatrixSolver final : public Solver {
+  public:
+    explicit MatrixSolver(const SolverInput& input)
+        : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
+          batches_(input, batches, solution_), surfaces_(input.mesh) {
+        std::vector<std::uint32_t> emitters;
+        if (input.options.own.of<FactorOptions>().kind == FactorKind::exact)
+            exact_.emplace(input.mesh, workers_, input.monitor);
+        else
+            emitters = few_emitters(input.mesh);
+        rays_find_emission_ = emitters.empty();
+        // Exact factors are put together with those of all patches.
+        const Needs& needs = exact_ ? everything_needed : input.needs;
+        for (std::uint64_t r = 0; r < batches; ++r)
+            factors_.emplace_back(input.mesh, input.tracer, emitters,
+                                  hash_words({input.options.seed, r}), needs);
+        solution_.error_batches = batches;
+    }
+
+    bool step() override {
+        SearchForWayOut search(input_);
+        std::optional<bool> done;
+        while (!(done = try_step(search)))
+            search.go_on(traced_, !finished());
+        return *done;
+    }
+
+    /// Returns whether it was not interrupted; nothing if the rays have seen no way out for the
+    /// light.
+    [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
+        const std::uint32_t rays = rays_ == 0 ? first_rays() : 2 * rays_;
+        for (std::size_t r = 0; r < batches; ++r) {
+            input_.monitor.phase = "rays";
+            traced_ += factors_[r].trace_up_to(rays, workers_, input_.monitor);
+            input_.monitor.step_share = static_cast<double>(r + 1) / batches;
+            if (input_.monitor.interrupted)
+                return false;
+        }
+        rays_of_step_ = rays;
+        const auto losses = emitter_losses(factors_, rays);
+        const std::optional<bool> solved =
+            batches_.solve(search, solution_, [&](std::size_t r, std::vector<Vec3>& radiosity) {
+                return solve(factors_[r], losses[r], radiosity);
+            });
+        if (solved == false)
+            return false;
+        rays_ = rays;
+        if (solved) {
+            combine();
+            ++solution_.steps;
+        }
+        return solved;
+    }
+
+    [[nodiscard]] bool finished() const override {
+        return rays_ >= most_rays || (rays_ > 0 && !input_.needs.bounces);
+    }
+    [[nodiscard]] const Solution& solution() const override { return solution_; }
+
+  private:
+    /// Returns a power of two, for which the points are best distributed.
+    [[nodiscard]] std::uint32_t first_rays() const {
+        const double asked = std::clamp(input_.options.rays, 1.0, double(most_rays));
+        return std::bit_ceil(static_cast<std::uint32_t>(std::ceil(asked)));
+    }
+
+    /// Solves one batch, from its last solution on. The lost shares are those of the rows as they
+    /// are, of one kind or the other as rays tell; for emitters, they are what is known best.
+    EnergyBalance solve(const SampledFormFactors& factors, std::span<const EmitterLoss> losses,
+                        std::vector<Vec3>& radiosity) {
+        const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
+        const std::size_t n = radiosity.size();
+        std::vector<double> rays(n, rays_of_step_);
+        std::vector<EscapeFraction> lost(n);
+        const std::vector<double> ones(n, 1.0);
+        std::vector<double> kept(n);
+        f.multiply(ones, kept, workers_);
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const EscapeFraction& by_rays = factors.lost()[i];
+            const double sum = by_rays.sum();
+            const double scale = sum > 0 ? std::clamp(1 - kept[i], 0.0, 1.0) / sum : 0;
+            lost[i] = {scale * by_rays.escaped, scale * by_rays.absorbed};
+        }
+        for (std::size_t e = 0; e < losses.size(); ++e) {
+            lost[factors.emitters()[e]] = losses[e].lost;
+            rays[factors.emitters()[e]] = losses[e].rays;
+        }
+        return solve_closed([&](auto x, auto y) { f.multiply(x, y, workers_); },
+                            {surfaces_.area, surfaces_.emission, surfaces_.reflectance, lost, rays},
+                            input_, radiosity);
+    }
+
+    void combine() {
+        const std::vector<Vec3> variance = batches_.combine(solution_);
+        solution_.hits.assign(variance.size(), std::uint64_t{rays_} * batches);
+        solution_.rays_energy = traced_;
+        const std::vector<Vec3> missed = missed_light();
+        const double share = missed_loss();
+        solution_.missed = 0;
+        for (std::uint32_t i = 0; i < missed.size(); ++i) {
+            const Vec3 level = share * (solution_.radiosity[i] - surfaces_.emission[i]);
+            solution_.missed += surfaces_.area[i] * glm::dot(level, level);
+            solution_.standard_error[i] =
+                glm::sqrt(variance[i] + level * level + missed[i] * missed[i]);
+        }
+    }
+
+    /// Returns the share of all light that three rays stand for which were not lost and might have
+    /// been. What is emitted is all that is used, and one ray carries its part of what leaves all
+    /// patches.
+    [[nodiscard]] double missed_loss() const {
+        if (exact_ || input_.needs.closed)
+            return 0;
+        double leaving = 0, emitted = 0, rays = 0;
+        for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i) {
+            if (solution_.radiosity[i] == Vec3(0.0))
+                continue;
+            leaving += surfaces_.area[i] * mean_of_channels(solution_.radiosity[i]);
+            emitted += surfaces_.area[i] * mean_of_channels(surfaces_.emission[i]);
+            rays += double(rays_) * double(batches);
+        }
+        return emitted > 0 ? rule_of_three * leaving / (rays * emitted) : 0;
+    }
+
+    /// Returns what dark patches may receive besides; by contour integration nothing is left to
+    /// chance. Emission with a closed form does not wait for a ray to find it.
+    [[nodiscard]] std::vector<Vec3> missed_light() const {
+        const std::size_t n = solution_.radiosity.size();
+        if (exact_ || input_.needs.closed)
+            return std::vector<Vec3>(n, Vec3(0.0));
+        const std::vector<double> rays(n, double(rays_) * batches);
+        std::vector<Vec3> incident(n);
+        for (std::size_t i = 0; i < n; ++i) // of the same order: what is reflected of it
+            incident[i] = solution_.radiosity[i] - surfaces_.emission[i];
+        const std::vector<Vec3>& leaving = rays_find_emission_ ? solution_.radiosity : incident;
+        return missed_by_rays({surfaces_.area, surfaces_.reflectance, incident, leaving, rays});
+    }
+
+    SolverInput input_;
+    Solution solution_;
+    Workers workers_;
+    BatchSolutions batches_;
+    Surfaces surfaces_;
+    std::vector<SampledFormFactors> factors_;
+    std::optional<ExactFormFactors> exact_;
+    bool rays_find_emission_ = true; ///< no column has the closed form
+    std::uint32_t rays_ = 0;         ///< per patch and batch
+    std::uint32_t rays_of_step_ = 0; ///< those of the step under way
+    std::uint64_t traced_ = 0;
+};
+
+std::unique_ptr<Solver> make_matrix(const SolverInput& input) {
+    if (input.options.own.of<FactorOptions>().kind == FactorKind::hemicube)
+        return make_hemicube_matrix(input);
+    return std::make_unique<MatrixSolver>(input);
+}
+
+std::vector<MethodOption> options() { return {exact_option(), factors_option(true)}; }
+
+double bytes(const SolveOptions& options, double patches) {
+    const auto& factors = options.own.of<FactorOptions>();
+    if (factors.kind == FactorKind::hemicube)
+        return bytes_per_factor * patches *
+               std::min(patches, 3.0 * std::pow(factors.hemicube_edge, 2));
+    return double(batches) * bytes_per_factor * patches * std::min(patches, options.rays);
+}
+
+} // namespace
+
+extern const Method matrix_method{
+    .name = "matrix",
+    .summary = "all form factors and a linear solver (Goral et al. 1984); the reference",
+    .unbiased = false,
+    .default_stop = {.steps = {}, .seconds = {}, .error = .002},
+    .make = make_matrix,
+    .work = {.pairs = true, .linear_systems = true, .passes = true},
+    .role = Role::reference,
+    .options = options,
+    .check = check_exact,
+    .adapt = adapt_to_factors,
+    .bytes = bytes,
+};
+
+} // namespace hemilux

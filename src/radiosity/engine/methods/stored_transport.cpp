@@ -1,0 +1,264 @@
+// Stored transport: rays give form factors in both directions, and a linear system all bounces.
+//
+// Each patch looks around along well-distributed rays and keeps which patches they hit, not what
+// light they brought (stored_rays.h). What two patches saw of each other is put together, and all
+// rows are closed (exchange_matrix.h). All bounces are solved on the result by conjugate gradients
+// (transport_system.h): no ray is traced twice for another bounce. Small emitters are reached by
+// shadow rays with their exact factor (direct_light.h).
+//
+// The parameter is --rays, the rays of the first step, half of them random, half to the emitters.
+// Each step adds as many, or as many as there are, or as many as an error asked for will take
+// (ray_plan.h). They are of the kind that the error comes from. Four independent batches of both
+// give four solutions, whose spread gives the standard error (step_errors.h); the result is the
+// solution of all rays together.
+//
+// The method is consistent: the solution depends on what was counted in a non-linear way, so its
+// bias falls as one over the rays, and its error more slowly. It is good nearly everywhere: it
+// needs ten to fifty times fewer rays than shooting, most where light is even and surfaces reflect
+// much. It costs 8 bytes per patch and patch that it saw, and twice as many more to solve.
+
+#include "radiosity/engine/form_factors/exchange_matrix.h"
+#include "radiosity/engine/linear/energy_ledger.h"
+#include "radiosity/engine/saving/solution_state.h"
+#include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/stored_transport/batch_light.h"
+#include "radiosity/engine/stored_transport/importance.h"
+#include "radiosity/engine/stored_transport/ray_plan.h"
+#include "radiosity/engine/stored_transport/row_spread.h"
+#include "radiosity/engine/stored_transport/step_errors.h"
+#include "radiosity/engine/stored_transport/stored_rays.h"
+#include "radiosity/engine/stored_transport/transport_errors.h"
+#include "radiosity/engine/stored_transport/transport_system.h"
+#include "radiosity/paper/pages/pages.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/solution/solve_error.h"
+#include "radiosity/paper/solving/check_input.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+constexpr unsigned batches = StoredRays::batches;
+
+/// The bytes that are needed to put counts together, for each byte of them.
+constexpr double merging = 3.5;
+
+class StoredTransportSolver final : public Solver {
+  public:
+    explicit StoredTransportSolver(const SolverInput& input)
+        : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
+          rays_(input), system_(input.mesh, rays_.emitters(), input.needs.closed),
+          aim_(input.mesh, system_, input.target),
+          plan_(first_plan(input, !rays_.emitters().empty())), light_(input.mesh.patches().size()) {
+        solution_.standard_error.assign(input.mesh.patches().size(), Vec3(0.0)); // can be saved
+        plan_.aim(aim_.importance());
+    }
+
+    bool step() override {
+        SearchForWayOut search(input_);
+        std::optional<bool> done;
+        while (!(done = try_step(search)))
+            search.go_on(traced_, !finished() && room_to_grow() >= RayPlan::least_growth);
+        return *done;
+    }
+
+    void aim_at(double error) override { plan_.aim_at(error); }
+    [[nodiscard]] bool finished() const override { return plan_.at_most(); }
+    [[nodiscard]] const Solution& solution() const override { return solution_; }
+
+    /// Saves the state, also within a step that was interrupted.
+    void save(StateWriter& state) const override {
+        light_.save(state);
+        state.add(std::uint64_t{planned_});
+        state.add(traced_);
+        errors_.save(state);
+        aim_.save(state);
+        plan_.save(state);
+        rays_.save(state);
+        save_solution(solution_, state);
+    }
+    void load(StateReader& state) override {
+        light_.load(state);
+        rays_.renew(light_.generation());
+        planned_ = state.flag();
+        state.get(traced_);
+        errors_.load(state);
+        aim_.load(state);
+        plan_.aim(aim_.importance());
+        plan_.load(state);
+        rays_.load(state);
+        load_solution(solution_, state);
+        solution_.unneeded = aim_.unneeded();
+        if (!plan_.has_begun() && (planned_ || solution_.steps > 0))
+            throw StateError("steps were done without a plan");
+    }
+
+  private:
+    static RayPlan first_plan(const SolverInput& input, bool small_emitters) {
+        const double each = input.options.rays / (small_emitters ? 2 * batches : batches);
+        return {input.mesh, input.needs, each, small_emitters ? each : 0,
+                RayGoal{!input.options.stop.steps, input.options.stop.error.value_or(0)}};
+    }
+
+    /// Returns whether it was not interrupted; nothing if the rays have seen no way out for the
+    /// light.
+    [[nodiscard]] std::optional<bool> try_step(const SearchForWayOut& search) {
+        if (!plan_.has_begun() && !begin())
+            return false;
+        plan();
+        constexpr double share_of_rays = 2.0 / 3;
+        if (!trace(share_of_rays))
+            return false;
+        input_.monitor.phase = "solving";
+        const double error = solution_.steps > 0 ? estimated_error(input_.mesh, solution_)
+                                                 : std::numeric_limits<double>::quiet_NaN();
+        std::vector<BatchLight::Light> found = light_.solved();
+        const ExchangeMatrix all =
+            system_.solve(rays_, error, found, workers_, input_.monitor.interrupted);
+        if (input_.monitor.interrupted)
+            return false;
+        planned_ = false;
+        drained_ = std::ranges::all_of(
+            found, [&](const BatchLight::Light& light) { return search.is_drained(light.energy); });
+        if (!drained_)
+            return std::nullopt;
+        light_.solved() = std::move(found);
+        for (std::size_t s = 0; s <= batches; ++s)
+            check_finite(input_.mesh, light_.solved()[s].incident, "the light that reaches",
+                         solution_.steps + 1);
+        combine(all);
+        return true;
+    }
+
+    /// Finds by a few rays the parts of the scene that light can reach, which alone get more.
+    [[nodiscard]] bool begin() {
+        plan_.begin();
+        if (!trace(0))
+            return false;
+        plan_.leave_out(rays_.lit_patches(system_.emission()));
+        if (aim_.has_target())
+            renew_aim();
+        return true;
+    }
+
+    void renew_aim() {
+        aim_.renew(rays_.factors(system_.area(), workers_), workers_);
+        plan_.aim(aim_.importance());
+    }
+
+    /// Traces the rays that are planned. Returns whether it was not interrupted.
+    [[nodiscard]] bool trace(double share_of_step) {
+        input_.monitor.phase = "rays";
+        traced_ += rays_.trace_up_to(plan_.rays(), share_of_step, workers_);
+        return !input_.monitor.interrupted;
+    }
+
+    /// Plans the rays of a step, unless an interrupted step is to be taken up.
+    void plan() {
+        if (planned_)
+            return;
+        if (aim_.is_outdated())
+            renew_aim();
+        const double relative = solution_.steps > 0 ? errors_.relative(input_.mesh, solution_) : 0;
+        const double room = room_to_grow();
+        if (room >= RayPlan::least_growth) {
+            plan_.grow({relative, errors_.variance, errors_.from_emitters, drained_}, room,
+                       workers_);
+        } else { // as many rays as before, all anew
+            light_.begin_generation();
+            rays_.renew(light_.generation());
+        }
+        planned_ = true;
+    }
+
+    /// Returns how many times as many rays may be stored.
+    [[nodiscard]] double room_to_grow() const {
+        const auto stored = static_cast<double>(rays_.bytes_of_counts());
+        return input_.options.memory == 0 || solution_.steps == 0
+                   ? std::numeric_limits<double>::infinity()
+                   : static_cast<double>(input_.options.memory) / (merging * stored);
+    }
+
+    /// Sets what the step has found, how large its error may be, and what the next step depends on.
+    void combine(const ExchangeMatrix& all) {
+        const RowSpread rows = spread_of_rows(all, set_light(), workers_);
+        const TransportResult result{input_.mesh, system_,        light_,       all,
+                                     rows,        rays_.direct(), input_.target};
+        const BatchSpread spread = spread_of_batches(result, aim_, workers_);
+        const TransportErrors errors = errors_of(result, workers_);
+        errors_ = StepErrors(errors, spread);
+        report(errors, spread, input_.needs, solution_);
+        if (aim_.has_target()) {
+            aim_.step_done(errors.part, errors.lit);
+            solution_.unneeded = aim_.unneeded();
+            plan_.aim(aim_.importance());
+        }
+        plan_.weigh(rows.variance, errors.needs_rays);
+        plan_.weigh_emitters(spread.direct_variances, errors.lit);
+        account();
+        solution_.bytes_transport = all.bytes() + rays_.direct().bytes() + rays_.bytes_of_counts();
+        ++solution_.steps;
+    }
+
+    /// Sets the light of all patches. Returns what each sends that random rays must find.
+    std::vector<Vec3> set_light() {
+        std::vector<Vec3> sent;
+        for (std::uint32_t i = 0; i < solution_.radiosity.size(); ++i) {
+            const Vec3 reflected = system_.reflectance()[i] * light_.incident(batches, i);
+            solution_.radiosity[i] = system_.emission()[i] + reflected;
+            solution_.hits[i] =
+                rays_.direct().hits(i) + std::uint64_t{plan_.rays().random[i]} * batches;
+            sent.push_back(reflected + system_.sampled_emission()[i]);
+        }
+        return sent;
+    }
+
+    void account() {
+        const double to_world = input_.mesh.frame().area_to_world(1.0);
+        const EnergyBalance local = light_.energy();
+        solution_.energy = {to_world * local.emitted, to_world * local.absorbed,
+                            to_world * local.escaped, Vec3(0.0)};
+        solution_.rays_energy = traced_;
+    }
+
+    SolverInput input_;
+    Solution solution_;
+    Workers workers_;
+    StoredRays rays_;
+    TransportSystem system_;
+    TargetAim aim_;
+    RayPlan plan_;
+    BatchLight light_;
+    StepErrors errors_;    ///< of the last step
+    bool planned_ = false; ///< rays of the present step, which may have been traced in part
+    bool drained_ = true;  ///< the rays of the last try have seen a way out for the light
+    std::uint64_t traced_ = 0;
+};
+
+} // namespace
+
+extern const Method stored_transport_method{
+    .name = "stored-transport",
+    .summary = "rays are kept and all bounces solved on them; lamps by shadow rays",
+    .unbiased = false,
+    .default_stop = {.steps = {}, .seconds = {}, .error = .01},
+    .make = make_solver_of<StoredTransportSolver>,
+    .work = {.pairs = true},
+    .saves = true,
+    .plain = plain::stored_transport,
+    .most_plain_patches = plain::most_patches_of_stored_transport,
+    .role = Role::standard,
+    .aims = true,
+    .bytes =
+        [](const SolveOptions& options, double patches) {
+            return bytes_per_factor * patches * std::min(patches, options.rays);
+        },
+    .former_name = "gathering",
+};
+
+} // namespace hemilux

@@ -1,0 +1,130 @@
+#pragma once
+// A strategy allocates a patch's rays to the cells of its hemisphere. The stepwise shooting methods
+// differ in nothing else: the loops of Compute Radiosity (paper section 5b) are the same.
+
+#include "geometry/polygon.h"
+#include "geometry/spherical_triangle.h"
+#include "radiosity/engine/densities/cell_directions.h"
+#include "radiosity/paper/hemisphere/hemisphere.h"
+#include "radiosity/paper/solving/solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+/// The cells of a patch in their order, and N_tr / N_hemi of the paper as running sums. Each cell
+/// is one of Hemisphere::cells(), or whole_hemisphere, or private. Of the patch's rays, cell k owns
+/// those from rays_up_to[k - 1], or 0, to rays_up_to[k]; the last sum is all rays. With the rules
+/// as printed it need not be 1.
+///
+/// Every strategy is unbiased, however the rays are allocated, as long as each cell with power has
+/// a positive share of them. This is because a ray carries the power of its cell, divided among the
+/// cell's rays. So floats suffice. Many patches allocate anew in each bounce, and what is kept for
+/// that should be small.
+struct Allocation {
+    std::span<const std::uint16_t> cells;
+    std::span<const float> rays_up_to;
+
+    [[nodiscard]] double rays(std::size_t k) const {
+        return k > 0 ? double(rays_up_to[k]) - double(rays_up_to[k - 1]) : double(rays_up_to[0]);
+    }
+};
+
+/// The memory of an allocation.
+struct AllocatedCells {
+    std::vector<std::uint16_t> cells;
+    std::vector<float> rays_up_to;
+
+    void clear() { cells.clear(), rays_up_to.clear(), sum_ = 0; }
+    /// Adds a cell and its share of the patch's rays. Rounding leaves no cell without rays.
+    void add(std::uint16_t cell, double rays) {
+        const float before = rays_up_to.empty() ? 0 : rays_up_to.back();
+        const float after = static_cast<float>(sum_ += rays);
+        cells.push_back(cell);
+        rays_up_to.push_back(rays > 0 && !(after > before) ? std::nextafter(before, most)
+                                                           : std::max(before, after));
+    }
+    [[nodiscard]] Allocation view() const { return {cells, rays_up_to}; }
+
+  private:
+    static constexpr float most = std::numeric_limits<float>::max();
+    double sum_ = 0;
+};
+
+/// A cell that is not in the table which all patches share. It is made only when rays are shot into
+/// it.
+struct PrivateCell {
+    double power; ///< its share of the patch's [-]
+    SphericalTriangle shape;
+    Polygon origins; ///< the part of the patch where its rays start
+    /// This many of its rays, the first ones, go in given directions instead of random ones.
+    std::uint32_t given = 0;
+    std::array<Vec3, 3> direction{};
+};
+
+class Strategy {
+  public:
+    virtual ~Strategy() = default;
+    /// Returns whether it allocates alike in all steps and learns nothing. If so, several steps are
+    /// solved at the same time, and prepare(), begin_step() and end_step() are not called.
+    [[nodiscard]] virtual bool is_same_in_all_steps() const { return false; }
+    /// Is called before each step except the pilot, with estimates of the radiosity by patch [W/m2]
+    /// and the power of a ray. This power is the mean of channels [W/m2 times area in local units].
+    /// The radiosity of each patch is multiplied by the factor on its rays for a target, if there
+    /// is one.
+    virtual void prepare(std::span<const Vec3> /*radiosity*/, double /*ray_power*/) {}
+    /// Is called when a step begins; the first is 0. Allocations that follow belong to it.
+    virtual void begin_step(std::uint64_t) {}
+    /// Is called when a step ends, unless it was interrupted: what was learned in an interrupted
+    /// step is to be forgotten.
+    virtual void end_step() {}
+    /// Returns the factor on the rays that power alone would give to the patch; each ray carries as
+    /// much less power. The factor is positive, the same throughout a step, and on average over all
+    /// power about 1.
+    [[nodiscard]] virtual double rays_for_power(std::uint32_t /*patch*/) const { return 1; }
+    /// Returns the cells of a patch, always in the same order. The result is a view of what is kept
+    /// or of what is put into `memory`, and is valid until either changes. It may be called from
+    /// several threads.
+    [[nodiscard]] virtual Allocation allocate(std::uint32_t patch,
+                                              AllocatedCells& memory) const = 0;
+    /// Returns whether any cell that it allocates may be private.
+    [[nodiscard]] virtual bool has_private_cells() const { return false; }
+    /// Returns the shape and power of an allocated cell; empty if the cell is in the shared table.
+    [[nodiscard]] virtual std::optional<PrivateCell> private_cell(std::uint32_t /*patch*/,
+                                                                  std::uint16_t /*cell*/) const {
+        return std::nullopt;
+    }
+
+    /// Returns whether it learns in this step from what its rays hit.
+    [[nodiscard]] virtual bool learns() const { return false; }
+    /// Adds for each ray the cell of its receiver's hemisphere that it comes from, as `learn` takes
+    /// it. It may be called from several threads.
+    virtual void find_arrivals(std::span<const Ray> /*rays*/,
+                               std::span<const std::uint32_t> /*receivers*/,
+                               std::vector<std::uint16_t>& /*added to*/) const {}
+    /// Is called in a fixed order with where the rays of a cell arrived (receivers.h).
+    virtual void learn(std::uint32_t /*patch*/, std::uint16_t /*cell*/,
+                       std::span<const std::uint32_t> /*receivers*/,
+                       std::span<const std::uint16_t> /*arrivals*/) {}
+
+    /// These save and load what was learned, as Solver does.
+    virtual void save(StateWriter&) const {}
+    virtual void load(StateReader&) {}
+
+    /// Returns the number of density rays so far; a strategy may look between the steps too.
+    [[nodiscard]] virtual std::uint64_t density_rays() const { return 0; }
+    /// Returns how many more density rays there would be if all triangles were divided.
+    [[nodiscard]] virtual std::uint64_t density_rays_spared() const { return 0; }
+    /// Returns the memory of what it keeps of patches [bytes].
+    [[nodiscard]] virtual std::uint64_t density_bytes() const { return 0; }
+};
+
+} // namespace hemilux

@@ -1,0 +1,119 @@
+#pragma once
+// Defines an option of one method, declared in the method's own file. The command line, its checks,
+// --help, --config, completions, checkpoints and statistics follow from the declaration:
+//
+//     struct RingOptions { bool open = false; std::uint32_t rings = 4; };
+//     constexpr std::array<std::uint32_t, 3> rings{2, 4, 8};
+//
+//     std::vector<MethodOption> options() {
+//         return {flag_option("--open", "leave the rim out", &RingOptions::open),
+//                 number_option("--rings", "rings of cells [4]", &RingOptions::rings, rings)};
+//     }
+//
+// and the method reads input.options.own.of<RingOptions>().
+
+#include "radiosity/paper/solving/solve_options.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hemilux {
+
+struct MethodOption {
+    std::string name; ///< as `--rings`
+    std::string help; ///< one line for --help, which names the methods before it
+    /// The texts that may follow it, as `density`; capitals stand for other text, as in
+    /// `hemicube:N`. A flag has none.
+    std::vector<std::string> values;
+    /// Sets it; false for a text that is none of the values, which for a flag is all but "yes".
+    /// Throws std::invalid_argument with what was expected where there is more to say.
+    std::function<bool(SolveOptions&, std::string_view)> set;
+    /// Returns its value; "yes" or "no" of a flag.
+    std::function<std::string(const SolveOptions&)> get;
+    bool on_page = true;         ///< the method's page (Method::plain) has it, too
+    bool resumable = true;       ///< a run with it can be saved
+    bool makes_variants = false; ///< `compare` takes METHOD-VALUE for a method
+    std::string excludes = {};   ///< the name of another, which may not be given with it
+
+    /// Returns whether it was changed.
+    [[nodiscard]] bool is_set(const SolveOptions& options) const {
+        return get(options) != get(SolveOptions{});
+    }
+    /// Returns the option as the user would write it.
+    [[nodiscard]] std::string text(const SolveOptions& options) const {
+        return values.empty() ? name : name + " " + get(options);
+    }
+};
+
+/// Makes an option that is given or not.
+template <class Own>
+[[nodiscard]] MethodOption flag_option(const std::string& name, const std::string& help,
+                                       bool Own::*member) {
+    return {.name = name,
+            .help = help,
+            .values = {},
+            .set =
+                [member](SolveOptions& options, std::string_view text) {
+                    options.own.of<Own>().*member = text == "yes";
+                    return text == "yes";
+                },
+            .get = [member](const SolveOptions& options) -> std::string {
+                return options.own.of<Own>().*member ? "yes" : "no";
+            }};
+}
+
+/// Makes an option with one of these whole numbers, which outlive it.
+template <class Own>
+[[nodiscard]] MethodOption number_option(const std::string& name, const std::string& help,
+                                         std::uint32_t Own::*member,
+                                         std::span<const std::uint32_t> choices) {
+    std::vector<std::string> values;
+    for (const std::uint32_t choice : choices)
+        values.push_back(std::to_string(choice));
+    return {.name = name,
+            .help = help,
+            .values = values,
+            .set =
+                [member, choices](SolveOptions& options, std::string_view text) {
+                    const auto found = std::ranges::find_if(choices, [text](std::uint32_t choice) {
+                        return std::to_string(choice) == text;
+                    });
+                    if (found == choices.end())
+                        return false;
+                    options.own.of<Own>().*member = *found;
+                    return true;
+                },
+            .get =
+                [member](const SolveOptions& options) {
+                    return std::to_string(options.own.of<Own>().*member);
+                }};
+}
+
+/// Makes an option with one of the values of an enumeration that counts from 0, by their names in
+/// order. It is held as it is: own.of<Choice>().
+template <class Choice>
+[[nodiscard]] MethodOption choice_option(const std::string& name, const std::string& help,
+                                         const std::vector<std::string>& names) {
+    return {.name = name,
+            .help = help,
+            .values = names,
+            .set =
+                [names](SolveOptions& options, std::string_view text) {
+                    const auto found = std::ranges::find(names, text);
+                    if (found == names.end())
+                        return false;
+                    options.own.of<Choice>() = static_cast<Choice>(found - names.begin());
+                    return true;
+                },
+            .get =
+                [names](const SolveOptions& options) {
+                    return names.at(static_cast<std::size_t>(options.own.of<Choice>()));
+                }};
+}
+
+} // namespace hemilux

@@ -1,0 +1,71 @@
+#include "radiosity/engine/solving/run.h"
+
+#include "radiosity/engine/solving/time_limit.h"
+#include "radiosity/paper/scene/mesh.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+namespace hemilux {
+namespace {
+
+/// The largest ratio that is expected of the time of a step to that of the longest before, where
+/// steps grow.
+constexpr double most_growth = 2;
+
+/// The least time [s] that a run gives its steps, so that the shortest limit is enough for one.
+constexpr double least_seconds = 1;
+
+} // namespace
+
+void Solver::save(StateWriter&) const {
+    throw std::logic_error("this method cannot save its state");
+}
+
+void Solver::load(StateReader&) { throw std::logic_error("this method cannot load a state"); }
+
+bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
+         const std::function<void(const StepRecord&, const Solution&)>& after_step,
+         const Before& before) {
+    if (stop.error)
+        solver.aim_at(*stop.error);
+    const auto start = std::chrono::steady_clock::now();
+    const auto elapsed = [&] {
+        const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start;
+        return input.ranks.of_first(solver.solution().seconds_density + before.seconds + d.count());
+    };
+    double last = elapsed(), longest = 0, growth = 1;
+    const auto done = [&](std::uint32_t step, double seconds, double error) {
+        return solver.finished() || (stop.steps && step >= *stop.steps) ||
+               (stop.error && error <= *stop.error) ||
+               (stop.rays && solver.solution().rays_energy >= *stop.rays) ||
+               // A step that would end too late is not begun.
+               (stop.seconds && seconds + growth * longest > *stop.seconds);
+    };
+    if (before.steps > 0 &&
+        done(before.steps, last, estimated_error(input.mesh, solver.solution())))
+        return true;
+    std::optional<double> time_left;
+    if (stop.seconds)
+        time_left = std::max(*stop.seconds - last, least_seconds);
+    StopFlag& interrupted = input.monitor.interrupted;
+    const TimeLimit limit(interrupted, time_left);
+    for (std::uint32_t step = before.steps + 1;; ++step) {
+        if ((interrupted.agree() && solver.steps_ready() == 0) || !solver.step())
+            return !interrupted.wished(); // but for the caller's wish the run ends by its rule
+        const Solution& solution = solver.solution();
+        const StepRecord record{step, solution.rays_energy + solution.rays_density, elapsed(),
+                                estimated_error(input.mesh, solution)};
+        if (after_step)
+            after_step(record, solution);
+        const double took = record.seconds - last;
+        growth = longest > 0 ? std::clamp(took / longest, 1.0, most_growth) : 1;
+        longest = std::max(longest, took);
+        last = record.seconds;
+        if (done(step, record.seconds, record.estimated_error))
+            return true;
+    }
+}
+
+} // namespace hemilux

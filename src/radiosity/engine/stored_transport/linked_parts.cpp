@@ -1,0 +1,90 @@
+#include "radiosity/engine/stored_transport/linked_parts.h"
+
+#include "radiosity/engine/form_factors/exchange_matrix.h"
+#include "radiosity/engine/form_factors/ray_counts.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace hemilux {
+namespace {
+
+/// Disjoint sets, each named by its least member (Galler and Fischer 1964; path halving).
+class DisjointSets {
+  public:
+    explicit DisjointSets(std::size_t n) : parent_(n) {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i)
+            i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::uint32_t i, std::uint32_t j) {
+        const std::uint32_t a = find(i), b = find(j);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+    [[nodiscard]] LinkedParts parts() {
+        LinkedParts parts;
+        for (std::uint32_t i = 0; i < parent_.size(); ++i) {
+            const std::uint32_t first = find(i);
+            parts.of.push_back(first == i ? parts.count++ : parts.of[first]);
+        }
+        return parts;
+    }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// Finds the least name that any rank has for each patch; the patch's owner finds it.
+void take_least(std::vector<std::uint32_t>& names, const OwnBlocks& own) {
+    std::vector<std::vector<std::uint32_t>> sent(own.ranks().count());
+    for (std::size_t i = 0; i < names.size(); ++i)
+        sent[own.owner(i)].push_back(names[i]);
+    for (const std::vector<std::uint32_t>& of_rank : own.ranks().exchange(sent))
+        for (std::size_t k = 0; k < of_rank.size(); ++k)
+            names[own.item(k)] = std::min(names[own.item(k)], of_rank[k]);
+    own.gather(names);
+}
+
+/// Joins the sets of all ranks. Each rank knows what its own rays have joined; until all know the
+/// same, they join what any does.
+LinkedParts parts_of_all(DisjointSets& sets, const OwnBlocks& own, std::uint32_t patches) {
+    for (bool differ = own.ranks().are_several(); differ;) {
+        std::vector<std::uint32_t> names;
+        for (std::uint32_t i = 0; i < patches; ++i)
+            names.push_back(sets.find(i));
+        take_least(names, own);
+        differ = false;
+        for (std::uint32_t i = 0; i < patches; ++i) {
+            differ |= sets.find(i) != names[i];
+            sets.join(i, names[i]);
+        }
+        differ = own.ranks().any(differ);
+    }
+    return sets.parts();
+}
+
+} // namespace
+
+LinkedParts find_linked_parts(const ExchangeMatrix& factors) {
+    const auto n = static_cast<std::uint32_t>(factors.lost().size());
+    DisjointSets sets(n);
+    for (std::uint32_t i = 0; i < n; ++i)
+        for (const MatrixEntry& entry : factors.row(i))
+            if (entry.column < i) // the matrix is symmetric
+                sets.join(i, entry.column);
+    return parts_of_all(sets, factors.own_rows(), n);
+}
+
+LinkedParts find_linked_parts(std::span<const RayCounts> batches) {
+    DisjointSets sets(batches[0].patches());
+    for (const RayCounts& batch : batches)
+        for (std::uint32_t i = 0; i < batch.patches(); ++i)
+            for (const RayCounts::Count& seen : batch.row(i))
+                sets.join(i, seen.patch);
+    return parts_of_all(sets, batches[0].own_rows(), batches[0].patches());
+}
+
+} // namespace hemilux

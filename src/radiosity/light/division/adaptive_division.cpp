@@ -1,0 +1,276 @@
+#include "radiosity/light/division/adaptive_division.h"
+
+#include "radiosity/engine/solving/method.h"
+#include "radiosity/light/division/division_weights.h"
+#include "radiosity/light/division/inherited.h"
+#include "radiosity/light/division/patch_levels.h"
+#include "radiosity/light/final_gather/light_within_patches.h"
+#include "radiosity/light/final_gather/linear_light.h"
+#include "radiosity/light/light_error/division_error.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/scene/mesh.h"
+#include "radiosity/paper/scene/needs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace hemilux {
+namespace {
+
+constexpr unsigned most_rounds = 20;
+
+/// A round makes at most `most_growth` times as many patches, as what varies is only known roughly.
+/// It makes at least `least_growth` times as many, as it costs as much as the patches that it would
+/// spare.
+constexpr double most_growth = 4, least_growth = 1.1;
+constexpr std::size_t least_room = 256;
+
+/// The rows of points on large patches: when they are new, and in further rounds.
+constexpr unsigned rows_at_first = 6, rows_again = 3;
+
+/// One in so many of the other patches is measured again in each round.
+constexpr std::uint64_t one_again_in = 4;
+
+/// The light is solved anew when there are so many times more patches than were solved.
+constexpr double solved_at_growth = 6;
+
+/// The limits on the rough solution's error: most of it is gone once the light is reflected.
+constexpr double least_rough_error = .02, most_rough_error = .05;
+
+/// Returns the rays of an estimate: noise that is large beside what is allowed would divide patches
+/// for nothing.
+unsigned rays_of_estimate(double error) {
+    constexpr double at_error_of_one = .11, least = 4, most = 16;
+    return static_cast<unsigned>(std::clamp(std::round(at_error_of_one / error), least, most));
+}
+
+/// Patches that hold very little light are not measured. If it varied by as much as it is, all that
+/// they leave would be this share of what is allowed.
+constexpr double negligible_share = .05;
+
+/// The share of what is allowed that the noise of slopes may be; and the most rounds of rays for
+/// it.
+constexpr double share_of_noise = .2;
+constexpr double most_rounds_of_slopes = 8;
+
+} // namespace
+
+StopRule rough_stop(const AdaptiveDivision& options, std::size_t patches) {
+    constexpr std::uint64_t rays_of_patch = 4096, least_rays = 4'000'000;
+    return {.steps = {},
+            .seconds = {},
+            .error = std::clamp(options.error, least_rough_error, most_rough_error),
+            .rays = least_rays + rays_of_patch * patches};
+}
+
+Solution rough_solution(const Mesh& mesh, const Tracer& tracer, const AdaptiveDivision& options,
+                        Monitor& monitor, std::span<const double> target) {
+    const Needs needs = find_needs(mesh);
+    SolveOptions solve;
+    solve.seed = options.seed;
+    solve.threads = options.threads;
+    const StopRule stop = rough_stop(options, mesh.patches().size());
+    solve.stop = stop;
+    solve.memory = options.memory;
+    const SolverInput input{mesh, tracer, solve, monitor, needs, target};
+    const auto solver = method_of(Role::standard).make(input);
+    run(*solver, input, stop);
+    return solver->solution();
+}
+
+Division::Division(Mesh& mesh, const Tracer& tracer, const AdaptiveDivision& options,
+                   Monitor& monitor)
+    : mesh_(mesh), tracer_(tracer), options_(options), monitor_(monitor), workers_(options.threads),
+      solved_(mesh.patches().size()), square_(solved_), times_(solved_), slopes_(solved_),
+      is_due_(solved_, 1), measured_at_(solved_) {}
+
+bool Division::divide(Solution& light, double error,
+                      const std::function<void(const DivisionRound&)>& after_round) {
+    const std::size_t patches = mesh_.patches().size();
+    for (unsigned round = 0; round < most_rounds && light.steps > 0; ++round) {
+        rays_ = 0;
+        if (!solve_if_due(light))
+            break;
+        const double size = reflected_square(mesh_, light), goal = error * error * size;
+        if (!(size > 0) || monitor_.interrupted)
+            break;
+        monitor_.phase = "dividing";
+        ++round_;
+        weigh(light);
+        measure(light, goal);
+        if (monitor_.interrupted)
+            break;
+        if (after_round)
+            after_round({mesh_.patches().size(), std::sqrt(std::max(fresh_, 0.0) / size), rays_});
+        if (is_done(goal) || !cut(light, goal))
+            break;
+    }
+    return mesh_.patches().size() > patches;
+}
+
+/// Solves the light anew if that is due. Returns false if no solution was found.
+bool Division::solve_if_due(Solution& light) {
+    const std::size_t patches = mesh_.patches().size();
+    if (double(patches) < solved_at_growth * double(solved_))
+        return true;
+    Solution solution = rough_solution(mesh_, tracer_, options_, monitor_, light.weight);
+    if (solution.steps == 0)
+        return false;
+    rays_ += solution.rays_energy;
+    light = std::move(solution);
+    solved_ = patches;
+    return true;
+}
+
+/// Finds the weights of patches for a target: what lights it counts too.
+void Division::weigh(const Solution& light) {
+    if (!light.weight.empty())
+        weight_ = division_weights(mesh_, tracer_, light.weight,
+                                   hash_words({options_.seed, 7, measured_}), workers_);
+}
+
+void Division::measure(const Solution& light, double goal) {
+    const auto most = [&](std::uint32_t i) {
+        const Vec3 reflected = light.radiosity[i] - mesh_.material(i).emission;
+        const double all = mesh_.patches()[i].area * glm::dot(reflected, reflected);
+        return counts(i) * std::max(all, square_[i]); // inherited
+    };
+    std::vector<std::uint32_t> due;
+    for (std::uint32_t i = 0; i < is_due_.size(); ++i)
+        if (is_due_[i])
+            due.push_back(i);
+    std::ranges::sort(due, {}, [&](std::uint32_t i) { return std::pair(most(i), i); });
+    double left_out = 0;
+    const auto first = std::ranges::find_if(
+        due, [&](std::uint32_t i) { return (left_out += most(i)) > negligible_share * goal; });
+    due.erase(due.begin(), first);
+    std::erase_if(due, [&](std::uint32_t i) { return !(counts(i) > 0); });
+    std::ranges::sort(due);
+    const auto known = std::stable_partition(due.begin(), due.end(),
+                                             [&](std::uint32_t i) { return times_[i] == 0; });
+    fresh_ = fresh_squares_ = 0;
+    measure(light, {due.begin(), known}, 1, rows_at_first);
+    measure(light, {known, due.end()}, 1, rows_again);
+    // Patches that were chosen for what was measured there are not a fair sample of all; these are.
+    std::vector<std::uint32_t> some;
+    for (std::uint32_t i = 0; i < is_due_.size(); ++i)
+        if (counts(i) > 0 && times_[i] > 0 && measured_at_[i] < round_ &&
+            hash_words({options_.seed, measured_, i}) % one_again_in == 0)
+            some.push_back(i);
+    measure(light, some, 1, rows_again, one_again_in);
+}
+
+/// Measures some patches, by new points each time.
+void Division::measure(const Solution& light, std::span<const std::uint32_t> some, unsigned rounds,
+                       unsigned most_rows, double stand_for) {
+    const LightWithinPatches found =
+        light_within_patches({mesh_, tracer_, light}, some,
+                             {.rounds = rounds,
+                              .rays = rays_of_estimate(options_.error),
+                              .most_rows = most_rows,
+                              .seed = hash_words({options_.seed, 2, measured_++})},
+                             workers_, monitor_.interrupted);
+    rays_ += found.rays;
+    if (monitor_.interrupted)
+        return;
+    for (std::size_t k = 0; k < some.size(); ++k) {
+        const std::uint32_t i = some[k];
+        const double square = counts(i) * found.square[k];
+        fresh_ += stand_for * square;
+        fresh_squares_ += stand_for * square * square;
+        const double more = double(rounds), of_new = more / (times_[i] + more);
+        square_[i] = std::lerp(square_[i], found.square[k], of_new);
+        for (std::size_t e = 0; e < 2; ++e) {
+            Slope& slope = slopes_[i][e];
+            slope.x = glm::mix(slope.x, found.slopes[k][e].x, of_new);
+            slope.y = glm::mix(slope.y, found.slopes[k][e].y, of_new);
+        }
+        times_[i] += more;
+        measured_at_[i] = round_;
+        is_due_[i] = 0;
+    }
+}
+
+/// Returns whether the division is done, and that is known: few points may miss what few patches
+/// hold, whose squares then scatter.
+bool Division::is_done(double goal) const {
+    constexpr double doubt = .5;
+    return fresh_ + doubt * std::sqrt(fresh_squares_) <= goal;
+}
+
+/// Divides patches. Returns false if nothing can be divided.
+bool Division::cut(Solution& light, double goal) {
+    const std::size_t before = mesh_.patches().size();
+    const auto times = [&](double growth) {
+        return static_cast<std::size_t>(growth * double(before));
+    };
+    std::vector<double> that_count;
+    for (std::size_t i = 0; i < before; ++i)
+        that_count.push_back(counts(i) * square_[i]);
+    const std::vector<std::uint8_t> levels = levels_of_division(
+        that_count,
+        {.goal = goal,
+         .least_pieces = times(least_growth),
+         .most_pieces = std::min(options_.most_patches, times(most_growth) + least_room)});
+    if (std::ranges::none_of(levels, [](std::uint8_t level) { return level > 0; }))
+        return false;
+    std::vector<Vec3> emission; // of a texture, which differs from piece to piece
+    for (std::uint32_t i = 0; i < before; ++i)
+        emission.push_back(mesh_.material(i).emission);
+    const std::vector<std::uint32_t> parents = mesh_.refine(levels);
+    square_ = inherited(square_, parents);
+    slopes_ = inherited(slopes_, parents);
+    times_ = inherited(times_, parents);
+    is_due_ = inherited(is_due_, parents);
+    measured_at_ = inherited(measured_at_, parents);
+    std::vector<std::uint32_t> pieces(before);
+    for (const std::uint32_t parent : parents)
+        ++pieces[parent];
+    for (std::size_t k = 0; k < parents.size(); ++k)
+        if (pieces[parents[k]] > 1) {
+            times_[k] = 0;
+            square_[k] /= pieces[parents[k]];
+            is_due_[k] = 1;
+        }
+    inherit(light, parents);
+    for (std::uint32_t k = 0; k < parents.size(); ++k)
+        light.radiosity[k] += mesh_.material(k).emission - emission[parents[k]];
+    return true;
+}
+
+std::uint64_t Division::add_slopes(Solution& light, double error) {
+    rays_ = 0;
+    weigh(light);
+    const auto patches = mesh_.patches();
+    const double allowed = share_of_noise * error * error * reflected_square(mesh_, light);
+    double noise = 0;
+    std::vector<std::uint32_t> noisy;
+    for (std::uint32_t i = 0; i < patches.size(); ++i) {
+        const double own = counts(i) * agreed_slope(patches[i], slopes_[i]).noise;
+        noise += own;
+        if (own * double(patches.size()) > allowed)
+            noisy.push_back(i);
+    }
+    if (noise > allowed && !monitor_.interrupted) {
+        const auto rounds =
+            static_cast<unsigned>(std::min(std::round(noise / allowed), most_rounds_of_slopes));
+        measure(light, noisy, rounds, rows_again);
+    }
+    light.slope = slopes();
+    return rays_;
+}
+
+std::vector<Slope> Division::slopes() const {
+    std::vector<Slope> slopes;
+    for (std::size_t i = 0; i < slopes_.size(); ++i)
+        slopes.push_back(agreed_slope(mesh_.patches()[i], slopes_[i]).slope);
+    return slopes;
+}
+
+void Division::doubt() { is_due_.assign(is_due_.size(), 1); }
+
+} // namespace hemilux

@@ -1,0 +1,105 @@
+#include "radiosity/light/final_gather/final_gather.h"
+
+#include "parallel/ranks.h"
+#include "parallel/workers.h"
+#include "radiosity/engine/sampling/sobol.h"
+#include "radiosity/paper/rays/receivers.h"
+#include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/sampling/rng.h"
+#include "radiosity/paper/solving/stop_flag.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace hemilux {
+namespace {
+
+/// The number of rays that are traced together; fewer take longer each. A thread or rank takes as
+/// many points as have so many rays, 16 at most.
+constexpr std::size_t rays_per_batch = 4096, most_points_per_chunk = 16;
+
+} // namespace
+
+std::vector<Vec3> FinalGather::irradiance(std::span<const SurfacePoint> points,
+                                          std::span<const std::uint64_t> streams,
+                                          std::size_t estimates, const Workers& workers,
+                                          const StopFlag& interrupted) {
+    std::vector<Vec3> found(points.size() * estimates, Vec3(0.0));
+    const std::size_t rays_of_estimate = std::size_t{random_rays_} * rounds_;
+    if (receivers_)
+        receivers_->assign(found.size() * rays_of_estimate, absorbed);
+    const std::size_t rays_of_point =
+        estimates * rounds_ * (std::size_t{random_rays_} + shadow_rays_);
+    const std::size_t points_per_chunk =
+        std::clamp<std::size_t>(rays_per_batch / rays_of_point, 1, most_points_per_chunk);
+    const OwnBlocks own(interrupted.ranks(), points.size(), points_per_chunk);
+    std::optional<StopFlag::OfThisRank> on_this_rank(interrupted);
+    std::atomic<std::uint64_t> traced{0};
+    workers.for_chunks(own.count(), points_per_chunk, [&](std::size_t first, std::size_t last) {
+        const std::size_t begin = own.item(first), end = begin + (last - first);
+        PathRays rays;
+        std::size_t place = begin * estimates * rays_of_estimate; // of the rays in the batch
+        for (std::size_t k = begin; k < end && !interrupted; ++k) {
+            add_rays(points[k], streams[k], estimates, static_cast<std::uint32_t>(k * estimates),
+                     rays);
+            if (k + 1 < end && rays.random.size() < rays_per_batch)
+                continue;
+            const GatherPaths::Traced batch = paths_.trace(std::exchange(rays, {}), found);
+            traced += batch.rays;
+            if (receivers_)
+                std::ranges::copy(batch.receivers,
+                                  receivers_->begin() + static_cast<std::ptrdiff_t>(place));
+            place += batch.receivers.size();
+        }
+    });
+    on_this_rank.reset();
+    own.gather(found, estimates);
+    if (receivers_)
+        own.gather(*receivers_, estimates * rays_of_estimate);
+    own.ranks().add_work(traced, 0);
+    rays_ += own.ranks().sum(traced);
+    interrupted.agree();
+    return found;
+}
+
+/// Adds the rays of all estimates at one point.
+void FinalGather::add_rays(const SurfacePoint& point, std::uint64_t seed, std::size_t estimates,
+                           std::uint32_t place, PathRays& rays) const {
+    const ReachedEmitters& emitters = paths_.emitters();
+    emitters.weigh(point, rays.weighed);
+    const bool by_shadow_rays = rays.weighed.pays();
+    const bool finds_light = paths_.finds() == GatherPaths::Find::light;
+    const Frame frame = Frame::from_normal(point.normal);
+    const std::uint32_t random_rays = random_rays_ * rounds_, shadow_rays = shadow_rays_ * rounds_;
+    for (std::size_t e = 0; e < estimates; ++e, ++place) {
+        SobolBlocks<5> numbers(hash_words({seed, e}));
+        for (std::uint32_t k = 0; k < random_rays; ++k) {
+            const auto u = numbers.at(k);
+            rays.add(point.ray(frame.to_world(cosine_direction({u[0], u[1]}))),
+                     {.seed = hash_words({seed, e, k}),
+                      .place = place,
+                      .share = Vec3(1.0 / random_rays),
+                      .sees_emission = !by_shadow_rays,
+                      .in_gather = !finds_light});
+        }
+        if (by_shadow_rays && finds_light)
+            emitters.add_rays(point, rays.weighed, numbers, 0, shadow_rays, place, rays.shadow);
+    }
+}
+
+GatheredAtPoints gather_over(const PointsOverSurface& surface, FinalGather& gather,
+                             std::size_t points, std::size_t estimates, std::uint64_t seed,
+                             const Workers& workers, const StopFlag& interrupted) {
+    GatheredAtPoints found{surface.draw(points, hash_words({seed, 0})), {}};
+    std::vector<SurfacePoint> at;
+    std::vector<std::uint64_t> streams;
+    for (const PatchPoint& point : found.points) {
+        at.push_back(point.at);
+        streams.push_back(hash_words({seed, at.size()}));
+    }
+    found.irradiance = gather.irradiance(at, streams, estimates, workers, interrupted);
+    return found;
+}
+
+} // namespace hemilux

@@ -1,0 +1,154 @@
+#include "radiosity/light/final_gather/gather_in_parts.h"
+
+#include "radiosity/paper/rays/receivers.h"
+#include "radiosity/paper/rays/shot.h"
+#include "radiosity/paper/scene/mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace hemilux {
+namespace {
+
+constexpr std::size_t rays_traced_together = 4096;
+
+/// The number of successive points on one facet that aim rays by the chances of the first.
+constexpr std::uint32_t shared_aim = 16;
+
+/// Points on one facet whose samples belong to one block of so many use the same chances of
+/// emitters: they lie near each other.
+constexpr std::uint32_t shared_weights = 64;
+
+} // namespace
+
+std::vector<EmitterLight> GatherInParts::direct(std::span<const SurfacePoint> points,
+                                                std::span<const GatherSamples> samples,
+                                                Shadows shadows) const {
+    std::vector<EmitterLight> found(points.size());
+    WeighedEmitters weighed;
+    ShadowRays<LightAtPlace> rays;
+    const auto trace = [&] {
+        rays.trace(tracer_, [&](const LightAtPlace& sample, bool arrives) {
+            if (arrives)
+                found[sample.place].arriving += sample.light;
+        });
+    };
+    for (std::uint32_t k = 0; k < points.size(); ++k) {
+        const GatherSamples& own = samples[k];
+        const bool alike = k > 0 && points[k].facet == points[k - 1].facet &&
+                           own.first / shared_weights == samples[k - 1].first / shared_weights;
+        if (!alike)
+            emitters_.weigh(points[k], weighed);
+        if (weighed.cut.dark())
+            continue;
+        const std::size_t before = rays.size();
+        SobolBlocks<5> numbers(own.seed);
+        emitters_.add_rays(points[k], weighed, numbers, own.first, own.count, k, rays);
+        double by_nearness = 0;
+        for (std::size_t ray = before; ray < rays.size(); ++ray) {
+            const Vec3& light = rays.sample(ray).light;
+            found[k].unshadowed += light;
+            by_nearness += mean_of_channels(light) / rays.ray(ray).t_max;
+        }
+        if (by_nearness > 0)
+            found[k].nearness = by_nearness / mean_of_channels(found[k].unshadowed);
+        if (shadows == Shadows::left_out)
+            rays.clear();
+        else if (rays.size() >= rays_traced_together)
+            trace();
+    }
+    trace();
+    return found;
+}
+
+/// Adds what each ray meets. A ray that was aimed counts only where it meets its patch. Then, and
+/// where a random ray meets the same patch, it counts by the densities of both (balance heuristic:
+/// Veach and Guibas 1995).
+void GatherInParts::read_patches(std::span<const SurfacePoint> points, const Rays& rays,
+                                 std::span<IndirectLight> found) const {
+    std::array<FacetHit, rays_at_a_time> hits;
+    for (std::size_t begin = 0; begin < rays.rays.size(); begin += hits.size()) {
+        const std::size_t n = std::min(hits.size(), rays.rays.size() - begin);
+        const auto some = std::span(rays.rays).subspan(begin, n);
+        tracer_.closest_stream(some, std::span(hits).first(n));
+        for (std::size_t k = 0; k < n; ++k) {
+            if (hits[k].facet == none)
+                continue;
+            const Ray& ray = some[k];
+            const Hit hit = tracer_.locate(ray, hits[k].facet);
+            const std::uint32_t patch = mesh_.patch_at(hit);
+            const auto& [place, at_random, target] = rays.samples[begin + k];
+            if (target != none && patch != target)
+                continue;
+            double rays_there = at_random;
+            if (rays.aimed > 0 && patch != none)
+                rays_there += rays.aimed * std::numbers::pi /
+                              glm::dot(ray.direction, points[place].normal) *
+                              bright_.density(rays.aim, patch, hit.t, ray.direction);
+            IndirectLight& light = found[place];
+            constexpr double touching = 1e-6;
+            light.nearness += 1 / (rays_there * std::max(hit.t, touching));
+            if (patch == none)
+                continue;
+            const Vec3 sent =
+                radiosity_at(mesh_, light_, patch, ray.origin + hit.t * ray.direction) -
+                emitters_.emission(patch);
+            light.irradiance += sent / rays_there;
+            const double square = mean_of_channels(sent * sent);
+            light.squares += square;
+            if (bright_.contains(patch))
+                light.bright_squares += square;
+        }
+    }
+}
+
+std::vector<IndirectLight> GatherInParts::indirect(std::span<const SurfacePoint> points,
+                                                   std::span<const GatherSamples> samples) const {
+    std::vector<IndirectLight> found(points.size());
+    Rays rays;
+    std::uint32_t aims = 0; // the point whose chances are used
+    for (std::uint32_t k = 0; k < points.size(); ++k) {
+        const SurfacePoint& point = points[k];
+        const auto& [seed, first, count, partly_aimed] = samples[k];
+        const bool alike =
+            partly_aimed == samples[aims].partly_aimed &&
+            (!partly_aimed || (k > 0 && k - aims < shared_aim &&
+                               point.facet == points[aims].facet && count == samples[aims].count));
+        if (!alike || rays.rays.size() >= rays_traced_together) {
+            read_patches(points, rays, found);
+            rays.rays.clear();
+            rays.samples.clear();
+        }
+        if (!alike) {
+            aims = k;
+            rays.aimed = 0;
+            if (partly_aimed) {
+                bright_.aim(point, rays.aim);
+                rays.aimed = rays.aim.sees_any() ? count / 2 : 0;
+            }
+        }
+        const unsigned at_random = count - rays.aimed;
+        const auto add = [&](const Vec3& direction, std::uint32_t target) {
+            rays.rays.push_back(point.ray(direction));
+            rays.samples.push_back({k, at_random, target});
+        };
+        const Frame frame = Frame::from_normal(point.normal);
+        const std::uint32_t place = first / count;
+        SobolBlocks<5> numbers(seed);
+        for (std::uint32_t next = 0; next < at_random; ++next) {
+            const auto u = numbers.at(place * at_random + next);
+            add(frame.to_world(cosine_direction({u[0], u[1]})), none);
+        }
+        for (std::uint32_t next = 0; next < rays.aimed; ++next) {
+            const auto u = numbers.at(place * rays.aimed + next);
+            const auto [direction, patch] = bright_.draw(point, rays.aim, {u[4], u[2], u[3]});
+            if (glm::dot(direction, point.normal) > 0)
+                add(direction, patch);
+        }
+    }
+    read_patches(points, rays, found);
+    return found;
+}
+
+} // namespace hemilux

@@ -1,0 +1,85 @@
+#pragma once
+// The light that arrives at points in two parts, for pictures, which filter them differently. One
+// comes straight from small emitters, with the sharp edges of shadows; the other is all other
+// light, which varies slowly.
+
+#include "bvh/tracer.h"
+#include "radiosity/engine/emitters/reached_emitters.h"
+#include "radiosity/light/final_gather/bright_patches.h"
+#include "radiosity/light/final_gather/linear_light.h"
+#include "radiosity/light/final_gather/surface_points.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+/// The random numbers of a point: `count` points of the Sobol sequence of a seed, from `first` on.
+struct GatherSamples {
+    std::uint64_t seed;
+    std::uint32_t first, count;
+    bool partly_aimed = false; ///< half of the indirect rays are aimed at bright patches
+};
+
+/// The light straight from small emitters [W/m2]. What varies from sample to sample varies in both
+/// alike, except for shadows.
+struct EmitterLight {
+    Vec3 arriving{0.0};
+    Vec3 unshadowed{0.0}; ///< what would arrive if nothing stood between
+    double nearness = 0;  ///< mean inverse distance of the emitters, by that light; local frame
+};
+enum class Shadows { traced, left_out };
+
+struct IndirectLight {
+    Vec3 irradiance{0.0}; ///< [W/m2]
+    double nearness = 0;  ///< mean inverse distance of what the rays met; local frame
+    /// The sums over rays of the square of the light that they read, of all rays and of those that
+    /// met bright patches. The nearer both are, the more noise random rays find there.
+    double squares = 0, bright_squares = 0;
+};
+
+class GatherInParts {
+  public:
+    /// `light` is what patches send. All that is referred to must outlive this object.
+    GatherInParts(const Mesh& mesh, const Tracer& tracer, PatchLight light)
+        : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh),
+          bright_(mesh, light.radiosity, emitters_) {}
+
+    /// Returns the light of emitters at each point by its own samples, on the calling thread, with
+    /// a shadow ray for each. If shadows are left out, no ray is traced, and nothing arrives.
+    [[nodiscard]] std::vector<EmitterLight> direct(std::span<const SurfacePoint> points,
+                                                   std::span<const GatherSamples> samples,
+                                                   Shadows shadows) const;
+    /// Returns the other light in the same way, by a cosine-distributed ray for each sample, which
+    /// reads the patch that it meets, however near. Half of the samples may be rays to bright
+    /// patches instead (bright_patches.h).
+    [[nodiscard]] std::vector<IndirectLight> indirect(std::span<const SurfacePoint> points,
+                                                      std::span<const GatherSamples> samples) const;
+
+  private:
+    /// The rays that are not traced yet. Aimed ones belong to points that share chances.
+    struct Rays {
+        struct Sample {
+            std::uint32_t point;
+            unsigned at_random;   ///< rays of this point
+            std::uint32_t target; ///< the patch that it is aimed at, or none
+        };
+        std::vector<Ray> rays;
+        std::vector<Sample> samples;
+        unsigned aimed = 0; ///< rays of each point
+        BrightPatches::Aim aim;
+    };
+    void read_patches(std::span<const SurfacePoint> points, const Rays& rays,
+                      std::span<IndirectLight> found) const;
+
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    PatchLight light_;
+    ReachedEmitters emitters_;
+    BrightPatches bright_;
+};
+
+} // namespace hemilux

@@ -1,0 +1,93 @@
+#pragma once
+// The paths that follow from the rays of a gather. A ray reads the light of the patch that it
+// meets. A near patch may not send there what it sends on average, as in corners and in gaps. The
+// ray then goes on as a path (Christensen 1999): it gathers the light that is reflected there too.
+//
+// The same paths find what a gather lacks because light varies within patches. Then they go on from
+// everywhere. At each vertex y they find the light that arrives there by the means of patches, less
+// that at another point y' of its patch by the same random numbers. This is what y has more than
+// the mean of its patch.
+
+#include "bvh/tracer.h"
+#include "radiosity/engine/emitters/reached_emitters.h"
+#include "radiosity/light/final_gather/linear_light.h"
+#include "radiosity/light/final_gather/surface_points.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hemilux {
+
+class Mesh;
+
+/// The random rays that are not traced yet, and shadow rays from the same points.
+struct PathRays {
+    /// This is what a random ray carries.
+    struct State {
+        std::uint64_t seed;  ///< of what follows from it
+        std::uint32_t place; ///< of the estimate
+        Vec3 share;          ///< of what it meets, that counts in the estimate
+        bool sees_emission;  ///< emitters are left to it
+        bool in_gather;      ///< nothing is to be found before its path has left the gather
+        bool ends = false;   ///< its path does not go on
+    };
+    std::vector<Ray> random;
+    std::vector<State> states; ///< of each ray at random
+    ShadowRays<LightAtPlace> shadow;
+    WeighedEmitters weighed; ///< for the point that rays were added at last
+
+    void add(const Ray& ray, const State& state) {
+        random.push_back(ray);
+        states.push_back(state);
+    }
+};
+
+class GatherPaths {
+  public:
+    /// What is to be found is the light that arrives; or what it lacks, in gathers that go on where
+    /// patches are near, or that read them however near.
+    enum class Find { light, spread, spread_however_near };
+
+    /// `light` is what patches send. All that is referred to must outlive this object.
+    GatherPaths(const Mesh& mesh, const Tracer& tracer, PatchLight light)
+        : mesh_(mesh), tracer_(tracer), light_(light), emitters_(mesh) {}
+
+    void find(Find what) { find_ = what; }
+    [[nodiscard]] Find finds() const { return find_; }
+    [[nodiscard]] const ReachedEmitters& emitters() const { return emitters_; }
+
+    struct Traced {
+        std::vector<std::uint32_t> receivers; ///< of each ray at random, see receivers.h
+        std::uint64_t rays;                   ///< with all that followed
+    };
+    /// Adds what the rays and their paths find, at their places of `found` [W/m2].
+    Traced trace(PathRays rays, std::span<Vec3> found) const;
+
+  private:
+    /// This is what a random ray meets.
+    struct Met {
+        std::size_t ray; ///< among the rays
+        std::uint32_t patch;
+        Vec3 point;      ///< local frame
+        double distance; ///< local frame
+    };
+    /// Returns whether a gather takes the light of a patch that is met from so near as a path.
+    [[nodiscard]] bool is_near(const Met& met, unsigned bounce) const;
+    [[nodiscard]] Met where_met(const PathRays& rays, std::size_t k, std::uint32_t patch) const;
+    /// Adds what is found where a ray ends. Returns whether its path goes on.
+    bool end_ray(const PathRays::State& ray, const Met& met, unsigned bounce,
+                 std::span<Vec3> found) const;
+    void go_on(const PathRays::State& from, const Met& met, bool in_gather, PathRays& next,
+               std::span<Vec3> found) const;
+    void add_rays(const SurfacePoint& at, const PathRays::State& state, PathRays& next) const;
+
+    const Mesh& mesh_;
+    const Tracer& tracer_;
+    PatchLight light_;
+    ReachedEmitters emitters_;
+    Find find_ = Find::light;
+};
+
+} // namespace hemilux

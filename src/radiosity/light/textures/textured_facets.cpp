@@ -1,0 +1,99 @@
+#include "radiosity/light/textures/textured_facets.h"
+
+#include <cmath>
+#include <vector>
+
+namespace hemilux {
+namespace {
+
+/// Returns a half of a facet by its corners other than the first.
+std::array<std::size_t, 2> corners_of_half(bool second) {
+    return second ? std::array<std::size_t, 2>{2, 3} : std::array<std::size_t, 2>{1, 2};
+}
+
+Vec3 mean_of(const SceneTextures& textures, const TextureMap& map, const Vec3& otherwise,
+             std::uint32_t facet, bool second_half, std::span<const Vec2> places) {
+    if (!map.texture)
+        return otherwise;
+    const Texcoords& uv = textures.texcoords[map.set][facet];
+    const auto [b, c] = corners_of_half(second_half);
+    const Vec2 first{uv[0]}, along = Vec2{uv[b]} - first, across = Vec2{uv[c]} - first;
+    std::vector<Vec2> on_texture;
+    for (const Vec2& place : places)
+        on_texture.push_back(map.place(first + place.x * along + place.y * across));
+    return map.factor * map.texture->mean_over(on_texture, map.wraps);
+}
+
+/// Returns where a point lies on the plane of a triangle, along its edges from corner 0.
+Vec2 place_on(const Vec3& corner, const Vec3& along, const Vec3& across, const Vec3& point) {
+    const Vec3 normal = glm::cross(along, across), way = point - corner;
+    const double square = glm::dot(normal, normal);
+    return Vec2(glm::dot(normal, glm::cross(way, across)),
+                glm::dot(normal, glm::cross(along, way))) /
+           square;
+}
+
+/// Returns the part of a polygon where one coordinate is at least 0 (Sutherland and Hodgman 1974).
+std::vector<Vec2> clipped(const std::vector<Vec2>& polygon, int axis) {
+    std::vector<Vec2> kept;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Vec2 &from = polygon[k], &to = polygon[(k + 1) % polygon.size()];
+        if (from[axis] >= 0)
+            kept.push_back(from);
+        if ((from[axis] >= 0) != (to[axis] >= 0))
+            kept.push_back(glm::mix(from, to, from[axis] / (from[axis] - to[axis])));
+    }
+    return kept;
+}
+
+double area_of(const std::vector<Vec2>& polygon) {
+    double area = 0;
+    for (std::size_t k = 2; k < polygon.size(); ++k)
+        area += .5 * cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+    return std::abs(area);
+}
+
+} // namespace
+
+Colours colours_over(const Scene& scene, std::uint32_t facet, bool second_half,
+                     std::span<const Vec2> places) {
+    const std::uint32_t number = scene.facets[facet].material;
+    const Material& material = scene.materials[number];
+    const auto& [reflectance, emission] = scene.textures.of_material[number];
+    return {mean_of(scene.textures, reflectance, material.reflectance, facet, second_half, places),
+            mean_of(scene.textures, emission, material.emission, facet, second_half, places)};
+}
+
+/// A quad's texture is linear on either half, so the part is cut along the diagonal.
+Colours mean_colours(const Scene& scene, std::uint32_t facet, const Polygon& whole,
+                     const Polygon& part) {
+    Colours sum{Vec3(0.0), Vec3(0.0)};
+    double area = 0;
+    for (const bool second : {false, true}) {
+        if (second && whole.is_triangle())
+            break;
+        const auto [b, c] = corners_of_half(second);
+        const Vec3 along = whole.corner[b] - whole.corner[0],
+                   across = whole.corner[c] - whole.corner[0];
+        const double twice = glm::length(glm::cross(along, across));
+        if (!(twice > 0))
+            continue;
+        std::vector<Vec2> places;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(part.size()); ++k)
+            places.push_back(place_on(whole.corner[0], along, across, part.corner[k]));
+        if (!whole.is_triangle())
+            places = clipped(places, second ? 1 : 0);
+        const double weight = twice * area_of(places);
+        if (places.size() < 3 || !(weight > 0))
+            continue;
+        const Colours mean = colours_over(scene, facet, second, places);
+        sum.reflectance += weight * mean.reflectance;
+        sum.emission += weight * mean.emission;
+        area += weight;
+    }
+    const Material& material = scene.materials[scene.facets[facet].material];
+    return area > 0 ? Colours{sum.reflectance / area, sum.emission / area}
+                    : Colours{material.reflectance, material.emission};
+}
+
+} // namespace hemilux

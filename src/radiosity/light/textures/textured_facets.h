@@ -1,0 +1,27 @@
+#pragma once
+// Computes the mean colours of parts of facets that carry textures.
+
+#include "geometry/polygon.h"
+#include "radiosity/paper/scene/scene.h"
+
+#include <cstdint>
+#include <span>
+
+namespace hemilux {
+
+struct Colours {
+    Vec3 reflectance; ///< [-]
+    Vec3 emission;    ///< [W/m2 leaving]
+};
+
+/// Returns the mean colours over a polygon on one half of a facet (Hit). Its `places` are
+/// coordinates u and v along the half's edges from corner 0. The facet's material must carry a
+/// texture.
+[[nodiscard]] Colours colours_over(const Scene& scene, std::uint32_t facet, bool second_half,
+                                   std::span<const Vec2> places);
+
+/// Returns the mean colours over a convex part of a facet whose corners are `whole`.
+[[nodiscard]] Colours mean_colours(const Scene& scene, std::uint32_t facet, const Polygon& whole,
+                                   const Polygon& part);
+
+} // namespace hemilux

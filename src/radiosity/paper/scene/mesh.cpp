@@ -1,0 +1,295 @@
+#include "radiosity/paper/scene/mesh.h"
+
+#include "parallel/workers.h"
+#include "radiosity/light/layers/coplanar_layers.h"
+#include "radiosity/light/textures/textured_facets.h"
+#include "radiosity/paper/sampling/rng.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace hemilux {
+
+double radius_of(const Patch& patch) {
+    double squares = 0;
+    for (const Vec3& corner : patch.shape.corner)
+        squares = std::max(squares, glm::dot(corner - patch.centre, corner - patch.centre));
+    return std::sqrt(squares);
+}
+
+/// Centres the frame on the box around all facets and scales it by the largest distance of a corner
+/// from the centre. Where most facets lie in a small part of that box, as under a distant sun, the
+/// centre of that part is taken. Floats are most precise there.
+LocalFrame LocalFrame::of(const Scene& scene) {
+    constexpr double small_part = 1.0 / 1024, left_out = 1.0 / 16; // of the extent; on either side
+    LocalFrame frame;
+    double most = 0, whole = 0, inner = 0;
+    Vec3 centre_of_inner;
+    std::array<std::array<double, 2>, 3> ends{};
+    std::vector<double> places;
+    for (int axis = 0; axis < 3; ++axis) {
+        places.clear();
+        for (const Facet& facet : scene.facets)
+            for (const std::uint32_t v : facet.vertex)
+                places.push_back(scene.vertices[v][axis]);
+        const auto [low, high] = std::ranges::minmax(places);
+        ends.at(static_cast<std::size_t>(axis)) = {low, high};
+        const auto skipped = static_cast<std::ptrdiff_t>(left_out * double(places.size()));
+        const auto first = places.begin() + skipped, last = places.end() - 1 - skipped;
+        std::nth_element(places.begin(), first, places.end());
+        std::nth_element(first, last, places.end());
+        frame.centre[axis] = .5 * (low + high);
+        centre_of_inner[axis] = .5 * (*first + *last);
+        whole = std::max(whole, high - low);
+        inner = std::max(inner, *last - *first);
+    }
+    if (inner < small_part * whole)
+        frame.centre = centre_of_inner;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double end : ends.at(static_cast<std::size_t>(axis)))
+            most = std::max(most, std::abs(end - frame.centre[axis]));
+    int exponent = 0;
+    std::frexp(most, &exponent);
+    frame.scale = std::ldexp(1.0, -exponent);
+    return frame;
+}
+
+std::vector<Vec3> LocalFrame::to_local(std::span<const Vec3> world) const {
+    std::vector<Vec3> local;
+    local.reserve(world.size());
+    for (const Vec3& point : world)
+        local.push_back(to_local(point));
+    return local;
+}
+
+Mesh::Mesh(Scene scene, const MeshOptions& options)
+    : scene_(std::move(scene)), two_sided_(options.two_sided), threads_(options.threads) {
+    if (scene_.facets.empty())
+        throw std::invalid_argument("the scene has no face with an area");
+    frame_ = LocalFrame::of(scene_);
+    vertices_ = frame_.to_local(scene_.vertices);
+    unite_near_twins(scene_, vertices_);
+    for (const Facet& facet : scene_.facets)
+        corners_.push_back(facet.vertex);
+    offset_layers();
+    divide(options);
+    find_colours();
+}
+
+void Mesh::find_colours() {
+    colours_ = scene_.materials;
+    std::vector<std::uint32_t> textured;
+    for (std::uint32_t i = 0; i < patches_.size(); ++i)
+        if (scene_.textures.on(patches_[i].material)) {
+            patches_[i].colours = static_cast<std::uint32_t>(colours_.size() + textured.size());
+            textured.push_back(i);
+        }
+    const std::size_t first = colours_.size();
+    colours_.resize(first + textured.size());
+    Workers(threads_).for_chunks(textured.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const Patch& patch = patches_[textured[k]];
+            const Colours mean =
+                mean_colours(scene_, patch.facet, shape_of(patch.facet), patch.shape);
+            colours_[first + k].reflectance = mean.reflectance;
+            colours_[first + k].emission = mean.emission;
+        }
+    });
+}
+
+Frame Mesh::hemisphere_frame(std::uint32_t patch) const {
+    return hemisphere_frame(patch, hemisphere_turn(patch));
+}
+
+Vec2 Mesh::hemisphere_turn(std::uint32_t patch) {
+    const double angle =
+        2 * std::numbers::pi * (static_cast<double>(mix_bits(patch + 1u) >> 11) * 0x1p-53);
+    return {std::cos(angle), std::sin(angle)};
+}
+
+FacetSoup Mesh::soup() const { return {vertices_, corners_}; }
+
+FacetSoup Mesh::soup_to_trace() const {
+    return {vertices_, corners_to_trace_.empty() ? corners_ : corners_to_trace_};
+}
+
+Patch Mesh::whole_side(std::uint32_t facet, bool back) const {
+    return patch_from(shape_of(facet), facet, back);
+}
+
+Patch Mesh::patch_from(const Polygon& shape, std::uint32_t facet, bool back) const {
+    const double area = shape.area();
+    Vec3 normal(0, 0, 1);
+    if (area > 0)
+        normal = shape.normal();
+    else if (const Polygon whole = shape_of(facet); whole.area() > 0)
+        normal = whole.normal();
+    return {
+        back ? shape.flipped() : shape, shape.centre(), back ? -normal : normal,      area, facet,
+        scene_.facets[facet].material,  back,           scene_.facets[facet].material};
+}
+
+void Mesh::offset_layers() {
+    constexpr double step = 0x1p-28; // larger than what is taken for rounding elsewhere
+    const CoplanarLayers layers = find_coplanar_layers(scene_, vertices_);
+    for (std::uint32_t f = 0; f < layers.offset.size(); ++f) {
+        const Polygon shape = shape_of(f);
+        if (layers.offset[f] == 0 || !(shape.area() > 0))
+            continue;
+        const bool triangle = shape.is_triangle();
+        const Vec3 way = layers.offset[f] * step * shape.normal();
+        const auto first = static_cast<std::uint32_t>(vertices_.size());
+        for (const Vec3& corner : shape.corner)
+            vertices_.push_back(corner + way);
+        corners_[f] = {first, first + 1, first + 2, first + (triangle ? 2 : 3)};
+    }
+    all_layers_are_offset_ = layers.complete;
+    if (!layers.buried.empty())
+        corners_to_trace_ = corners_;
+    for (const std::uint32_t f : layers.buried)
+        corners_to_trace_[f].fill(corners_[f][0]);
+}
+
+void Mesh::divide(const MeshOptions& options) {
+    divisions_.reserve(scene_.facets.size());
+    std::size_t patches = 0;
+    for (std::uint32_t f = 0; f < scene_.facets.size(); ++f) {
+        const bool is_whole =
+            !(options.max_edge > 0) || scene_.materials[scene_.facets[f].material].is_far;
+        const double max_edge =
+            is_whole ? std::numeric_limits<double>::infinity() : options.max_edge * frame_.scale;
+        const std::size_t sides = has_back(f) ? 2 : 1;
+        const std::size_t left = options.max_patches - std::min(options.max_patches, patches);
+        const FacetDivision pieces(shape_of(f), max_edge, left / sides);
+        const auto first_patch = static_cast<std::uint32_t>(patches);
+        divisions_.push_back({pieces, first_patch});
+        only_patch_.push_back(pieces.pieces() > 1 ? none : first_patch);
+        patches += pieces.pieces() * sides;
+    }
+    patches_.reserve(patches);
+    for (std::uint32_t f = 0; f < scene_.facets.size(); ++f)
+        for (const Polygon& piece : divisions_[f].pieces.cut(shape_of(f)))
+            add_patches(f, piece);
+}
+
+void Mesh::add_patches(std::uint32_t facet, const Polygon& shape) {
+    for (const bool back : {false, true})
+        if (!back || has_back(facet))
+            patches_.push_back(patch_from(shape, facet, back));
+}
+
+std::uint32_t Mesh::patch_at(const Hit& hit) const {
+    const bool has_two = has_back(hit.facet);
+    if (!hit.front && !has_two)
+        return none;
+    const Division& division = divisions_[hit.facet];
+    const std::uint32_t side = hit.front ? 0 : 1;
+    if (!is_divided(hit.facet))
+        return division.first_patch + side;
+    const FacetDivision::Place place = division.pieces.place_of(hit);
+    if (division.first_cell != none)
+        return cells_.patch_at(division.first_cell + place.piece, division.pieces.is_similar(),
+                               place.inside) +
+               side;
+    return division.first_patch + (has_two ? 2 : 1) * place.piece + side;
+}
+
+/// Returns the shape, as a cell, of a piece that is a patch's front.
+CellShape Mesh::cell_shape(std::uint32_t facet, const Polygon& piece) const {
+    const auto& p = piece.corner;
+    const bool fan = divisions_[facet].pieces.is_fan();
+    if (fan && piece.is_triangle()) // of the strip at the apex
+        return {{p[0], p[1], p[2], p[0]}, false};
+    return {p, !fan && piece.is_triangle()};
+}
+
+/// The patches and cells before a refinement, and how often they are to be divided.
+struct Mesh::Refinement {
+    std::vector<Patch> patches;
+    std::vector<Division> divisions;
+    CellTree cells;
+    std::span<const std::uint8_t> levels;
+    std::vector<std::uint32_t> parents; ///< of the patches there are now
+
+    [[nodiscard]] int levels_of(std::uint32_t front, bool two_sided) const {
+        return std::max(levels[front], two_sided ? levels[front + 1] : levels[front]);
+    }
+};
+
+std::vector<std::uint32_t> Mesh::refine(std::span<const std::uint8_t> levels) {
+    Refinement before{
+        std::exchange(patches_, {}), divisions_, std::exchange(cells_, {}), levels, {}};
+    for (std::uint32_t f = 0; f < divisions_.size(); ++f)
+        refine_facet(f, before);
+    find_colours();
+    return std::move(before.parents);
+}
+
+void Mesh::refine_facet(std::uint32_t facet, Refinement& before) {
+    Division& division = divisions_[facet];
+    const std::uint32_t begin = division.first_patch;
+    const std::uint32_t end = facet + 1 < divisions_.size()
+                                  ? before.divisions[facet + 1].first_patch
+                                  : static_cast<std::uint32_t>(before.patches.size());
+    division.first_patch = static_cast<std::uint32_t>(patches_.size());
+    const auto levels = before.levels.subspan(begin, end - begin);
+    const bool had_cells = division.first_cell != none;
+    if (!had_cells && std::ranges::all_of(levels, [](std::uint8_t level) { return level == 0; })) {
+        for (std::uint32_t i = begin; i < end; ++i) {
+            patches_.push_back(before.patches[i]);
+            before.parents.push_back(i);
+        }
+        if (only_patch_[facet] != none)
+            only_patch_[facet] = division.first_patch;
+        return;
+    }
+    only_patch_[facet] = none;
+    const std::uint32_t pieces = division.pieces.pieces();
+    const std::uint32_t old_cell = division.first_cell;
+    division.first_cell = cells_.add(pieces);
+    for (std::uint32_t q = 0; q < pieces; ++q) {
+        if (had_cells) {
+            refine_cell(division.first_cell + q, old_cell + q, facet, before);
+            continue;
+        }
+        const std::uint32_t patch = begin + q * (has_back(facet) ? 2 : 1);
+        refine_leaf(division.first_cell + q, cell_shape(facet, before.patches[patch].shape), facet,
+                    before.levels_of(patch, has_back(facet)), patch, before);
+    }
+}
+
+void Mesh::refine_cell(std::uint32_t cell, std::uint32_t before_cell, std::uint32_t facet,
+                       Refinement& before) {
+    const CellTree::Cell old = before.cells[before_cell];
+    if (old.cut == CellCut::leaf)
+        return refine_leaf(cell, cell_shape(facet, before.patches[old.first].shape), facet,
+                           before.levels_of(old.first, has_back(facet)), old.first, before);
+    const std::uint32_t count = old.cut == CellCut::four ? 4 : 2, first = cells_.add(count);
+    cells_[cell] = {first, old.cut};
+    for (std::uint32_t q = 0; q < count; ++q)
+        refine_cell(first + q, old.first + q, facet, before);
+}
+
+void Mesh::refine_leaf(std::uint32_t cell, const CellShape& shape, std::uint32_t facet, int levels,
+                       std::uint32_t parent, Refinement& before) {
+    if (levels == 0) {
+        cells_[cell] = {static_cast<std::uint32_t>(patches_.size()), CellCut::leaf};
+        add_patches(facet, shape.polygon());
+        for (std::uint32_t side = 0; side < (has_back(facet) ? 2 : 1); ++side)
+            before.parents.push_back(parent + side);
+        return;
+    }
+    const CellCut by = best_cut(shape);
+    const std::vector<CellShape> pieces = cut(shape, by);
+    const std::uint32_t first = cells_.add(static_cast<std::uint32_t>(pieces.size()));
+    cells_[cell] = {first, by};
+    for (std::uint32_t q = 0; q < pieces.size(); ++q)
+        refine_leaf(first + q, pieces[q], facet, levels - 1, parent, before);
+}
+
+} // namespace hemilux

@@ -1,0 +1,69 @@
+#pragma once
+// Defines a solver: it takes steps, each of which improves the solution.
+
+#include "bvh/tracer.h"
+#include "parallel/ranks.h"
+#include "radiosity/paper/scene/needs.h"
+#include "radiosity/paper/solution/solution.h"
+#include "radiosity/paper/solving/solve_options.h"
+#include "radiosity/paper/solving/stop_flag.h"
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+
+namespace hemilux {
+
+class Mesh;
+
+/// The means by which a caller watches a run and ends it early. All members may be used from any
+/// thread.
+struct Monitor {
+    std::atomic<std::uint64_t> rays{0};         ///< traced so far, density rays included
+    StopFlag interrupted;                       ///< set by the caller: stop as soon as possible
+    std::atomic<double> step_share{0};          ///< how much of the present step is done, 0 to 1
+    std::atomic<const char*> phase{"starting"}; ///< a word for the progress bar
+};
+
+/// The input of a solver; all of it outlives the solver.
+struct SolverInput {
+    const Mesh& mesh;
+    const Tracer& tracer;
+    const SolveOptions& options;
+    Monitor& monitor;
+    const Needs& needs = everything_needed; ///< of this mesh: what is not needed may be left out
+    /// The weight of each patch, Solution::weight, for methods that take one (Method::aims). It is
+    /// empty where all are 1.
+    std::span<const double> target = {};
+    /// The ranks that solve the problem together; the monitor's flag is one of theirs
+    /// (StopFlag::share). The solution does not depend on their number.
+    const Ranks& ranks = one_rank();
+};
+
+class StateWriter;
+class StateReader;
+
+class Solver {
+  public:
+    virtual ~Solver() = default;
+    /// Improves the solution. Returns false when interrupted: the solution is then that of the
+    /// steps before.
+    virtual bool step() = 0;
+    /// Plans the following steps for this error [-], in place of that of SolveOptions::stop.
+    virtual void aim_at(double /*error*/) {}
+    [[nodiscard]] virtual const Solution& solution() const = 0;
+    /// Returns the number of next steps that are worked out already: they cost no time.
+    [[nodiscard]] virtual std::uint32_t steps_ready() const { return 0; }
+    /// Returns whether the solver stops by itself, e.g. as nothing is left to shoot.
+    [[nodiscard]] virtual bool finished() const { return false; }
+
+    /// Saves, between two steps, all that the next ones depend on and that a new solver of the same
+    /// scene and options would not find again by itself. Throws std::logic_error unless
+    /// Method::can_resume() holds.
+    virtual void save(StateWriter& state) const;
+    /// Makes a new solver go on where the saved one was. Throws StateError for what save() cannot
+    /// have written; the solver is then of no use.
+    virtual void load(StateReader& state);
+};
+
+} // namespace hemilux

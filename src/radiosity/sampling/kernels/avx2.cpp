@@ -1,3 +1,0 @@
-// The kernels of samples and matrices for AVX2.
-#define HEMILUX_KERNELS kernels_avx2
-#include "radiosity/sampling/kernels/table.h"

@@ -1,3 +1,0 @@
-// The kernels of samples and matrices for AVX-512.
-#define HEMILUX_KERNELS kernels_avx512
-#include "radiosity/sampling/kernels/table.h"

@@ -1,3 +1,0 @@
-// The kernels of samples and matrices for any machine.
-#define HEMILUX_KERNELS kernels_baseline
-#include "radiosity/sampling/kernels/table.h"
