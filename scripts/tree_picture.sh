@@ -5,13 +5,13 @@
 #
 #   scripts/tree_picture.sh [COMMIT] >docs/images/tree.svg
 #
-# Folders stand in the order of tests/app/test_include_direction.cpp, those of a commit without such
+# Folders stand in the order of tests/repository/test_include_direction.cpp, those of a commit without such
 # an order in that of the libraries. Kernels count to the folder around them.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 [ "${1-}" != -h ] || { sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 1; }
 commit=${1-HEAD}
-order=$(git show "$commit:tests/app/test_include_direction.cpp" | sed -n '/ rooms{/,/};/s/^ *"\(.*\)",$/\1/p')
+order=$(git show "$commit:tests/repository/test_include_direction.cpp" | sed -n '/ rooms{/,/};/s/^ *"\(.*\)",$/\1/p')
 [ -n "$order" ] || order="geometry bvh radiosity radiosity/strategies radiosity/solvers io app"
 
 {

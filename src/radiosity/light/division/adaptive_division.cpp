@@ -1,6 +1,6 @@
 #include "radiosity/light/division/adaptive_division.h"
 
-#include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/stored_transport/stored_transport_method.h"
 #include "radiosity/light/division/division_weights.h"
 #include "radiosity/light/division/inherited.h"
 #include "radiosity/light/division/patch_levels.h"
@@ -77,7 +77,7 @@ Solution rough_solution(const Mesh& mesh, const Tracer& tracer, const AdaptiveDi
     solve.stop = stop;
     solve.memory = options.memory;
     const SolverInput input{mesh, tracer, solve, monitor, needs, target};
-    const auto solver = method_of(Role::standard).make(input);
+    const auto solver = stored_transport_method.make(input);
     run(*solver, input, stop);
     return solver->solution();
 }

@@ -3,7 +3,7 @@
 #include "io/gltf/gltf.h"
 
 #include "geometry/polygon.h"
-#include "io/gltf_text.h"
+#include "io/gltf/gltf_text.h"
 #include "support/catch.h"
 #include "support/temporary_folder.h"
 

@@ -304,7 +304,7 @@ TEST_CASE("what documents name is told from what is not there") {
     CHECK(missing_in("`src/no.cpp` and [no](docs/no.md), [no](README.md#no)", root) ==
           std::vector<std::string>{"src/no.cpp", "docs/no.md", "README.md#no"});
     CHECK(anchor_of("### D7. The paper's own, and `x`") == "d7-the-papers-own-and-x");
-    CHECK(unknown_in("`is_source_path` in `tests/app/test_docs.cpp` \"what a page names exists\"")
+    CHECK(unknown_in("`is_source_path` in `tests/repository/test_docs.cpp` \"what a page names exists\"")
               .empty());
     const std::string absent = std::string("no_such_") + "name";
     CHECK(unknown_in("`" + absent + "` in `src/app/main.cpp` \"x\"") ==
