@@ -1,5 +1,5 @@
 #!/bin/bash
-# Makes the tables of errors in README.md and docs/results*.md anew. Seeds are fixed, so the figures
+# Makes the tables of errors in README.md and docs/measured/*.md anew. Seeds are fixed, so the figures
 # depend on the program alone; times stand in other tables, which are taken by hand.
 #
 #   scripts/results.sh [--check] [--program FILE] [TABLE ...]
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 
 # The tables, each with the function below that prints it.
 tables="references equal_rays summary z literal_furnace literal_depth literal_1997 density_store"
-pages="README.md $(echo docs/results*.md)"
+pages="README.md $(echo docs/measured/*.md)"
 
 check=no program=build/release/hemilux wanted=
 while [ $# -gt 0 ]; do

@@ -43,7 +43,7 @@ TEST_CASE("the commands of README.md and the pages for users work", "[slow]") {
     const std::string root = HEMILUX_SOURCE_DIR;
     const std::string programs = std::filesystem::path(HEMILUX_PROGRAM).parent_path().string();
     for (const char* name :
-         {"/README.md", "/docs/tutorial.md", "/docs/how-to.md", "/docs/exchange.md"}) {
+         {"/README.md", "/docs/use/tutorial.md", "/docs/use/how-to.md", "/docs/use/exchange.md"}) {
         std::ifstream page(root + name);
         const std::vector<std::string> commands = runnable_commands(page);
         CAPTURE(name);
