@@ -485,7 +485,7 @@ TEST_CASE("programs and tests that pages of results run are there") {
 
 TEST_CASE("README leads to the line that computes N_tr") {
     const std::string page = "src/radiosity/paper/pages/section_5_hemisphere.cpp",
-                      line = "const double N_tr =";
+                      line = "const Rays N_tr =";
     const std::string readme = text_of(root / "README.md");
     CHECK(readme.find("](" + page + ")") != std::string::npos);
     CHECK(readme.find("`" + line + "`") != std::string::npos);
