@@ -1,6 +1,7 @@
 // The same bytes on any number of ranks, which are threads here: solutions, logs and states.
 #include "parallel/workers.h"
 #include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/light/final_gather/final_gather.h"
 #include "radiosity/light/final_gather/surface_points.h"
 #include "radiosity/light/light_error/division_error.h"
