@@ -30,7 +30,9 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/densities/density.h"
 #include "radiosity/engine/densities/subdivision_1997.h"
+#include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/shooting/shooting.h"
+#include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -45,7 +47,7 @@ namespace {
 
 static_assert(Subdivision1997::most_triangles < whole_hemisphere);
 
-class Hemisphere1997 final : public Strategy {
+class Hemisphere1997 final : public Strategy, StepHook, PrivateCells {
   public:
     Hemisphere1997(const SolverInput& input, const Workers& workers)
         : input_(input), workers_(workers), printed_(input.options.literal),
@@ -72,8 +74,9 @@ class Hemisphere1997 final : public Strategy {
     }
 
     Allocation allocate(std::uint32_t, AllocatedCells&) const override { return allocated_.view(); }
+    [[nodiscard]] StepHook* step_hook() override { return this; }
+    [[nodiscard]] const PrivateCells* private_cells() const override { return this; }
 
-    [[nodiscard]] bool has_private_cells() const override { return true; }
     [[nodiscard]] std::optional<PrivateCell> private_cell(std::uint32_t patch,
                                                           std::uint16_t cell) const override {
         if (cell == whole_hemisphere)
@@ -153,7 +156,7 @@ extern const Method hemisphere_1997_method{
     .work = {.densities = true, .passes = true},
     .plain = plain::hemisphere_1997,
     .role = Role::forerunner,
-    .aims = true,
+    .aims = has_aimer,
     .options = options,
     .check = check,
     .bytes = bytes,

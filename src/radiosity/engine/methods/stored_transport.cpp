@@ -253,7 +253,7 @@ extern const Method stored_transport_method{
     .plain = plain::stored_transport,
     .most_plain_patches = plain::most_patches_of_stored_transport,
     .role = Role::standard,
-    .aims = true,
+    .aims = [] { return true; },
     .bytes =
         [](const SolveOptions& options, double patches) {
             return bytes_per_factor * patches * std::min(patches, options.rays);

@@ -23,11 +23,8 @@ class ShootingSolver final : public StepwiseSolver {
 
   private:
     bool solve_once(const StepTask& task, StepResult& result) override;
-    [[nodiscard]] bool steps_are_alike() const override {
-        return tools_.strategy->is_same_in_all_steps();
-    }
-    [[nodiscard]] bool shoots_to_balls() const override { return true; }
-    void save_more(StateWriter& state) const override { tools_.strategy->save(state); }
+    [[nodiscard]] bool steps_are_alike() const override { return !tools_.strategy->step_hook(); }
+    void save_more(StateWriter& state) const override;
     /// Also throws StateError if the strategy would take far more rays than are asked for.
     void load_more(StateReader& state) override;
 

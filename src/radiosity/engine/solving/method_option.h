@@ -94,26 +94,4 @@ template <class Own>
                 }};
 }
 
-/// Makes an option with one of the values of an enumeration that counts from 0, by their names in
-/// order. It is held as it is: own.of<Choice>().
-template <class Choice>
-[[nodiscard]] MethodOption choice_option(const std::string& name, const std::string& help,
-                                         const std::vector<std::string>& names) {
-    return {.name = name,
-            .help = help,
-            .values = names,
-            .set =
-                [names](SolveOptions& options, std::string_view text) {
-                    const auto found = std::ranges::find(names, text);
-                    if (found == names.end())
-                        return false;
-                    options.own.of<Choice>() = static_cast<Choice>(found - names.begin());
-                    return true;
-                },
-            .get =
-                [names](const SolveOptions& options) {
-                    return names.at(static_cast<std::size_t>(options.own.of<Choice>()));
-                }};
-}
-
 } // namespace hemilux
