@@ -17,9 +17,6 @@ constexpr const char* density_examples = R"(Examples:
   hemilux density room.obj --method hemisphere-1997 --plane -o plane.svg
 )";
 
-/// The first two names of Guide, by which the hemispheres of `hemisphere` are divided.
-constexpr std::array drawn_guides = {guide_names[0], guide_names[1]};
-
 /// Adds --method, for the methods whose hemispheres can be drawn.
 void add_dividing_method(Command command, const Method*& method) {
     command.add_value("--method", "hemisphere|hemisphere-1997", "whose hemispheres [hemisphere]",
@@ -47,7 +44,8 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
     add_scene_options(command, settings.scene);
     add_dividing_method(method, settings.method);
     add_division_options(method, settings.options);
-    add_choice(method, "--guide", settings.options.own.of<Guide>(), drawn_guides,
+    add_choice(method, "--guide", settings.options.own.of<Guide>(),
+               {{Guide::density, "density"}, {Guide::pyramid, "pyramid"}},
                "what divides hemisphere's [density]");
     add_own_options(command.under(own_group), {&forerunner, 1}, settings.options);
     add_random_options(method, settings.options);

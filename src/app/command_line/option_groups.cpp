@@ -40,7 +40,8 @@ void choose_sides(SceneSettings& scene, Sides sides) {
 
 void add_sides_options(Command command, SceneSettings& scene) {
     const Option sides = add_choice<Sides>(
-        command, "--sides", sides_names,
+        command, "--sides",
+        {{Sides::automatic, "auto"}, {Sides::front, "front"}, {Sides::both, "both"}},
         "which sides of faces emit and reflect. auto: the front, faces that look away from the "
         "light being turned; front: the front as in the file; both [auto]",
         [&scene](Sides chosen) { choose_sides(scene, chosen); });
@@ -208,7 +209,8 @@ void add_view_options(Command command, ViewSettings& view) {
             view.exposure = value.factor;
             view.stops = value.stops;
         });
-    add_choice(command, "--tone", view.tone, tone_names,
+    add_choice(command, "--tone", view.tone,
+               {{Tone::neutral, "neutral"}, {Tone::srgb, "srgb"}},
                "how .png pictures show light above 0.8 of the screen's: neutral: compressed, with "
                "its hue; srgb: cut at 1 in each channel [neutral]");
 }

@@ -13,7 +13,6 @@
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/paper/scene/mesh.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,9 +20,8 @@
 
 namespace hemilux {
 
-/// The sides of faces that emit and reflect, as --sides names them, in this order.
+/// The sides of faces that emit and reflect.
 enum class Sides { automatic, front, both };
-inline constexpr std::array<const char*, 3> sides_names = {"auto", "front", "both"};
 
 /// The scene, and the changes to it.
 struct SceneSettings {

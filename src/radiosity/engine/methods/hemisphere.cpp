@@ -158,7 +158,10 @@ std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisp
 
 std::vector<MethodOption> options() {
     MethodOption guide = choice_option<Guide>("--guide", "what guides it [density]",
-                                              {guide_names.begin(), guide_names.end()});
+                                              {{Guide::density, "density"},
+                                               {Guide::pyramid, "pyramid"},
+                                               {Guide::visible, "visible"},
+                                               {Guide::learned, "learned"}});
     guide.on_page = false;
     guide.makes_variants = true;
     return {guide};

@@ -3,8 +3,6 @@
 
 #include "radiosity/paper/solving/solve_options.h"
 
-#include <array>
-
 namespace hemilux {
 
 enum class Guide {
@@ -13,10 +11,6 @@ enum class Guide {
     visible, ///< what is visible: rho^2 / A of the nearest patch
     learned  ///< the same, from the hits of the steps before
 };
-
-/// The names of the guides for --guide, in the order of the enum.
-inline constexpr std::array<const char*, 4> guide_names = {"density", "pyramid", "visible",
-                                                           "learned"};
 
 /// Returns the guide of the options; with `literal` it is the density.
 [[nodiscard]] inline Guide guide_of(const SolveOptions& options) {
