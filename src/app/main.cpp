@@ -10,13 +10,13 @@
 #include "app/settings/names.h"
 #include "app/settings/spill.h"
 #include "app/terminal/log.h"
+#include "app/terminal/print.h"
 #include "io/files/error.h"
 #include "io/files/printable.h"
 #include "io/files/spill_file.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <new>
 #include <optional>
 #include <string>
@@ -113,8 +113,7 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     }
     const ConfigWords config(std::move(words), program.described());
     if (const std::string text = parsed(program, config); !text.empty()) {
-        if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
-            throw OutputError("standard output", "cannot be written");
+        print(text);
         return exit_done;
     }
     if (solve_command.parsed()) {

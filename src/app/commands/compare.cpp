@@ -15,15 +15,14 @@
 #include "app/settings/text.h"
 #include "app/settings/view.h"
 #include "app/terminal/log.h"
+#include "app/terminal/print.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/summary.h"
 #include "app/terminal/unused_options.h"
 #include "app/terminal/wrap.h"
-#include "io/files/error.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <atomic>
-#include <iostream>
 #include <span>
 #include <unistd.h>
 
@@ -144,12 +143,9 @@ int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
         log_line(verbosity, Verbosity::normal, "the reference's own error: " + percent(own));
         if (!warning.empty())
             log_line(verbosity, Verbosity::normal, "warning: " + warning);
-        std::cout << aligned_for(terminal_columns(STDOUT_FILENO), summary_rows(summaries))
-                  << std::flush;
+        print(aligned_for(terminal_columns(STDOUT_FILENO), summary_rows(summaries)));
         if (const std::string note = gain_note(summaries); !note.empty())
             log_line(verbosity, Verbosity::normal, note);
-        if (!std::cout)
-            throw OutputError("standard output", "cannot be written");
     }
     report.log(verbosity);
     if (comparison.monitor.interrupted)

@@ -213,13 +213,27 @@ TEST_CASE("a closed stdout or stderr is an error to report, or none at all") {
     CHECK(shell(place, "\"$H\" --help >&-") == 3);
     CHECK(shell(place, "\"$H\" solve --help >/dev/full") == 3);
     CHECK_THAT(place.read("stderr.txt"), Contains("standard output: cannot be written"));
-    CHECK(shell(place, "mkfifo pipe && { exec 3<>pipe; exec 4>pipe; exec 3<&-; "
-                       "\"$H\" info room.obj >&4; }") == 3); // nobody reads
     // No output file takes the number of a closed one, and what is said goes nowhere.
     CHECK(shell(place, "\"$H\" solve room.obj --steps 1 -v -o a.csv <&- >&- 2>&-") == 0);
     CHECK(shell(place, "\"$H\" solve room.obj --steps 1 -o b.csv") == 0);
     CHECK(place.read("a.csv") == place.read("b.csv"));
     CHECK(shell(place, "\"$H\" solve none.obj -o a.csv 2>&-") == 2);
+}
+
+TEST_CASE("a reader that closes its pipe has read enough of what is printed, but not of results") {
+    const Workplace place;
+    place.write_room();
+    const std::string nobody_reads = "rm -f pipe; mkfifo pipe && exec 3<>pipe 4>pipe 3<&- && \"$H\" ";
+    for (const char* const printed :
+         {"--help", "help", "solve --help", "--version", "compare --version", "--print man",
+          "--print bash", "--print fish", "info room.obj", "info room.obj --json",
+          "compare room.obj --methods monte-carlo --rays 10 --runs 1 --reference-error .2 -o a -q"}) {
+        CAPTURE(printed);
+        CHECK(shell(place, nobody_reads + printed + " >&4") == 0);
+        CHECK(place.read("stderr.txt").empty());
+    }
+    CHECK(shell(place, nobody_reads + "solve room.obj --steps 1 -q -o - >&4") == 3);
+    CHECK_THAT(place.read("stderr.txt"), Contains("cannot write: Broken pipe"));
 }
 
 TEST_CASE("a scene too large for --memory stops with what it would need") {
