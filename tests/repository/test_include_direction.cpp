@@ -111,9 +111,8 @@ bool may_include_system(const std::string& file, const std::string& header) {
         return layer == "mpi" && source;
     if (header == "immintrin.h")
         return layer == "bvh";
-    if (header == "sys/mman.h") // huge pages, arrays in a file, memory of several ranks
-        return layer == "bvh" || file == "io/files/spill_file.cpp" ||
-               file == "mpi/memory_of_ranks.cpp";
+    if (header == "sys/mman.h") // huge pages, memory of several ranks
+        return layer == "bvh" || file == "mpi/memory_of_ranks.cpp";
     const bool standard = header.find_first_of("./") == std::string::npos;
     const bool posix =
         header.ends_with(".h") && (header.find('/') == std::string::npos || begins("sys/"));

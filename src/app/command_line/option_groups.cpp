@@ -106,8 +106,6 @@ void add_memory_option(Command command, SceneSettings& scene) {
         "a number of bytes such as 800M or 1.5G",
         [](const std::string& text) { return parse_bytes(text); },
         [&scene](std::uint64_t bytes) { scene.memory = bytes; });
-    command.add_text("--spill", "FOLDER", scene.spill,
-                     "keep what is beyond --memory in a file there, which nobody sees");
 }
 
 void add_division_options(Command command, SolveOptions& options) {
@@ -209,8 +207,7 @@ void add_view_options(Command command, ViewSettings& view) {
             view.exposure = value.factor;
             view.stops = value.stops;
         });
-    add_choice(command, "--tone", view.tone,
-               {{Tone::neutral, "neutral"}, {Tone::srgb, "srgb"}},
+    add_choice(command, "--tone", view.tone, {{Tone::neutral, "neutral"}, {Tone::srgb, "srgb"}},
                "how .png pictures show light above 0.8 of the screen's: neutral: compressed, with "
                "its hue; srgb: cut at 1 in each channel [neutral]");
 }

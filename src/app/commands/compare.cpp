@@ -11,7 +11,6 @@
 #include "app/settings/memory.h"
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
-#include "app/settings/spill.h"
 #include "app/settings/text.h"
 #include "app/settings/view.h"
 #include "app/terminal/log.h"
@@ -192,7 +191,6 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     guard.watch(monitor.interrupted);
     monitor.interrupted.share(*settings.ranks);
     log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, prepared.seconds));
-    leave_memory_to_steps();
     if (!reference)
         reference = compute_reference(settings, mesh, *tracer, needs, monitor);
     if (!reference) {

@@ -57,9 +57,9 @@ int info(const InfoSettings& settings) {
         if (report.info.bad_reflectances.empty())
             report.error_division = error_within_patches(mesh, *made.tracer);
     }
-    print(settings.json ? to_json(report)
-                        : message_for(STDOUT_FILENO, describe(report, read.scene, asked),
-                                      info_value_column));
+    print(settings.json
+              ? to_json(report)
+              : message_for(STDOUT_FILENO, describe(report, read.scene, asked), info_value_column));
     return exit_done;
 }
 

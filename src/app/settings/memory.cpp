@@ -141,8 +141,7 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
 }
 
 SolveOptions with_memory(SolveOptions options, const SceneSettings& scene, std::size_t solvers) {
-    const std::uint64_t usual = scene.spill.empty() ? default_transport : 0; // 0: no limit
-    options.memory = scene.memory ? *scene.memory / 2 / solvers : usual;
+    options.memory = scene.memory ? *scene.memory / 2 / solvers : default_transport;
     return options;
 }
 

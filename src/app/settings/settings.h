@@ -35,7 +35,6 @@ struct SceneSettings {
     bool textures = true;                ///< they are read
     MeshOptions mesh;                    ///< two-sided with Sides::both
     std::optional<std::uint64_t> memory; ///< bytes that a run may need
-    std::string spill; ///< a folder for what memory has no room for (spill.h); empty: none
 };
 
 /// This says how much is reported on stderr.

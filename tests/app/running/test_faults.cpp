@@ -173,21 +173,6 @@ TEST_CASE("a full disk leaves nothing half-written") {
     CHECK(shell(place, "\"$H\" formfactors room.obj -o full.csv") == 3);
 }
 
-TEST_CASE("a disk without room for --spill is one message and exit code 3") {
-    for (const char* const threads : {"-t 1", "-t 3"}) {
-        const Workplace place;
-        place.write_room();
-        CAPTURE(threads);
-        CHECK(shell(place, std::string("ulimit -f 4 && \"$H\" solve room.obj --max-edge .05 "
-                                       "--steps 1 --memory 200k --spill . -q -o a.csv ") +
-                               threads) == 3);
-        const std::string text = place.read("stderr.txt");
-        CHECK_THAT(text, Contains("no room for more than 0 MiB of --spill: File too large"));
-        CHECK(lines_of_message(text) == 1);
-        CHECK_FALSE(place.has("a.csv"));
-    }
-}
-
 TEST_CASE("folders that cannot be written to or are files are refused before any work") {
     const Workplace place;
     place.write("slow.obj", "not even read");
@@ -223,11 +208,13 @@ TEST_CASE("a closed stdout or stderr is an error to report, or none at all") {
 TEST_CASE("a reader that closes its pipe has read enough of what is printed, but not of results") {
     const Workplace place;
     place.write_room();
-    const std::string nobody_reads = "rm -f pipe; mkfifo pipe && exec 3<>pipe 4>pipe 3<&- && \"$H\" ";
+    const std::string nobody_reads =
+        "rm -f pipe; mkfifo pipe && exec 3<>pipe 4>pipe 3<&- && \"$H\" ";
     for (const char* const printed :
          {"--help", "help", "solve --help", "--version", "compare --version", "--print man",
           "--print bash", "--print fish", "info room.obj", "info room.obj --json",
-          "compare room.obj --methods monte-carlo --rays 10 --runs 1 --reference-error .2 -o a -q"}) {
+          "compare room.obj --methods monte-carlo --rays 10 --runs 1 --reference-error .2 -o a "
+          "-q"}) {
         CAPTURE(printed);
         CHECK(shell(place, nobody_reads + printed + " >&4") == 0);
         CHECK(place.read("stderr.txt").empty());

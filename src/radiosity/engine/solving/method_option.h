@@ -99,15 +99,16 @@ template <class Own>
 }
 
 /// A value of an enumeration and the text that stands for it.
-template <class Choice> struct NamedChoice {
+template <class Choice>
+struct NamedChoice {
     Choice value;
     const char* name;
 };
 
 /// Returns the choice of this name; none: nullptr.
 template <class Choice>
-[[nodiscard]] const NamedChoice<Choice>*
-named_choice(std::span<const NamedChoice<Choice>> choices, std::string_view name) {
+[[nodiscard]] const NamedChoice<Choice>* named_choice(std::span<const NamedChoice<Choice>> choices,
+                                                      std::string_view name) {
     for (const NamedChoice<Choice>& choice : choices)
         if (choice.name == name)
             return &choice;
