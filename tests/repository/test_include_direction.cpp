@@ -65,6 +65,8 @@ const std::vector<std::string> rooms{
     "io/meshes",
     "io/drawings",
     "app/settings",
+    "app/memory",
+    "app/rendering",
     "app/ranks",
     "app/terminal",
     "app/loading",

@@ -1,8 +1,8 @@
 #include "app/command_line/option_groups.h"
 
 #include "app/command_line/option_kinds.h"
+#include "app/memory/memory.h"
 #include "app/settings/exit_code.h"
-#include "app/settings/memory.h"
 #include "app/settings/names.h"
 
 #include <algorithm>

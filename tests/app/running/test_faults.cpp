@@ -1,7 +1,7 @@
 // What the system does to a run: signals, full disks, closed files, little memory.
+#include "app/memory/memory.h"
 #include "app/program.h"
 #include "app/running.h"
-#include "app/settings/memory.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"

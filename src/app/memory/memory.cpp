@@ -1,4 +1,4 @@
-#include "app/settings/memory.h"
+#include "app/memory/memory.h"
 
 #include "app/settings/text.h"
 #include "radiosity/light/layers/coplanar_overlaps.h"
