@@ -10,6 +10,7 @@
 #include "app/terminal/print.h"
 #include "app/terminal/wrap.h"
 #include "io/results/scene_info_json.h"
+#include "radiosity/engine/needs/find_needs.h"
 
 #include <unistd.h>
 
