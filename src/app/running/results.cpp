@@ -1,11 +1,11 @@
 #include "app/running/results.h"
 
 #include "app/loading/load.h"
+#include "app/rendering/view.h"
 #include "app/report/report_page.h"
 #include "app/running/error_map.h"
 #include "app/running/layered_picture.h"
 #include "app/running/point_table.h"
-#include "app/settings/view.h"
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"

@@ -1,4 +1,4 @@
-#include "app/settings/memory.h"
+#include "app/memory/memory.h"
 
 #include "app/settings/text.h"
 #include "radiosity/light/layers/coplanar_overlaps.h"
@@ -142,8 +142,7 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
 }
 
 SolveOptions with_memory(SolveOptions options, const SceneSettings& scene, std::size_t solvers) {
-    const std::uint64_t usual = scene.spill.empty() ? default_transport : 0; // 0: no limit
-    options.memory = scene.memory ? *scene.memory / 2 / solvers : usual;
+    options.memory = scene.memory ? *scene.memory / 2 / solvers : default_transport;
     return options;
 }
 
