@@ -202,7 +202,8 @@ TEST_CASE("Rays of a step are listed in parts, however many there are", "[slow]"
                 continue;
             CAPTURE(name, literal);
             Monitor monitor;
-            const test::AfterStreams tracer(model.bvh, 400, [&] { monitor.interrupted = true; });
+            const test::AfterStreams tracer(model.bvh, 400,
+                                            [&] { monitor.interrupted.set_wished(true); });
             const SolveOptions options{.rays = 1e9, .literal = literal, .threads = 1};
             const auto solver = method.make({model.mesh, tracer, options, monitor});
             const double before = peak_megabytes();
@@ -223,7 +224,7 @@ TEST_CASE("At the end of its time every method leaves the step it is in") {
         const auto solver = method->make({model.mesh, tracer, options, monitor});
         const bool counts = solver->step(); // progressive: the shots that were done
         CHECK(solver->solution().steps == (counts ? 1 : 0));
-        CHECK_FALSE(monitor.interrupted.load());
+        CHECK_FALSE(monitor.interrupted.is_wished());
         CHECK(monitor.rays < 4000 * model.mesh.patches().size());
     }
 }

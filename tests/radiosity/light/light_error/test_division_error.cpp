@@ -296,7 +296,7 @@ TEST_CASE("the errors of patches add up to that of the division") {
     }
     CHECK(std::sqrt(sum / area) == Approx(truth).epsilon(.2));
     StopFlag interrupted;
-    interrupted = true;
+    interrupted.set_wished(true);
     CHECK(patch_error_levels(model.mesh, model.bvh, solution, 1, Workers(0), interrupted).empty());
 }
 
