@@ -39,12 +39,6 @@ struct DensityCount {
     std::uint8_t surfaces; ///< 255: or more
 };
 
-/// Returns the direction of a density ray through a vertex of the table. Vertices on the horizon
-/// lie in the patch's plane, where a count would depend on rounding errors; their rays are lifted a
-/// little. The ray of the pole is tilted by as much: where walls stand at right angles, there is
-/// often an edge straight ahead of the middle of a patch.
-[[nodiscard]] Vec3 density_direction(const Vec3& vertex);
-
 /// This is what a strategy needs to know of the densities of patches, however they were found.
 class LeafDensities {
   public:

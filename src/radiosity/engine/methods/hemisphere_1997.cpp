@@ -28,12 +28,12 @@
 // step has four times as many triangles, and there should not be many more of them than rays.
 
 #include "parallel/workers.h"
-#include "radiosity/engine/densities/density.h"
 #include "radiosity/engine/densities/subdivision_1997.h"
 #include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/shooting/shooting.h"
 #include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/scene/mesh.h"
 

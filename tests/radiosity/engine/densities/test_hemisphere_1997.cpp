@@ -2,10 +2,10 @@
 // lie.
 #include "geometry/spherical_triangle.h"
 #include "parallel/workers.h"
-#include "radiosity/engine/densities/density.h"
 #include "radiosity/engine/densities/subdivision_1997.h"
 #include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/engine/shooting/strategy.h"
+#include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/hemisphere/edge_division.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "support/catch.h"
