@@ -5,7 +5,7 @@
 // The counts at the vertices determine the mean of every triangle, and whether a triangle is
 // divided follows from its mean and the threshold. So a patch keeps one byte per vertex of the
 // triangles that exist, and no flags. That is 5 bytes if nothing is divided, and 41 at most at
-// depth 2, where the paper's one byte per triangle would be 84 (docs/decisions.md, D8).
+// depth 2, where the paper's one byte per triangle would be 84 (docs/paper/decisions.md, D8).
 
 #include "bvh/tracer.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"

@@ -6,10 +6,10 @@
 //
 //     N_tr = N_hemi A_tr / A_hemi D_tr / D_average,   Phi_tr = Phi_patch A_tr / A_hemi.
 //
-// A is the projected solid angle, so that Lambert's law holds whatever the triangles (D1).
-// D_average is weighted by the same areas, so that the N_tr sum to N_hemi (D4). With --literal, A
-// is the solid angle, as printed: the light is then distributed wrongly, however many rays are
-// shot.
+// A is the projected solid angle, so that Lambert's law holds whatever the triangles
+// (docs/paper/decisions.md, D1). D_average is weighted by the same areas, so that the N_tr sum to
+// N_hemi (D4). With --literal, A is the solid angle, as printed: the light is then distributed
+// wrongly, however many rays are shot.
 //
 // The method is good where small objects crowd in few directions. It is of little use where a wall
 // hides a crowd, to which it sends rays in vain. It costs at most 41 rays and bytes per patch at

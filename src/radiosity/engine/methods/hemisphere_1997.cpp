@@ -11,7 +11,7 @@
 // `progressive-monte-carlo`.
 //
 // By default the area of a triangle is its projected solid angle, so that Lambert's law holds
-// (docs/decisions.md, D1). Rays start anywhere on the part (D2). If there are fewer rays than
+// (docs/paper/decisions.md, D1). Rays start anywhere on the part (D2). If there are fewer rays than
 // triangles, they are allocated by systematic sampling (D4). Counting rays are shot before the
 // first step and carry no energy.
 //
@@ -19,7 +19,7 @@
 // triangle gets one ray at least. Subdivision then goes on between the steps: each begins by
 // dividing once more. The rays that count carry energy too. Besides its random rays, each triangle
 // shoots one through each corner that the step has found, all with the same part of its power
-// (docs/decisions.md, D61). --depth and --threshold are not used.
+// (docs/paper/decisions.md, D61). --depth and --threshold are not used.
 //
 // The method is good for comparison. It is bad because large triangles, where few surfaces are, get
 // as few rays as small ones: these rays carry much power each and their noise is seen. With the

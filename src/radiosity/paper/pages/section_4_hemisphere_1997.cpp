@@ -5,7 +5,7 @@
 // where more surfaces were counted, and are stored. In m further steps they are divided by
 // estimated counts, and nothing is stored (stored_subdivision.h). Plain progressive refinement
 // follows. First stand the rules of the print, which --literal keeps, and beside them the corrected
-// ones (D numbers: docs/decisions.md).
+// ones (D numbers: docs/paper/decisions.md).
 
 #include "radiosity/paper/hemisphere/subdivision_1997_options.h"
 #include "radiosity/paper/pages/pages.h"

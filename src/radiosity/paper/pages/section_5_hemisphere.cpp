@@ -1,7 +1,7 @@
 // The paper on one page: NewHemisphereRadiosity (section 5; Plemenos and Jolivet 1998).
 //
 // These are the procedures of the paper, with its names. First stand the rules of the print, which
-// --literal keeps, and beside them the corrected ones (D numbers: docs/decisions.md).
+// --literal keeps, and beside them the corrected ones (D numbers: docs/paper/decisions.md).
 
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/pages/pages.h"

@@ -80,7 +80,8 @@ double Step::power_unshot() const {
 }
 
 /// N_hemi is the mean number of rays of a patch in a step. How much power all bounces carry
-/// together depends on the scene; a pilot with few rays finds it, and no step uses its light (D16).
+/// together depends on the scene; a pilot with few rays finds it, and no step uses its light
+/// (docs/paper/decisions.md, D16).
 bool StepSolver::step() {
     constexpr std::uint64_t pilot = ~std::uint64_t{0}; // steps count from 0
     const auto solve_pilot = [&](double Phi_mean, StepResult& result) {

@@ -16,7 +16,7 @@ namespace hemilux::plain {
 
 /// All patches with power to shoot own intervals of one line, as long as the rays that they are
 /// due. A ray stands at each whole number. So each number of rays is rounded up or down, and is
-/// right on average (docs/decisions.md, D4, D10).
+/// right on average (docs/paper/decisions.md, D4, D10).
 struct Due {
     std::uint32_t patch;
     std::uint64_t key; ///< of the patch's random numbers in this bounce

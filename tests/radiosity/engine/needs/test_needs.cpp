@@ -230,7 +230,7 @@ namespace {
 /// What a scene allows to be left out; where several do, the first of these decides.
 enum class Omission { black, convex, unlit, none, no_reflection };
 
-/// The table of docs/decisions.md, D35.
+/// The table of docs/paper/decisions.md, D35.
 bool keeps_every_byte(const std::string& method, const Guide* guide, Omission omission) {
     if (omission == Omission::none || omission == Omission::no_reflection)
         return true;
