@@ -7,6 +7,8 @@
 #include "app/division/whole_error.h"
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
+#include "app/memory/memory.h"
+#include "app/rendering/view.h"
 #include "app/running/checkpointing.h"
 #include "app/running/point_table.h"
 #include "app/running/run_files.h"
@@ -16,11 +18,8 @@
 #include "app/running/step_size.h"
 #include "app/running/target_weights.h"
 #include "app/settings/exit_code.h"
-#include "app/settings/memory.h"
 #include "app/settings/method_options.h"
-#include "app/settings/spill.h"
 #include "app/settings/text.h"
-#include "app/settings/view.h"
 #include "app/terminal/log.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/stopwatch.h"
@@ -28,8 +27,9 @@
 #include "app/terminal/unused_options.h"
 #include "io/results/points.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/left_out.h"
-#include "radiosity/paper/scene/needs.h"
+#include "radiosity/engine/solving/shared_stop.h"
 
 #include <algorithm>
 #include <span>
@@ -90,6 +90,7 @@ class SolveRun {
     SolveSettings settings_; ///< with the camera of the scene, where none was given
     const Stopwatch started_;
     Monitor monitor_;
+    std::optional<SharedStop> shared_stop_; ///< of the ranks
     InterruptGuard guard_;
     Statistics statistics_;
     SolveOptions options_;
@@ -152,10 +153,9 @@ void SolveRun::build_tree() {
     log_line(settings_.verbosity, Verbosity::verbose,
              tracer_text(prepared_->made.tree, statistics_.seconds_bvh));
     target_ = target_weights(settings_, target_points_, mesh(), tracer());
-    input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs, target_,
-                               *settings_.ranks});
-    monitor_.interrupted.share(*settings_.ranks);
-    guard_.watch(monitor_.interrupted);
+    input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs, target_});
+    shared_stop_.emplace(monitor_.interrupted, *settings_.ranks);
+    guard_.watch(monitor_.interrupted.own().wished);
 }
 
 /// Begins a solver for the mesh as it is then.
@@ -167,10 +167,7 @@ std::unique_ptr<Solver> SolveRun::begin() {
     options_.stop = stop;
     try {
         const Method& method = *settings_.method;
-        std::unique_ptr<Solver> solver =
-            settings_.plain ? method.plain(*input_) : method.make(*input_);
-        leave_memory_to_steps();
-        return solver;
+        return settings_.plain ? method.plain(*input_) : method.make(*input_);
     } catch (const SolveError& error) {
         throw as_input_error(error);
     }
@@ -202,7 +199,7 @@ void SolveRun::read_the_reference() {
         return;
     guard_.unwatch();
     reference_ = read_reference(settings_.reference, mesh(), std::move(detail));
-    guard_.watch(monitor_.interrupted);
+    guard_.watch(monitor_.interrupted.own().wished);
 }
 
 void SolveRun::take_steps() {
@@ -220,7 +217,7 @@ void SolveRun::take_steps() {
         rows_ = resumed_->rows;
     }
     Checkpointer checkpointer(settings_, mesh(), *solver_);
-    StepPictures step_pictures(settings_, mesh(), tracer(), monitor_.interrupted);
+    StepPictures step_pictures(settings_, mesh(), tracer(), monitor_.interrupted.own().wished);
     notes_.emplace(stop, settings_.work().estimates_error);
     const auto add_row = [&](const StepRecord& record) {
         notes_->step_done(record);
@@ -282,7 +279,6 @@ void SolveRun::estimate_errors() {
     if (!settings_.plain) // which leaves out nothing
         statistics_.left_out = left_out(prepared_->needs, settings_.work(), *solution_);
     statistics_.bytes_peak = peak_memory_bytes();
-    statistics_.bytes_spilled = bytes_spilled();
     if (settings_.ranks->are_several())
         statistics_.ranks =
             settings_.ranks->of_each(RankFigures{settings_.ranks->work(), statistics_.bytes_peak});
@@ -291,7 +287,7 @@ void SolveRun::estimate_errors() {
 int SolveRun::write() {
     if (!settings_.ranks->is_first()) // whose result is the first one's
         return exit_done;
-    const StopFlag::OfThisRank works_alone(monitor_.interrupted);
+    const OnThisRank works_alone(monitor_.interrupted);
     const bool interrupted = !completed_ && !fault_;
     SolveSettings shown = settings_;
     shown.view.camera = camera_;

@@ -2,11 +2,11 @@
 
 #include "app/loading/lights.h"
 #include "app/loading/sides.h"
+#include "app/memory/memory.h"
+#include "app/rendering/view.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
-#include "app/settings/memory.h"
 #include "app/settings/text.h"
-#include "app/settings/view.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"
@@ -19,6 +19,8 @@
 #include "io/scene_files/stl.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
+#include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/light/layers/layered_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -127,7 +129,7 @@ Mesh divide_scene(Scene scene, const SceneSettings& settings, unsigned threads) 
     MeshOptions options = settings.mesh;
     options.threads = threads;
     try {
-        return Mesh(std::move(scene), options);
+        return layered_mesh(std::move(scene), options);
     } catch (const std::invalid_argument& error) {
         if (settings.mesh.max_edge > 0)
             throw UsageError(std::string("--max-edge: ") + error.what());

@@ -1,6 +1,6 @@
 #include "app/running/error_map.h"
 
-#include "app/settings/view.h"
+#include "app/rendering/view.h"
 #include "io/drawings/density_picture.h"
 #include "io/files/error.h"
 #include "parallel/workers.h"
@@ -30,7 +30,7 @@ void limit_to_most(std::vector<double>& errors) {
 
 void write_error_map(const SolveSettings& settings, const Results& results) {
     const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] = results;
-    const PictureTime time(monitor.interrupted);
+    const PictureTime time(monitor.interrupted.own().wished);
     const Camera camera =
         camera_of(settings.view, mesh, tracer, solution.radiosity, settings.options.threads);
     std::vector<double> errors =

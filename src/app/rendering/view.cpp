@@ -1,4 +1,4 @@
-#include "app/settings/view.h"
+#include "app/rendering/view.h"
 
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"

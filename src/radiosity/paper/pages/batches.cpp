@@ -1,6 +1,5 @@
-#include "radiosity/engine/stored_transport/page/batches.h"
+#include "radiosity/paper/pages/batches.h"
 
-#include "geometry/compensated_sum.h"
 #include "radiosity/paper/scene/alike_neighbours.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/error_spread.h"
@@ -10,10 +9,9 @@
 namespace hemilux::plain {
 
 void combine_batches(const Mesh& mesh, std::span<const std::vector<Vec3>, batches + 1> B,
-                     std::span<const double> escaped, double rays, Solution& solution) {
+                     Solution& solution) {
     std::vector<Vec3> variance(mesh.patches().size());
     std::array<double, batches * batches> products{};
-    CompensatedSum<Vec3> escaped_power;
     double sum = 0;
     for (std::size_t i = 0; i < variance.size(); ++i) {
         const double area = mesh.patches()[i].area;
@@ -25,7 +23,6 @@ void combine_batches(const Mesh& mesh, std::span<const std::vector<Vec3>, batche
                 products[s * batches + t] += area * glm::dot(off, B[t][i] - mean);
         }
         sum += area * (variance[i].x + variance[i].y + variance[i].z);
-        escaped_power += area * escaped[i] / rays * B[batches][i];
     }
     variance = pooled_over_neighbours(mesh, variance); // of four samples each
     for (std::size_t i = 0; i < variance.size(); ++i)
@@ -35,10 +32,6 @@ void combine_batches(const Mesh& mesh, std::span<const std::vector<Vec3>, batche
     solution.error_batches = batches;
     solution.effective_freedom =
         believed_freedom(solution.effective_freedom, effective_freedom(products, batches));
-    EnergyBalance& energy = solution.energy;
-    energy.escaped = mesh.frame().area_to_world(1.0) * escaped_power.value();
-    energy.absorbed = energy.emitted - energy.escaped;
-    energy.unshot = Vec3(0.0);
 }
 
 } // namespace hemilux::plain
