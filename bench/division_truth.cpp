@@ -15,12 +15,13 @@
 #include "division_families.h"
 #include "parallel/workers.h"
 #include "path_reference.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/light/division/adaptive_division.h"
 #include "radiosity/light/final_gather/final_gather.h"
 #include "radiosity/light/final_gather/linear_light.h"
+#include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/sampling/rng.h"
-#include "radiosity/paper/scene/needs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -152,7 +153,7 @@ class Truth {
   public:
     Truth(const Scene& scene, const MeshOptions& options, const Settings& settings)
         : scene_(scene), options_(options) {
-        const Mesh mesh(scene, options);
+        const Mesh mesh = layered_mesh(scene, options);
         const MadeTracer made = make_tracer(mesh, true, settings.threads);
         points_ =
             draw_points(mesh, target_weights(solve_settings(settings), {}, mesh, *made.tracer),
@@ -203,7 +204,7 @@ class Truth {
     [[nodiscard]] Mesh mesh(double max_edge) const {
         MeshOptions options = options_;
         options.max_edge = max_edge;
-        return Mesh(scene_, options);
+        return layered_mesh(scene_, options);
     }
 
   private:

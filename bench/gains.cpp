@@ -12,6 +12,7 @@
 #include "bvh/wide/wide_bvh.h"
 #include "clock.h"
 #include "io/scene_files/obj.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"

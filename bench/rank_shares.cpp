@@ -10,8 +10,10 @@
 #include "parallel/ranks.h"
 #include "radiosity/engine/emitters/small_emitters.h"
 #include "radiosity/engine/form_factors/ray_counts.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/stored_transport/ray_plan.h"
+#include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
@@ -71,7 +73,7 @@ void print_shares(unsigned count, const std::vector<RayCounts>& counts,
 }
 
 void measure(const std::string& path, double max_edge, double rays) {
-    const Mesh mesh(read_obj(path).scene, {.max_edge = max_edge});
+    const Mesh mesh = layered_mesh(read_obj(path).scene, {.max_edge = max_edge});
     const MadeTracer made = make_tracer(mesh, true);
     const Needs needs = find_needs(mesh);
     const double each = rays / (2 * batches);

@@ -15,6 +15,7 @@
 #include "io/scene_files/obj.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"
+#include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "ssim.h"
 
@@ -212,7 +213,7 @@ void print_first(const char* name, double threshold, const std::vector<Step>& st
 
 void experiment(const char* path, const std::string& folder, int runs, int most_steps,
                 const char* camera) {
-    const Mesh mesh(read_obj(path).scene);
+    const Mesh mesh = layered_mesh(read_obj(path).scene);
     const WideBvh bvh(mesh.soup());
     const std::vector<Vec3> truth = reference(mesh, bvh);
     const View view(mesh, bvh, truth, camera);

@@ -55,7 +55,7 @@ class PatientTracer final : public Tracer {
     void count_ray() const {
         constexpr int patience = 20'000;
         if (++rays_ > patience)
-            monitor_.interrupted = true;
+            monitor_.interrupted.set_wished(true);
     }
 
     BruteForce tracer_;

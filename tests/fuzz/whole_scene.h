@@ -3,6 +3,7 @@
 
 #include "io/files/error.h"
 #include "io/scene_files/read_result.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -24,7 +25,7 @@ inline void check_scene(const Scene& scene) {
         require(facet.face < scene.faces && facet.material < scene.materials.size() &&
                 facet.group < scene.groups.size());
     }
-    for (const auto& set : scene.textures.texcoords)
+    for (const auto& set : textures_of(scene).texcoords)
         require(set.size() == scene.facets.size());
 }
 

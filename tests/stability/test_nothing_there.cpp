@@ -1,6 +1,6 @@
 // Scenes and options with next to nothing in them: every method ends, and nothing is NaN.
 
-#include "radiosity/paper/scene/needs.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -2,8 +2,8 @@
 // faces lie where no real surface could: each against the same scene without the oddity, against a
 // closed form, or against the balance of energy.
 #include "radiosity/engine/form_factors/factor_options.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/one_shot.h"
-#include "radiosity/paper/scene/needs.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

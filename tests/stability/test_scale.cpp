@@ -2,7 +2,7 @@
 #include "bvh/wide/wide_bvh.h"
 #include "io/files/error.h"
 #include "io/scene_files/obj.h"
-#include "radiosity/paper/scene/needs.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -2,6 +2,7 @@
 // A mesh with the tracer of the program, and a run of a method over it.
 
 #include "bvh/wide/wide_bvh.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"

@@ -20,6 +20,7 @@
 #include "app/terminal/unused_options.h"
 #include "app/terminal/wrap.h"
 #include "io/files/error.h"
+#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <atomic>
@@ -50,12 +51,8 @@ std::optional<Reference> compute_reference(const CompareSettings& settings, cons
     if (!method.work_with(options).estimates_error)
         options.own = {};
     options.seed = hash_words({options.seed, 0x7265666572656e63u});
-    const SolverInput input{.mesh = mesh,
-                            .tracer = tracer,
-                            .options = options,
-                            .monitor = monitor,
-                            .needs = needs,
-                            .ranks = *settings.ranks};
+    const SolverInput input{
+        .mesh = mesh, .tracer = tracer, .options = options, .monitor = monitor, .needs = needs};
     Progress progress(monitor, share_of(stop, method), wants_bar(settings));
     progress.set_topic("reference");
     const std::unique_ptr<Solver> solver = method.make(input);
@@ -157,7 +154,7 @@ int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
                  results.empty()
                      ? "interrupted before the first step of a method was done"
                      : "interrupted; the results are those of the steps that were done");
-    return report.exit_code(comparison.monitor.interrupted);
+    return report.exit_code(bool(comparison.monitor.interrupted));
 }
 
 /// Fills in the lines of the faces as soon as they are known.
@@ -193,8 +190,8 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     const Prepared prepared = prepare(loaded, settings.options, settings.verbosity);
     const Needs& needs = prepared.needs;
     const auto& [tracer, tree, crowd] = prepared.made;
-    guard.watch(monitor.interrupted);
-    monitor.interrupted.share(*settings.ranks);
+    guard.watch(monitor.interrupted.own().wished);
+    const SharedStop shared_stop(monitor.interrupted, *settings.ranks);
     log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, prepared.seconds));
     leave_memory_to_steps();
     if (!reference)

@@ -68,7 +68,7 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
     ViewSettings view = comparison.settings.view;
     const Reference& reference = comparison.reference;
     const Camera camera = camera_of(comparison);
-    const PictureTime time(comparison.monitor.interrupted);
+    const PictureTime time(comparison.monitor.interrupted.own().wished);
     const auto picture = [&](std::span<const Vec3> radiosity) {
         return render_view(view, comparison.mesh, comparison.tracer, radiosity, camera,
                            comparison.settings.options.threads, time);

@@ -3,6 +3,7 @@
 #include "app/running/step_size.h"
 #include "app/settings/memory.h"
 #include "app/terminal/stopwatch.h"
+#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/engine/solving/time_limit.h"
 
 #include <algorithm>
@@ -40,8 +41,7 @@ class Runner {
                                         .tracer = comparison.tracer,
                                         .options = options_,
                                         .monitor = comparison.monitor,
-                                        .needs = comparison.needs,
-                                        .ranks = ranks()});
+                                        .needs = comparison.needs});
         seconds_ = ranks().of_first(preparing.seconds());
     }
 
@@ -51,8 +51,8 @@ class Runner {
         const double before = used();
         const Stopwatch stepping;
         const TimeLimit limit(comparison_.monitor.interrupted, seconds_left());
-        if (comparison_.monitor.interrupted.agree() || !solver_->step()) {
-            cut_short_ = !comparison_.monitor.interrupted.wished();
+        if (agree(comparison_.monitor.interrupted) || !solver_->step()) {
+            cut_short_ = !comparison_.monitor.interrupted.is_wished();
             return false;
         }
         seconds_ += ranks().of_first(stepping.seconds());

@@ -134,7 +134,7 @@ void write_picture(const Preprocessed& made, const PatchDensities& densities,
         light.emplace_back(1 + mean);
     const Camera camera =
         camera_of(view, made.mesh, made.tracer, light, made.settings.options.threads);
-    const PictureTime time(made.monitor.interrupted);
+    const PictureTime time(made.monitor.interrupted.own().wished);
     const RenderOptions options{.width = view.size.width,
                                 .height = view.size.height,
                                 .threads = made.settings.options.threads,
@@ -199,7 +199,7 @@ int density(DensitySettings settings) {
     check_camera(settings.view, mesh);
     check_patch(settings, mesh);
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
-    guard.watch(monitor.interrupted);
+    guard.watch(monitor.interrupted.own().wished);
     const auto hemispheres = divide_hemispheres(settings, mesh, bvh, monitor);
     if (monitor.interrupted) {
         log_line(settings.verbosity, Verbosity::quiet, "interrupted; nothing was written");
@@ -222,7 +222,7 @@ int density(DensitySettings settings) {
                 write_picture(made, densities, path);
         });
     report.log(settings.verbosity);
-    return report.exit_code(monitor.interrupted);
+    return report.exit_code(bool(monitor.interrupted));
 }
 
 } // namespace hemilux

@@ -108,7 +108,7 @@ int formfactors(const FormFactorSettings& settings) {
         load_geometry(settings.scene, files, settings.options, settings.verbosity).mesh;
     check_size(settings, mesh.patches().size());
     const WideBvh bvh(mesh.soup_to_trace(), {.threads = settings.options.threads});
-    guard.watch(monitor.interrupted);
+    guard.watch(monitor.interrupted.own().wished);
     const Workers workers(settings.options.threads);
     const auto factors = by_cubes ? by_hemicubes(settings, mesh, bvh, workers, monitor)
                                   : by_rays(settings, mesh, bvh, workers, monitor);
@@ -121,12 +121,12 @@ int formfactors(const FormFactorSettings& settings) {
     for (const std::string& path : settings.outputs)
         report.attempt(path, [&] {
             if (is_dense(path))
-                write_npy(path, factors->matrix, &monitor.interrupted);
+                write_npy(path, factors->matrix, &monitor.interrupted.own().wished);
             else
-                write_factor_table(path, factors->matrix, &monitor.interrupted);
+                write_factor_table(path, factors->matrix, &monitor.interrupted.own().wished);
         });
     report.log(settings.verbosity);
-    return report.exit_code(monitor.interrupted);
+    return report.exit_code(bool(monitor.interrupted));
 }
 
 } // namespace hemilux

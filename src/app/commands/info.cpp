@@ -10,6 +10,7 @@
 #include "app/terminal/wrap.h"
 #include "io/files/error.h"
 #include "io/results/scene_info_json.h"
+#include "radiosity/engine/needs/find_needs.h"
 
 #include <iostream>
 #include <unistd.h>

@@ -28,8 +28,9 @@
 #include "app/terminal/unused_options.h"
 #include "io/results/points.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/left_out.h"
-#include "radiosity/paper/scene/needs.h"
+#include "radiosity/engine/solving/shared_stop.h"
 
 #include <algorithm>
 #include <span>
@@ -90,6 +91,7 @@ class SolveRun {
     SolveSettings settings_; ///< with the camera of the scene, where none was given
     const Stopwatch started_;
     Monitor monitor_;
+    std::optional<SharedStop> shared_stop_; ///< of the ranks
     InterruptGuard guard_;
     Statistics statistics_;
     SolveOptions options_;
@@ -152,10 +154,9 @@ void SolveRun::build_tree() {
     log_line(settings_.verbosity, Verbosity::verbose,
              tracer_text(prepared_->made.tree, statistics_.seconds_bvh));
     target_ = target_weights(settings_, target_points_, mesh(), tracer());
-    input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs, target_,
-                               *settings_.ranks});
-    monitor_.interrupted.share(*settings_.ranks);
-    guard_.watch(monitor_.interrupted);
+    input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs, target_});
+    shared_stop_.emplace(monitor_.interrupted, *settings_.ranks);
+    guard_.watch(monitor_.interrupted.own().wished);
 }
 
 /// Begins a solver for the mesh as it is then.
@@ -202,7 +203,7 @@ void SolveRun::read_the_reference() {
         return;
     guard_.unwatch();
     reference_ = read_reference(settings_.reference, mesh(), std::move(detail));
-    guard_.watch(monitor_.interrupted);
+    guard_.watch(monitor_.interrupted.own().wished);
 }
 
 void SolveRun::take_steps() {
@@ -220,7 +221,7 @@ void SolveRun::take_steps() {
         rows_ = resumed_->rows;
     }
     Checkpointer checkpointer(settings_, mesh(), *solver_);
-    StepPictures step_pictures(settings_, mesh(), tracer(), monitor_.interrupted);
+    StepPictures step_pictures(settings_, mesh(), tracer(), monitor_.interrupted.own().wished);
     notes_.emplace(stop, settings_.work().estimates_error);
     const auto add_row = [&](const StepRecord& record) {
         notes_->step_done(record);
@@ -291,7 +292,7 @@ void SolveRun::estimate_errors() {
 int SolveRun::write() {
     if (!settings_.ranks->is_first()) // whose result is the first one's
         return exit_done;
-    const StopFlag::OfThisRank works_alone(monitor_.interrupted);
+    const OnThisRank works_alone(monitor_.interrupted);
     const bool interrupted = !completed_ && !fault_;
     SolveSettings shown = settings_;
     shown.view.camera = camera_;

@@ -138,7 +138,7 @@ int finish(const SolveSettings& settings, Results results, const WriteReport& of
     if (interrupted)
         log_line(settings.verbosity, Verbosity::quiet,
                  interruption_text(results.solution.steps, !report.written.empty()));
-    return report.exit_code(results.monitor.interrupted);
+    return report.exit_code(bool(results.monitor.interrupted));
 }
 
 } // namespace hemilux

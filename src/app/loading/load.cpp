@@ -19,6 +19,8 @@
 #include "io/scene_files/stl.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
+#include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/light/layers/layered_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -127,7 +129,7 @@ Mesh divide_scene(Scene scene, const SceneSettings& settings, unsigned threads) 
     MeshOptions options = settings.mesh;
     options.threads = threads;
     try {
-        return Mesh(std::move(scene), options);
+        return layered_mesh(std::move(scene), options);
     } catch (const std::invalid_argument& error) {
         if (settings.mesh.max_edge > 0)
             throw UsageError(std::string("--max-edge: ") + error.what());

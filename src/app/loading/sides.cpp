@@ -6,6 +6,7 @@
 #include "geometry/polygon.h"
 #include "io/files/text_words.h"
 #include "io/scene_files/inspect.h"
+#include "radiosity/engine/needs/find_needs.h"
 
 #include <algorithm>
 

@@ -1,5 +1,6 @@
 #include "app/report/mesh_arrays.h"
 
+#include "radiosity/light/textures/scene_textures.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <array>
@@ -35,7 +36,7 @@ void write_mesh_arrays(PageFile& page, const Mesh& mesh, const CornerClasses& cl
     write("face", [&](std::size_t i) { return facet(i).face; });
     write("material", [&](std::size_t i) { return patches[i].material; });
     write("group", [&](std::size_t i) { return facet(i).group; });
-    if (mesh.scene().textures.of_material.empty())
+    if (textures_of(mesh.scene()).of_material.empty())
         return;
     write("reflectance", [&](std::size_t i) { return mesh.material(patches[i]).reflectance; });
     write("emission", [&](std::size_t i) { return mesh.material(patches[i]).emission; });

@@ -30,7 +30,7 @@ void limit_to_most(std::vector<double>& errors) {
 
 void write_error_map(const SolveSettings& settings, const Results& results) {
     const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] = results;
-    const PictureTime time(monitor.interrupted);
+    const PictureTime time(monitor.interrupted.own().wished);
     const Camera camera =
         camera_of(settings.view, mesh, tracer, solution.radiosity, settings.options.threads);
     std::vector<double> errors =

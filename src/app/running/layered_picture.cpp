@@ -69,7 +69,7 @@ Image picture_of(const Image& light, const std::vector<std::uint32_t>& patches, 
 std::vector<ExrChannel> picture_layers(const SolveSettings& settings, const Results& results,
                                        const Image& light, const Camera& camera) {
     const Solution& solution = results.solution;
-    const PictureTime time(results.monitor.interrupted);
+    const PictureTime time(results.monitor.interrupted.own().wished);
     const std::vector<std::uint32_t> patches =
         patches_in(results, camera,
                    {.width = light.width,

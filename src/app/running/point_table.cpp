@@ -28,7 +28,7 @@ void write_points(const SolveSettings& settings, const Results& results) {
     for (const NamedPoint& point : points)
         sensors.push_back(
             sensor_at(mesh, tracer, mesh.frame().to_local(point.position), point.normal));
-    const PictureTime time(monitor.interrupted);
+    const PictureTime time(monitor.interrupted.own().wished);
     const std::vector<PointLight> lights =
         light_at(sensors, mesh, tracer, solution,
                  {.rays = PointSettings::rays_per_gather_ray * settings.gather,

@@ -52,7 +52,7 @@ class Picture {
     Picture(const SolveSettings& settings, const Results& results, SharedClasses& classes)
         : settings_(settings), view_(settings.view),
           gather_(settings.gather_pictures ? settings.gather : 0), results_(results),
-          classes_(classes), time_(results.monitor.interrupted) {}
+          classes_(classes), time_(results.monitor.interrupted.own().wished) {}
 
     /// Returns the time of rendering [s], where the light is gathered.
     [[nodiscard]] double seconds_gather() const { return seconds_gather_; }

@@ -2,6 +2,7 @@
 
 #include "app/settings/text.h"
 #include "radiosity/light/layers/coplanar_overlaps.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>
 #include <array>
@@ -73,13 +74,13 @@ std::string rounded(double bytes) {
 /// Returns the bytes of pictures, each once, and of texture coordinates.
 std::vector<double> bytes_of_textures(const Scene& scene) {
     std::set<const Texture*> textures;
-    for (const auto& [reflectance, emission] : scene.textures.of_material)
+    for (const auto& [reflectance, emission] : textures_of(scene).of_material)
         for (const TextureMap* const map : {&reflectance, &emission})
             textures.insert(map->texture.get());
     std::vector<double> bytes;
     for (const Texture* const texture : textures)
         bytes.push_back(texture ? texture->bytes() : 0);
-    for (const std::vector<Texcoords>& set : scene.textures.texcoords)
+    for (const std::vector<Texcoords>& set : textures_of(scene).texcoords)
         bytes.push_back(static_cast<double>(set.size() * sizeof(Texcoords)));
     return bytes;
 }
@@ -125,7 +126,7 @@ MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveO
         sizeof(Patch) * patches + sizeof(Vec3) * vertices + (sizeof(FacetCorners) + 48) * facets;
     for (const double bytes : bytes_of_textures(scene))
         need.scene += bytes;
-    if (!scene.textures.of_material.empty())
+    if (!textures_of(scene).of_material.empty())
         need.mesh += sizeof(Material) * patches;
     need.pairs =
         OverlapLimits::bytes_per_pair * static_cast<double>(OverlapLimits::of(scene).pairs);

@@ -2,6 +2,7 @@
 
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 namespace hemilux {
 namespace {
@@ -49,8 +50,8 @@ void apply_overrides(Scene& scene, Vec3 Material::*quantity,
             if (!matches(name, material.name))
                 continue;
             material.*quantity = value;
-            if (scene.textures.on(static_cast<std::uint32_t>(m)))
-                remove_texture(scene.textures.of_material[m], quantity);
+            if (scene.colours_vary_on(static_cast<std::uint32_t>(m)))
+                remove_texture(own_textures_of(scene).of_material[m], quantity);
             found = true;
         }
         if (found)

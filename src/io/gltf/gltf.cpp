@@ -6,6 +6,7 @@
 #include "io/gltf/scene_meshes.h"
 #include "io/scene_files/emitter_shapes.h"
 #include "radiosity/light/sides/shells.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>
 #include <array>
@@ -61,7 +62,7 @@ class Reader {
 ReadResult Reader::read() {
     count_triangles_of_scene();
     add_materials();
-    result_.scene.textures.texcoords.resize(maps_.sets());
+    own_textures_of(result_.scene).texcoords.resize(maps_.sets());
     SceneMeshes meshes(buffers_, maps_, result_);
     for (const Instance& instance : instances_) {
         const Node& node = document_.nodes[instance.node];
@@ -76,7 +77,7 @@ ReadResult Reader::read() {
                                     : "no triangles; expected a scene whose nodes show meshes");
     mark_two_sided();
     add_lights();
-    for (std::vector<Texcoords>& set : result_.scene.textures.texcoords)
+    for (std::vector<Texcoords>& set : own_textures_of(result_.scene).texcoords)
         set.resize(result_.scene.facets.size());
     collect_warnings(meshes.tally());
     result_.textures = maps_.paths();

@@ -2,6 +2,7 @@
 
 #include "io/files/error.h"
 #include "io/files/text_words.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +65,7 @@ void SceneMeshes::add_primitive(const Instance& instance, std::size_t mesh, std:
     const std::uint32_t material =
         primitive.material ? static_cast<std::uint32_t>(*primitive.material) : default_material();
     tally_.without_coordinates +=
-        result_.scene.textures.on(material) && primitive.texcoords.size() < maps_.sets();
+        result_.scene.colours_vary_on(material) && primitive.texcoords.size() < maps_.sets();
     Scene& scene = result_.scene;
     const auto first = static_cast<std::uint32_t>(scene.vertices.size());
     place(triangles.points, instance);
@@ -87,7 +88,7 @@ void SceneMeshes::add_primitive(const Instance& instance, std::size_t mesh, std:
 void SceneMeshes::add_texcoords(const Primitive& primitive, const Triangles& triangles,
                                 const std::array<std::uint32_t, 3>& corners) {
     for (std::size_t set = 0; set < maps_.sets(); ++set) {
-        Texcoords& to = result_.scene.textures.texcoords[set].emplace_back();
+        Texcoords& to = own_textures_of(result_.scene).texcoords[set].emplace_back();
         to.fill(glm::vec2(0.0f));
         if (set < std::min(triangles.texcoords.size(), primitive.texcoords.size()))
             for (std::size_t k = 0; k < 4; ++k)

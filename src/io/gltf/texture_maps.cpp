@@ -2,6 +2,7 @@
 
 #include "io/files/error.h"
 #include "io/gltf/document/uri.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,7 @@ void TextureMaps::add(const TextureInfo& info, std::size_t material, Vec3 Materi
                : wrapping == Wrapping::mirror ? Wrap::mirror
                                               : Wrap::repeat;
     };
-    SceneTextures& textures = scene.textures;
+    SceneTextures& textures = own_textures_of(scene);
     textures.of_material.resize(document.materials.size());
     TextureMap& to = textures.of_material[material].*map;
     to.texture = std::move(texture);

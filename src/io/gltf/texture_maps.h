@@ -3,6 +3,7 @@
 
 #include "io/gltf/elements.h"
 #include "io/textures/texture_files.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 #include <memory>
 #include <string>

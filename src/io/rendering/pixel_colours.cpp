@@ -11,7 +11,7 @@ Colours pixel_colours(const Mesh& mesh, const VisibleFacets& visible, std::uint3
                       std::uint32_t patch, const Vec2& place) {
     const Material& of_patch = mesh.material(patch);
     const Colours mean{of_patch.reflectance, of_patch.emission};
-    if (!mesh.scene().textures.on(mesh.patches()[patch].material))
+    if (!mesh.scene().colours_vary_on(mesh.patches()[patch].material))
         return mean;
     constexpr std::array<Vec2, 4> corners{Vec2(-.5, -.5), Vec2(.5, -.5), Vec2(.5, .5),
                                           Vec2(-.5, .5)};

@@ -8,6 +8,7 @@
 #include "io/rendering/visible_facets.h"
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
+#include "radiosity/light/textures/scene_textures.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solution.h"
 
@@ -38,7 +39,7 @@ class Shading {
   public:
     Shading(const Mesh& mesh, std::span<const Vec3> radiosity, const RenderOptions& options)
         : mesh_(mesh), radiosity_(radiosity), classes_(options.classes),
-          textures_(options.textures && !mesh.scene().textures.of_material.empty()) {
+          textures_(options.textures && !textures_of(mesh.scene()).of_material.empty()) {
         std::vector<Slope> slopes(options.slope.begin(), options.slope.end());
         if (textures_)
             divide_by_textures(slopes);
@@ -57,7 +58,7 @@ class Shading {
         const Hit hit = visible.hit_at(half, direction);
         const std::uint32_t patch = mesh_.patch_at(hit);
         const Vec3 light = at(patch, visible.eye() + hit.t * direction);
-        if (!textures_ || !mesh_.scene().textures.on(mesh_.patches()[patch].material))
+        if (!textures_ || !mesh_.scene().colours_vary_on(mesh_.patches()[patch].material))
             return light;
         const auto [reflectance, emission] = pixel_colours(mesh_, visible, half, patch, place);
         return emission + reflectance * light;
@@ -77,7 +78,7 @@ class Shading {
     void divide_by_textures(std::vector<Slope>& slopes) {
         irradiance_.assign(radiosity_.begin(), radiosity_.end());
         for (std::uint32_t i = 0; i < irradiance_.size(); ++i) {
-            if (!mesh_.scene().textures.on(mesh_.patches()[i].material))
+            if (!mesh_.scene().colours_vary_on(mesh_.patches()[i].material))
                 continue;
             const Material& material = mesh_.material(i);
             irradiance_[i] =

@@ -2,6 +2,7 @@
 
 #include "io/files/input_file.h"
 #include "io/files/text_words.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -181,8 +182,9 @@ void MaterialTable::add_texture(std::size_t material, const std::optional<MtlTex
             first_missing_ = texture->name;
         return;
     }
-    result_.scene.textures.of_material.resize(result_.scene.materials.size());
-    TextureMap& to = result_.scene.textures.of_material[material].*map;
+    SceneTextures& textures = own_textures_of(result_.scene);
+    textures.of_material.resize(result_.scene.materials.size());
+    TextureMap& to = textures.of_material[material].*map;
     to.texture = read;
     to.factor = factor.value_or(Vec3(1.0));
     if (texture->clamp)

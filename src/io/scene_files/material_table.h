@@ -6,6 +6,7 @@
 #include "io/scene_files/mtl.h"
 #include "io/scene_files/read_result.h"
 #include "io/textures/texture_files.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 #include <cstdint>
 #include <functional>

@@ -6,6 +6,7 @@
 #include "io/polygons/polygon_division.h"
 #include "io/scene_files/material_table.h"
 #include "io/scene_files/obj_statements.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>
 #include <array>
@@ -87,9 +88,9 @@ ReadResult ObjReader::read() {
 /// Adds the texture coordinates of all facets, once it is known that some carry a texture.
 void ObjReader::add_texcoords() {
     Scene& scene = result_.scene;
-    if (scene.textures.of_material.empty())
+    if (textures_of(scene).of_material.empty())
         return;
-    std::vector<Texcoords>& of_facets = scene.textures.texcoords.emplace_back();
+    std::vector<Texcoords>& of_facets = own_textures_of(scene).texcoords.emplace_back();
     std::size_t missing = 0;
     for (std::size_t f = 0; f < scene.facets.size(); ++f) {
         Texcoords& facet = of_facets.emplace_back();
@@ -99,7 +100,7 @@ void ObjReader::add_texcoords() {
             all &= t < contents_.texcoords.size();
             facet[k] = t < contents_.texcoords.size() ? contents_.texcoords[t] : glm::vec2(0.0f);
         }
-        missing += !all && scene.textures.on(scene.facets[f].material);
+        missing += !all && scene.colours_vary_on(scene.facets[f].material);
     }
     if (missing > 0)
         result_.warnings.push_back(

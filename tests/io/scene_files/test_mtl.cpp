@@ -1,4 +1,5 @@
 #include "io/scene_files/mtl.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 #include "io/files/error.h"
 #include "io/scene_files/material_table.h"
@@ -90,7 +91,7 @@ TEST_CASE("textures that are missing are one warning", "[mtl]") {
     table.finish();
     REQUIRE(result.warnings.size() == 1);
     CHECK(result.warnings[0].find("2 textures are not found") != std::string::npos);
-    CHECK(result.scene.textures.of_material.empty());
+    CHECK(textures_of(result.scene).of_material.empty());
     CHECK(result.scene.materials[0].reflectance == Vec3(0.5));
     CHECK(result.scene.materials[1].reflectance == Vec3(0.1));
 }

@@ -1,6 +1,7 @@
 #include "support/families/reliability.h"
 
 #include "geometry/compensated_sum.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/run.h"
 #include "radiosity/paper/solution/solve_error.h"
 #include "support/families/watchdog.h"

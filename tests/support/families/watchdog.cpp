@@ -13,7 +13,7 @@ Watchdog::Watchdog(Monitor& monitor, double seconds, std::uint64_t rays)
           while (!condition_.wait_for(lock, between_looks, [this] { return over_; })) {
               const std::chrono::duration<double> elapsed = Clock::now() - start;
               if (elapsed.count() > seconds || monitor.rays > rays)
-                  monitor.interrupted = true;
+                  monitor.interrupted.set_wished(true);
           }
       }) {}
 

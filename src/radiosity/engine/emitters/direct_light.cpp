@@ -2,6 +2,7 @@
 
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -54,7 +55,7 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
     if (emitters_.empty())
         return 0;
     std::atomic<std::uint64_t> traced{0};
-    std::optional<StopFlag::OfThisRank> on_this_rank(monitor.interrupted);
+    std::optional<OnThisRank> on_this_rank(monitor.interrupted);
     workers.for_chunks_with(
         own_.count(), patches_per_chunk, [] { return RayBatch(); },
         [&](RayBatch& batch, std::size_t begin, std::size_t end) {
@@ -66,7 +67,7 @@ std::uint64_t DirectLight::sample_up_to(std::span<const std::uint32_t> samples,
             monitor.rays += std::exchange(batch.traced, 0);
         });
     on_this_rank.reset();
-    monitor.interrupted.agree();
+    agree(monitor.interrupted);
     own_.ranks().add_work(traced, 0);
     own_.gather(sum_, seeds_.size());
     own_.gather(samples_);

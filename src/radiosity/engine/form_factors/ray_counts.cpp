@@ -2,6 +2,7 @@
 
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -106,7 +107,7 @@ std::uint64_t RayCounts::trace_up_to(std::span<RayCounts> batches,
     const OwnBlocks& own = batches[0].own_;
     const std::size_t blocks = (own.count() + rows_per_block - 1) / rows_per_block,
                       all = batches.size() * blocks;
-    std::optional<StopFlag::OfThisRank> on_this_rank(monitor.interrupted);
+    std::optional<OnThisRank> on_this_rank(monitor.interrupted);
     workers.for_chunks_with(
         all, 1, [&] { return RayBatch(rays.size()); },
         [&](RayBatch& batch, std::size_t k, std::size_t) {
@@ -118,7 +119,7 @@ std::uint64_t RayCounts::trace_up_to(std::span<RayCounts> batches,
                 monitor.step_share = share * static_cast<double>(++done) / static_cast<double>(all);
         });
     on_this_rank.reset();
-    monitor.interrupted.agree();
+    agree(monitor.interrupted);
     own.ranks().add_work(traced, 0);
     for (RayCounts& batch : batches)
         batch.gather_rows();

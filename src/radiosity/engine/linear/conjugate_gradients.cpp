@@ -1,4 +1,5 @@
 #include "radiosity/engine/linear/conjugate_gradients.h"
+#include "radiosity/engine/solving/shared_stop.h"
 
 #include "geometry/numeric.h"
 #include "parallel/gathered_vector.h"
@@ -100,7 +101,7 @@ int solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> ar
         const Vec3 share = glm::sqrt(ratio_or_zero(sums.relative, sums.lit));
         return std::max({share.x, share.y, share.z});
     };
-    const auto is_interrupted = [&] { return interrupted && interrupted->agree(); };
+    const auto is_interrupted = [&] { return interrupted && agree(*interrupted); };
     int iterations = 0;
     for (; worst() > tolerance && iterations < most_iterations && !is_interrupted(); ++iterations) {
         factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {

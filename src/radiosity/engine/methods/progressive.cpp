@@ -86,9 +86,9 @@ class ProgressiveSolver final : public Solver {
             if (used >= wanted)
                 break;
             pass_.shoot(solution_.steps + 1);
-            cut_short = input_.monitor.interrupted;
+            cut_short = bool(input_.monitor.interrupted);
             // At the end of the time, the shots of this step count.
-            if (cut_short && (input_.monitor.interrupted.wished() || pass_.points() == before))
+            if (cut_short && (input_.monitor.interrupted.is_wished() || pass_.points() == before))
                 return false;
             if (is_one_shot_)
                 break;

@@ -81,9 +81,7 @@ struct SamplingKernels {
     /// Draws points in (0,1)^n, where n is `dimensions`: coordinate d of point k goes to out[16 d +
     /// k].
     void (*sobol)(const SobolBlockStart&, const SobolSteps&, std::size_t dimensions, double* out);
-    /// Draws directions with density cos(theta) / pi, for u and v in [0,1]. The concentric map of
-    /// square and disc (Shirley and Chiu 1997) keeps the distances between points better than polar
-    /// coordinates; its points are lifted to the hemisphere.
+    /// Draws directions with density cos(theta) / pi, for u and v in [0,1] (concentric_map.h).
     void (*cosine)(std::size_t count, const double* u, const double* v, double* x, double* y,
                    double* z);
     /// Estimates two numbers for each emitter. One is the root mean square of what a shadow ray to

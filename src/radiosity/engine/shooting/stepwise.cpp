@@ -3,6 +3,7 @@
 #include "radiosity/engine/saving/solution_state.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/engine/shooting/additions.h"
+#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solve_error.h"
 
@@ -49,13 +50,14 @@ bool StepwiseSolver::step() {
 void StepwiseSolver::work_ahead() {
     input_.monitor.phase = "step";
     ahead_.resize(side_by_side());
-    if (!steps_are_alike() || !input_.ranks.are_several())
+    const Ranks& ranks = ranks_of(input_.monitor.interrupted);
+    if (!steps_are_alike() || !ranks.are_several())
         return work_at(0, 1);
     {
-        const StopFlag::OfThisRank on_this_rank(input_.monitor.interrupted);
-        work_at(input_.ranks.index(), input_.ranks.count());
+        const OnThisRank on_this_rank(input_.monitor.interrupted);
+        work_at(ranks.index(), ranks.count());
     }
-    input_.monitor.interrupted.agree();
+    agree(input_.monitor.interrupted);
     gather_ahead();
 }
 
@@ -100,7 +102,7 @@ void StepwiseSolver::gather_ahead() {
         double shot;
         std::uint64_t rays;
     };
-    const Ranks& ranks = input_.ranks;
+    const Ranks& ranks = ranks_of(input_.monitor.interrupted);
     seconds_per_step_ = ranks.of_first(seconds_per_step_);
     for (unsigned k = 0; k < ahead_.size(); ++k) {
         const unsigned rank = k % ranks.count();
@@ -133,14 +135,15 @@ unsigned StepwiseSolver::side_by_side() const {
     constexpr double seconds_ahead = .5, most_each = 16;
     if (!steps_are_alike())
         return 1;
-    const unsigned threads = input_.ranks.of_first(workers_.threads());
-    const bool several = threads * input_.ranks.count() > 1;
+    const Ranks& ranks = ranks_of(input_.monitor.interrupted);
+    const unsigned threads = ranks.of_first(workers_.threads());
+    const bool several = threads * ranks.count() > 1;
     double of_rank = 1;
     if (several && input_.mesh.patches().size() <= most_patches) {
         const double each = seconds_per_step_ > 0 ? seconds_ahead / seconds_per_step_ : 1;
         of_rank = threads * std::floor(std::clamp(each, 1.0, most_each));
     }
-    return static_cast<unsigned>(std::min(steps_to_come(), of_rank * input_.ranks.count()));
+    return static_cast<unsigned>(std::min(steps_to_come(), of_rank * ranks.count()));
 }
 
 std::uint32_t StepwiseSolver::steps_ready() const {

@@ -1,7 +1,7 @@
 #include "radiosity/engine/solving/left_out.h"
 
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/method.h"
-#include "radiosity/paper/scene/needs.h"
 
 namespace hemilux {
 namespace {

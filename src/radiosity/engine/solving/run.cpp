@@ -1,5 +1,6 @@
 #include "radiosity/engine/solving/run.h"
 
+#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/engine/solving/time_limit.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -33,7 +34,8 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
     const auto start = std::chrono::steady_clock::now();
     const auto elapsed = [&] {
         const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start;
-        return input.ranks.of_first(solver.solution().seconds_density + before.seconds + d.count());
+        return ranks_of(input.monitor.interrupted)
+            .of_first(solver.solution().seconds_density + before.seconds + d.count());
     };
     double last = elapsed(), longest = 0, growth = 1;
     const auto done = [&](std::uint32_t step, double seconds, double error) {
@@ -52,8 +54,8 @@ bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
     StopFlag& interrupted = input.monitor.interrupted;
     const TimeLimit limit(interrupted, time_left);
     for (std::uint32_t step = before.steps + 1;; ++step) {
-        if ((interrupted.agree() && solver.steps_ready() == 0) || !solver.step())
-            return !interrupted.wished(); // but for the caller's wish the run ends by its rule
+        if ((agree(interrupted) && solver.steps_ready() == 0) || !solver.step())
+            return !interrupted.is_wished(); // but for the caller's wish the run ends by its rule
         const Solution& solution = solver.solution();
         const StepRecord record{step, solution.rays_energy + solution.rays_density, elapsed(),
                                 estimated_error(input.mesh, solution)};

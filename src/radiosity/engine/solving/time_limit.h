@@ -8,7 +8,7 @@
 
 namespace hemilux {
 
-/// A limit that, while it lives, sets the flag's out_of_time() once `seconds` have passed. Without
+/// A limit that, while it lives, makes the flag out of time once `seconds` have passed. Without
 /// a number it does nothing. The flag outlives it.
 class TimeLimit {
   public:

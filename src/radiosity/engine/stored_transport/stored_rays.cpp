@@ -1,6 +1,7 @@
 #include "radiosity/engine/stored_transport/stored_rays.h"
 
 #include "radiosity/engine/emitters/small_emitters.h"
+#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/engine/stored_transport/linked_parts.h"
 #include "radiosity/engine/stored_transport/transport_system.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -20,11 +21,12 @@ void StoredRays::renew(std::uint64_t generation) {
     std::vector<std::uint64_t> seeds;
     for (std::uint64_t s = 0; s < batches; ++s) {
         const std::uint64_t seed = hash_words({input_.options.seed, s, generation});
-        counts_.emplace_back(input_.mesh, input_.tracer, hash_words({seed, 0}), input_.ranks);
+        counts_.emplace_back(input_.mesh, input_.tracer, hash_words({seed, 0}),
+                             ranks_of(input_.monitor.interrupted));
         seeds.push_back(hash_words({seed, 1}));
     }
     direct_.emplace(input_.mesh, input_.tracer, input_.needs, emitters_, std::move(seeds),
-                    input_.ranks);
+                    ranks_of(input_.monitor.interrupted));
 }
 
 std::uint64_t StoredRays::trace_up_to(const PlannedRays& rays, double share,
@@ -36,9 +38,10 @@ std::uint64_t StoredRays::trace_up_to(const PlannedRays& rays, double share,
 
 ExchangeMatrix StoredRays::factors(std::span<const double> area, const Workers& workers) const {
     std::vector<ExchangeMatrix> parts(batches);
-    for_batches(batches, input_.ranks, workers, [&](std::size_t batch, const Workers& own) {
-        parts[batch] = ExchangeMatrix(area, counts_[batch], own);
-    });
+    for_batches(batches, ranks_of(input_.monitor.interrupted), workers,
+                [&](std::size_t batch, const Workers& own) {
+                    parts[batch] = ExchangeMatrix(area, counts_[batch], own);
+                });
     return {std::move(parts), workers};
 }
 

@@ -1,5 +1,6 @@
 #include "radiosity/light/division/adaptive_division.h"
 
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/stored_transport/stored_transport_method.h"
 #include "radiosity/light/division/division_weights.h"
 #include "radiosity/light/division/inherited.h"
@@ -9,7 +10,6 @@
 #include "radiosity/light/light_error/division_error.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
-#include "radiosity/paper/scene/needs.h"
 
 #include <algorithm>
 #include <cmath>

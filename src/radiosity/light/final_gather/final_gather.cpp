@@ -3,6 +3,7 @@
 #include "parallel/ranks.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/sampling/sobol.h"
+#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -33,8 +34,8 @@ std::vector<Vec3> FinalGather::irradiance(std::span<const SurfacePoint> points,
         estimates * rounds_ * (std::size_t{random_rays_} + shadow_rays_);
     const std::size_t points_per_chunk =
         std::clamp<std::size_t>(rays_per_batch / rays_of_point, 1, most_points_per_chunk);
-    const OwnBlocks own(interrupted.ranks(), points.size(), points_per_chunk);
-    std::optional<StopFlag::OfThisRank> on_this_rank(interrupted);
+    const OwnBlocks own(ranks_at_work(interrupted), points.size(), points_per_chunk);
+    std::optional<OnThisRank> on_this_rank(interrupted);
     std::atomic<std::uint64_t> traced{0};
     workers.for_chunks(own.count(), points_per_chunk, [&](std::size_t first, std::size_t last) {
         const std::size_t begin = own.item(first), end = begin + (last - first);
@@ -59,7 +60,7 @@ std::vector<Vec3> FinalGather::irradiance(std::span<const SurfacePoint> points,
         own.gather(*receivers_, estimates * rays_of_estimate);
     own.ranks().add_work(traced, 0);
     rays_ += own.ranks().sum(traced);
-    interrupted.agree();
+    agree(interrupted);
     return found;
 }
 

@@ -1,8 +1,10 @@
 #include "radiosity/light/sides/orientation.h"
 
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/rays/make_tracer.h"
+#include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/light/sides/emitter_sides.h"
-#include "radiosity/paper/scene/needs.h"
+#include "radiosity/light/textures/scene_textures.h"
 
 #include <algorithm>
 #include <tuple>
@@ -249,7 +251,7 @@ Orientation find_orientation(const Mesh& mesh, const Tracer& tracer) {
 Orientation find_orientation(const Scene& scene) {
     if (scene.facets.empty())
         return {};
-    const Mesh mesh(scene);
+    const Mesh mesh = layered_mesh(scene);
     const MadeTracer made = make_tracer(mesh, needs_tree(mesh));
     Orientation found = find_orientation(mesh, *made.tracer);
     if (found.faces == 0)
@@ -264,14 +266,16 @@ void turn_faces(Scene& scene, const Orientation& orientation) {
         auto& v = corners;
         v = is_triangle ? std::array{v[0], v[2], v[1], v[1]} : std::array{v[0], v[3], v[2], v[1]};
     };
+    SceneTextures* const textures = scene.varying ? &own_textures_of(scene) : nullptr;
     for (std::size_t f = 0; f < scene.facets.size(); ++f) {
         Facet& facet = scene.facets[f];
         if (!orientation.looks_away[facet.face])
             continue;
         const bool is_triangle = facet.is_triangle();
         turn(facet.vertex, is_triangle);
-        for (std::vector<Texcoords>& of_facets : scene.textures.texcoords)
-            turn(of_facets[f], is_triangle);
+        if (textures)
+            for (std::vector<Texcoords>& of_facets : textures->texcoords)
+                turn(of_facets[f], is_triangle);
     }
 }
 

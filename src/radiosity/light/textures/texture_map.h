@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 namespace hemilux {
 
@@ -25,21 +24,6 @@ struct TextureMap {
     Vec3 factor{1.0};
 
     [[nodiscard]] Vec2 place(const Vec2& uv) const { return origin + uv.x * x + uv.y * y; }
-};
-
-struct MaterialTextures {
-    TextureMap reflectance, emission;
-    [[nodiscard]] bool any() const { return reflectance.texture || emission.texture; }
-};
-
-/// The textures that the faces of a scene carry.
-struct SceneTextures {
-    std::vector<MaterialTextures> of_material;     ///< empty: no texture at all
-    std::vector<std::vector<Texcoords>> texcoords; ///< by set and facet
-
-    [[nodiscard]] bool on(std::uint32_t material) const {
-        return material < of_material.size() && of_material[material].any();
-    }
 };
 
 } // namespace hemilux

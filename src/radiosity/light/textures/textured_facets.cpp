@@ -1,5 +1,7 @@
 #include "radiosity/light/textures/textured_facets.h"
 
+#include "radiosity/light/textures/scene_textures.h"
+
 #include <cmath>
 #include <vector>
 
@@ -59,9 +61,10 @@ Colours colours_over(const Scene& scene, std::uint32_t facet, bool second_half,
                      std::span<const Vec2> places) {
     const std::uint32_t number = scene.facets[facet].material;
     const Material& material = scene.materials[number];
-    const auto& [reflectance, emission] = scene.textures.of_material[number];
-    return {mean_of(scene.textures, reflectance, material.reflectance, facet, second_half, places),
-            mean_of(scene.textures, emission, material.emission, facet, second_half, places)};
+    const SceneTextures& textures = textures_of(scene);
+    const auto& [reflectance, emission] = textures.of_material[number];
+    return {mean_of(textures, reflectance, material.reflectance, facet, second_half, places),
+            mean_of(textures, emission, material.emission, facet, second_half, places)};
 }
 
 /// A quad's texture is linear on either half, so the part is cut along the diagonal.

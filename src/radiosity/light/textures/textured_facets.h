@@ -3,16 +3,12 @@
 
 #include "geometry/polygon.h"
 #include "radiosity/paper/scene/scene.h"
+#include "radiosity/paper/scene/varying_colours.h"
 
 #include <cstdint>
 #include <span>
 
 namespace hemilux {
-
-struct Colours {
-    Vec3 reflectance; ///< [-]
-    Vec3 emission;    ///< [W/m2 leaving]
-};
 
 /// Returns the mean colours over a polygon on one half of a facet (Hit). Its `places` are
 /// coordinates u and v along the half's edges from corner 0. The facet's material must carry a

@@ -5,8 +5,8 @@
 #include "bvh/tracer.h"
 #include "geometry/compensated_sum.h"
 #include "geometry/polygon_sampler.h"
-#include "radiosity/engine/sampling/sampling_kernels.h"
 #include "radiosity/paper/rays/receivers.h"
+#include "radiosity/paper/sampling/concentric_map.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -51,10 +51,10 @@ namespace hemilux {
     }
 }
 
-/// Maps u to a direction with density cos(theta) / pi by the concentric map (sampling_kernels.h).
+/// Maps u to a direction with density cos(theta) / pi (concentric_map.h).
 [[nodiscard]] inline Vec3 cosine_direction(Vec2 u) {
     Vec3 direction;
-    sampling_kernels().cosine(1, &u.x, &u.y, &direction.x, &direction.y, &direction.z);
+    concentric_direction(u.x, u.y, direction.x, direction.y, direction.z);
     return direction;
 }
 

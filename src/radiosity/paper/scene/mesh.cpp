@@ -1,8 +1,5 @@
 #include "radiosity/paper/scene/mesh.h"
 
-#include "parallel/workers.h"
-#include "radiosity/light/layers/coplanar_layers.h"
-#include "radiosity/light/textures/textured_facets.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <algorithm>
@@ -67,39 +64,42 @@ std::vector<Vec3> LocalFrame::to_local(std::span<const Vec3> world) const {
     return local;
 }
 
-Mesh::Mesh(Scene scene, const MeshOptions& options)
-    : scene_(std::move(scene)), two_sided_(options.two_sided), threads_(options.threads) {
-    if (scene_.facets.empty())
+LocalFacets::LocalFacets(const Scene& scene) {
+    if (scene.facets.empty())
         throw std::invalid_argument("the scene has no face with an area");
-    frame_ = LocalFrame::of(scene_);
-    vertices_ = frame_.to_local(scene_.vertices);
-    unite_near_twins(scene_, vertices_);
-    for (const Facet& facet : scene_.facets)
-        corners_.push_back(facet.vertex);
-    offset_layers();
+    frame = LocalFrame::of(scene);
+    vertices = frame.to_local(scene.vertices);
+    for (const Facet& facet : scene.facets)
+        corners.push_back(facet.vertex);
+}
+
+Mesh::Mesh(Scene scene, const MeshOptions& options)
+    : scene_(std::move(scene)), facets_(scene_), two_sided_(options.two_sided),
+      threads_(options.threads) {
+    divide(options);
+    find_colours();
+}
+
+Mesh::Mesh(Scene scene, const MeshOptions& options, LocalFacets facets)
+    : scene_(std::move(scene)), facets_(std::move(facets)), two_sided_(options.two_sided),
+      threads_(options.threads) {
     divide(options);
     find_colours();
 }
 
 void Mesh::find_colours() {
     colours_ = scene_.materials;
-    std::vector<std::uint32_t> textured;
+    std::vector<std::uint32_t> varying;
     for (std::uint32_t i = 0; i < patches_.size(); ++i)
-        if (scene_.textures.on(patches_[i].material)) {
-            patches_[i].colours = static_cast<std::uint32_t>(colours_.size() + textured.size());
-            textured.push_back(i);
+        if (scene_.colours_vary_on(patches_[i].material)) {
+            patches_[i].colours = static_cast<std::uint32_t>(colours_.size() + varying.size());
+            varying.push_back(i);
         }
-    const std::size_t first = colours_.size();
-    colours_.resize(first + textured.size());
-    Workers(threads_).for_chunks(textured.size(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            const Patch& patch = patches_[textured[k]];
-            const Colours mean =
-                mean_colours(scene_, patch.facet, shape_of(patch.facet), patch.shape);
-            colours_[first + k].reflectance = mean.reflectance;
-            colours_[first + k].emission = mean.emission;
-        }
-    });
+    if (varying.empty())
+        return;
+    for (const Colours& mean : scene_.varying->means(*this, varying, threads_))
+        colours_.push_back(
+            {.name = {}, .reflectance = mean.reflectance, .emission = mean.emission});
 }
 
 Frame Mesh::hemisphere_frame(std::uint32_t patch) const {
@@ -112,10 +112,11 @@ Vec2 Mesh::hemisphere_turn(std::uint32_t patch) {
     return {std::cos(angle), std::sin(angle)};
 }
 
-FacetSoup Mesh::soup() const { return {vertices_, corners_}; }
+FacetSoup Mesh::soup() const { return {facets_.vertices, facets_.corners}; }
 
 FacetSoup Mesh::soup_to_trace() const {
-    return {vertices_, corners_to_trace_.empty() ? corners_ : corners_to_trace_};
+    const auto& [frame, vertices, corners, to_trace, all] = facets_;
+    return {vertices, to_trace.empty() ? corners : to_trace};
 }
 
 Patch Mesh::whole_side(std::uint32_t facet, bool back) const {
@@ -134,35 +135,14 @@ Patch Mesh::patch_from(const Polygon& shape, std::uint32_t facet, bool back) con
         scene_.facets[facet].material,  back,           scene_.facets[facet].material};
 }
 
-void Mesh::offset_layers() {
-    constexpr double step = 0x1p-28; // larger than what is taken for rounding elsewhere
-    const CoplanarLayers layers = find_coplanar_layers(scene_, vertices_);
-    for (std::uint32_t f = 0; f < layers.offset.size(); ++f) {
-        const Polygon shape = shape_of(f);
-        if (layers.offset[f] == 0 || !(shape.area() > 0))
-            continue;
-        const bool triangle = shape.is_triangle();
-        const Vec3 way = layers.offset[f] * step * shape.normal();
-        const auto first = static_cast<std::uint32_t>(vertices_.size());
-        for (const Vec3& corner : shape.corner)
-            vertices_.push_back(corner + way);
-        corners_[f] = {first, first + 1, first + 2, first + (triangle ? 2 : 3)};
-    }
-    all_layers_are_offset_ = layers.complete;
-    if (!layers.buried.empty())
-        corners_to_trace_ = corners_;
-    for (const std::uint32_t f : layers.buried)
-        corners_to_trace_[f].fill(corners_[f][0]);
-}
-
 void Mesh::divide(const MeshOptions& options) {
     divisions_.reserve(scene_.facets.size());
     std::size_t patches = 0;
     for (std::uint32_t f = 0; f < scene_.facets.size(); ++f) {
         const bool is_whole =
             !(options.max_edge > 0) || scene_.materials[scene_.facets[f].material].is_far;
-        const double max_edge =
-            is_whole ? std::numeric_limits<double>::infinity() : options.max_edge * frame_.scale;
+        const double max_edge = is_whole ? std::numeric_limits<double>::infinity()
+                                         : options.max_edge * facets_.frame.scale;
         const std::size_t sides = has_back(f) ? 2 : 1;
         const std::size_t left = options.max_patches - std::min(options.max_patches, patches);
         const FacetDivision pieces(shape_of(f), max_edge, left / sides);

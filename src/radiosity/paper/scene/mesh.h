@@ -62,10 +62,29 @@ struct LocalFrame {
     [[nodiscard]] std::vector<Vec3> to_local(std::span<const Vec3> world) const;
 };
 
+/// The facets of a scene as rays meet them, in the local frame.
+struct LocalFacets {
+    /// Throws std::invalid_argument when the scene has no facet.
+    explicit LocalFacets(const Scene& scene);
+
+    LocalFrame frame;
+    std::vector<Vec3> vertices;                 ///< those of the scene, and others behind them
+    std::vector<FacetCorners> corners;          ///< by facet: indices into `vertices`
+    std::vector<FacetCorners> corners_to_trace; ///< the same for a tracer; empty: as `corners`
+    bool all_layers_are_offset = true;
+
+    /// Returns a facet, counter-clockwise from its front.
+    [[nodiscard]] Polygon shape_of(std::uint32_t facet) const {
+        return polygon_of(vertices, corners[facet]);
+    }
+};
+
 class Mesh {
   public:
     /// Throws std::invalid_argument when the scene has no facet or too many patches would be made.
     explicit Mesh(Scene scene, const MeshOptions& options = {});
+    /// Does the same with facets that are not quite where the scene has them (layered_mesh.h).
+    Mesh(Scene scene, const MeshOptions& options, LocalFacets facets);
 
     /// Divides each patch `levels[patch]` times: each level makes four patches of one, or two of a
     /// long one. The larger of the levels of a patch's two sides counts. Facets, and tracers of
@@ -73,7 +92,7 @@ class Mesh {
     std::vector<std::uint32_t> refine(std::span<const std::uint8_t> levels);
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
-    [[nodiscard]] const LocalFrame& frame() const { return frame_; }
+    [[nodiscard]] const LocalFrame& frame() const { return facets_.frame; }
     [[nodiscard]] std::span<const Patch> patches() const { return patches_; }
     /// Returns the colours of a patch: those of its material, or the means of textures over it. The
     /// latter have no name.
@@ -82,8 +101,7 @@ class Mesh {
     }
     /// Returns whether the emission of a patch differs from that of others on its facet.
     [[nodiscard]] bool emits_by_texture(const Patch& patch) const {
-        return scene_.textures.on(patch.material) &&
-               scene_.textures.of_material[patch.material].emission.texture;
+        return scene_.varying && scene_.varying->emission_on(patch.material);
     }
     /// Returns whether a facet has patches on its back.
     [[nodiscard]] bool has_back(std::uint32_t facet) const {
@@ -93,8 +111,8 @@ class Mesh {
         return material(patches_[patch]);
     }
     /// Returns vertices of the scene in the local frame, indexed by Facet::vertex. Those of facets
-    /// offset from others in their plane follow (coplanar_layers.h).
-    [[nodiscard]] std::span<const Vec3> vertices() const { return vertices_; }
+    /// offset from others in their plane follow (layered_mesh.h).
+    [[nodiscard]] std::span<const Vec3> vertices() const { return facets_.vertices; }
     /// Returns the frame in which the subdivided hemisphere of a patch stands. It is turned about
     /// the normal by an angle hashed from the patch's index. So its vertices do not run along the
     /// edges of a regular mesh (docs/decisions.md, D12).
@@ -106,15 +124,13 @@ class Mesh {
         return Frame::from_normal(patches_[patch].normal).turned(turn);
     }
     /// Returns a facet in the local frame, counter-clockwise from its front.
-    [[nodiscard]] Polygon shape_of(std::uint32_t facet) const {
-        return polygon_of(vertices_, corners_[facet]);
-    }
+    [[nodiscard]] Polygon shape_of(std::uint32_t facet) const { return facets_.shape_of(facet); }
     /// Returns the facets in the local frame, for a tracer to copy or to refer to.
     [[nodiscard]] FacetSoup soup() const;
     /// Returns the facets for a tracer; no ray can meet those that are buried under many others.
     [[nodiscard]] FacetSoup soup_to_trace() const;
     /// Returns false where so many facets lie over each other that not all could be offset.
-    [[nodiscard]] bool all_layers_are_offset() const { return all_layers_are_offset_; }
+    [[nodiscard]] bool all_layers_are_offset() const { return facets_.all_layers_are_offset; }
     /// Returns one side of a facet as a single patch, as if the facet were not divided.
     [[nodiscard]] Patch whole_side(std::uint32_t facet, bool back) const;
     /// Returns whether a facet has more than one patch on each side.
@@ -138,7 +154,6 @@ class Mesh {
     struct Refinement;
 
     [[nodiscard]] Patch patch_from(const Polygon& shape, std::uint32_t facet, bool back) const;
-    void offset_layers();
     void divide(const MeshOptions& options);
     [[nodiscard]] CellShape cell_shape(std::uint32_t facet, const Polygon& piece) const;
     void refine_facet(std::uint32_t facet, Refinement& before);
@@ -151,13 +166,9 @@ class Mesh {
     void find_colours();
 
     Scene scene_;
-    LocalFrame frame_;
-    std::vector<Vec3> vertices_;
-    std::vector<FacetCorners> corners_;
-    std::vector<FacetCorners> corners_to_trace_; ///< empty: as corners_
-    bool all_layers_are_offset_ = true;
+    LocalFacets facets_;
     std::vector<Patch> patches_;
-    std::vector<Material> colours_; ///< the materials, then those of textured patches
+    std::vector<Material> colours_; ///< the materials, then those of patches on which colours vary
     std::vector<Division> divisions_;
     CellTree cells_;
     std::vector<std::uint32_t>

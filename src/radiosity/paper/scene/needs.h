@@ -1,9 +1,8 @@
 #pragma once
-// Finds what a scene needs: work that would not change its solution is left out.
+// Says what a scene needs: work that would not change its solution may be left out.
 //
-// This small analysis of the mesh is made once. Methods and tracers ask it before they do their
-// work. docs/decisions.md says which omission keeps every byte and which keeps the result within
-// its error.
+// The engine finds out (engine/needs/find_needs.h). Whoever knows nothing takes everything for
+// needed.
 
 #include <cassert>
 #include <cstddef>
@@ -11,8 +10,6 @@
 #include <vector>
 
 namespace hemilux {
-
-class Mesh;
 
 struct Needs {
     bool colours = true; ///< false: all is grey, one channel stands for three
@@ -39,16 +36,5 @@ struct Needs {
 
 /// The needs of a scene about which nothing is known: no work is left out.
 inline const Needs everything_needed;
-
-/// Finds the needs of a scene in O(facets) time; in scenes made to be difficult it finds out less.
-/// The answer is conservative: what is uncertain is needed.
-[[nodiscard]] Needs find_needs(const Mesh& mesh);
-
-/// Returns whether rays need a tree, as find_needs() finds it, without the rest of the analysis.
-[[nodiscard]] bool needs_tree(const Mesh& mesh);
-
-/// Up to so many triangles form one leaf of the tree, tested at once. With more of them boxes pay
-/// (measured in docs/results.md).
-inline constexpr std::size_t most_triangles_without_tree = 8;
 
 } // namespace hemilux

@@ -2,10 +2,11 @@
 // Describes what a file holds: polygons with materials and groups, in the user's own units.
 
 #include "geometry/vector.h"
-#include "radiosity/light/textures/texture_map.h"
+#include "radiosity/paper/scene/varying_colours.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,13 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<std::string> groups;
     std::uint32_t faces = 0; ///< faces in the file, including those without area
-    SceneTextures textures;  ///< a textured material has the colours of its textures' means
+    /// The colours of materials that vary over their facets, such as textures. The Material has
+    /// their means. It is empty where none varies; copies of a scene share it.
+    std::shared_ptr<VaryingColours> varying = {};
+
+    [[nodiscard]] bool colours_vary_on(std::uint32_t material) const {
+        return varying && varying->on(material);
+    }
 };
 
 /// Returns, by material, whether some facet is made of it.

@@ -2,7 +2,6 @@
 
 #include "geometry/frame.h"
 #include "geometry/polygon_sampler.h"
-#include "parallel/workers.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/rays/receivers.h"
 #include "radiosity/paper/sampling/rng.h"
@@ -17,7 +16,6 @@ namespace {
 
 /// The rays of each patch at first; they become four times as many whenever they find nothing.
 constexpr double first_rays = 8;
-constexpr std::size_t patches_per_chunk = 4;
 
 class Search {
   public:
@@ -71,11 +69,8 @@ class Search {
     bool release(const std::vector<std::uint32_t>& shooters, std::size_t rays) {
         ++round_;
         std::vector<std::vector<std::uint32_t>> freed(shooters.size());
-        const auto body = [&](std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end && !input_.monitor.interrupted; ++k)
-                freed[k] = freed_by(shooters[k], rays);
-        };
-        Workers(input_.options.threads).for_chunks(shooters.size(), patches_per_chunk, body);
+        for (std::size_t k = 0; k < shooters.size() && !input_.monitor.interrupted; ++k)
+            freed[k] = freed_by(shooters[k], rays);
         bool any = false;
         for (const std::vector<std::uint32_t>& list : freed)
             for (const std::uint32_t patch : list)

@@ -2,7 +2,6 @@
 // Defines a solver: it takes steps, each of which improves the solution.
 
 #include "bvh/tracer.h"
-#include "parallel/ranks.h"
 #include "radiosity/paper/scene/needs.h"
 #include "radiosity/paper/solution/solution.h"
 #include "radiosity/paper/solving/solve_options.h"
@@ -35,9 +34,6 @@ struct SolverInput {
     /// The weight of each patch, Solution::weight, for methods that take one (Method::aims). It is
     /// empty where all are 1.
     std::span<const double> target = {};
-    /// The ranks that solve the problem together; the monitor's flag is one of theirs
-    /// (StopFlag::share). The solution does not depend on their number.
-    const Ranks& ranks = one_rank();
 };
 
 class StateWriter;

@@ -1,74 +1,54 @@
 #pragma once
 // Tells a solver to stop as soon as possible: its caller wishes it, or the time of the run is over.
 
-#include "parallel/ranks.h"
-
-#include <algorithm>
 #include <atomic>
 
 namespace hemilux {
 
-/// A flag with two reasons to stop. As std::atomic<bool> it holds the caller's wish alone, which a
-/// signal handler may set. Converted to bool it is true for either reason.
-///
-/// Where several ranks solve one problem each has a flag, and all must stop at the same place. The
-/// flag is then true from the next call of agree() on.
-class StopFlag : public std::atomic<bool> {
+class StopFlag {
   public:
-    StopFlag() : std::atomic<bool>(false) {}
-    using std::atomic<bool>::operator=;
-
-    operator bool() const { return wished() || out_of_time(); }
-    /// Returns whether the caller wishes it.
-    [[nodiscard]] bool wished() const { return is_own() ? own_wish() : agreed_wish_.load(); }
-    [[nodiscard]] bool out_of_time() const {
-        return (is_own() ? out_of_time_ : agreed_time_).load();
-    }
-    void set_out_of_time(bool is_over) {
-        out_of_time_ = is_over;
-        agreed_time_ = agreed_time_ && is_over;
-    }
-
-    /// Makes it a flag of these ranks.
-    void share(const Ranks& ranks) { ranks_ = ranks.are_several() ? &ranks : nullptr; }
-    /// Returns the ranks that do together what it may stop: this one alone, unless the flag is
-    /// shared.
-    [[nodiscard]] const Ranks& ranks() const { return is_own() ? one_rank() : *ranks_; }
-    /// Returns true where one of the ranks is to stop; all call it. A single rank gets its own
-    /// flag.
-    bool agree() const {
-        if (ranks_) {
-            const auto of_ranks = ranks_->of_each(Reasons{own_wish(), out_of_time_});
-            agreed_wish_ = std::ranges::any_of(of_ranks, &Reasons::wish);
-            agreed_time_ = std::ranges::any_of(of_ranks, &Reasons::time);
-        }
-        return *this;
-    }
-
-    /// Makes the flag that of this rank alone while it lives: for work that no other rank does, and
-    /// whose end all agree on afterwards.
-    class OfThisRank {
-      public:
-        explicit OfThisRank(const StopFlag& flag) : flag_(flag) { flag_.is_of_this_rank_ = true; }
-        ~OfThisRank() { flag_.is_of_this_rank_ = false; }
-        OfThisRank(const OfThisRank&) = delete;
-        OfThisRank& operator=(const OfThisRank&) = delete;
-
-      private:
-        const StopFlag& flag_;
+    struct Reasons {
+        std::atomic<bool> wished{false};      ///< by the caller, or by a signal handler of his
+        std::atomic<bool> out_of_time{false}; ///< as a time limit is over
     };
+    /// The reasons on which several processes have agreed, so that all stop at the same place
+    /// (engine/solving/shared_stop.h).
+    struct Agreed {
+        Reasons reasons;
+        std::atomic<bool> is_set_aside{false}; ///< the flag's own reasons decide for now
+    };
+
+    StopFlag() = default;
+    StopFlag(const StopFlag&) = delete;
+    StopFlag& operator=(const StopFlag&) = delete;
+
+    /// Returns whether the caller wishes it.
+    [[nodiscard]] bool is_wished() const { return in_force().wished; }
+    [[nodiscard]] bool is_out_of_time() const { return in_force().out_of_time; }
+    /// Returns whether there is a reason to stop.
+    explicit operator bool() const { return is_wished() || is_out_of_time(); }
+
+    void set_wished(bool is_wished) { own_.wished = is_wished; }
+    void set_out_of_time(bool is_over) {
+        own_.out_of_time = is_over;
+        if (agreed_ && !is_over)
+            agreed_->reasons.out_of_time = false;
+    }
+
+    /// Returns the reasons of this process.
+    [[nodiscard]] Reasons& own() { return own_; }
+    [[nodiscard]] const Reasons& own() const { return own_; }
+    /// Lets agreed reasons, which outlive this use, decide in place of its own; nullptr: its own.
+    void decide_by(Agreed* agreed) { agreed_ = agreed; }
+    [[nodiscard]] Agreed* agreed() const { return agreed_; }
 
   private:
-    struct Reasons {
-        bool wish, time;
-    };
-    [[nodiscard]] bool own_wish() const { return load(std::memory_order_relaxed); }
-    [[nodiscard]] bool is_own() const { return !ranks_ || is_of_this_rank_; }
+    [[nodiscard]] const Reasons& in_force() const {
+        return agreed_ && !agreed_->is_set_aside ? agreed_->reasons : own_;
+    }
 
-    std::atomic<bool> out_of_time_{false};
-    const Ranks* ranks_ = nullptr; ///< nullptr: one alone
-    mutable std::atomic<bool> agreed_wish_{false}, agreed_time_{false};
-    mutable std::atomic<bool> is_of_this_rank_{false};
+    Reasons own_;
+    Agreed* agreed_ = nullptr;
 };
 
 } // namespace hemilux

@@ -202,7 +202,8 @@ TEST_CASE("Rays of a step are listed in parts, however many there are", "[slow]"
                 continue;
             CAPTURE(name, literal);
             Monitor monitor;
-            const test::AfterStreams tracer(model.bvh, 400, [&] { monitor.interrupted = true; });
+            const test::AfterStreams tracer(model.bvh, 400,
+                                            [&] { monitor.interrupted.set_wished(true); });
             const SolveOptions options{.rays = 1e9, .literal = literal, .threads = 1};
             const auto solver = method.make({model.mesh, tracer, options, monitor});
             const double before = peak_megabytes();
@@ -223,7 +224,7 @@ TEST_CASE("At the end of its time every method leaves the step it is in") {
         const auto solver = method->make({model.mesh, tracer, options, monitor});
         const bool counts = solver->step(); // progressive: the shots that were done
         CHECK(solver->solution().steps == (counts ? 1 : 0));
-        CHECK_FALSE(monitor.interrupted.load());
+        CHECK_FALSE(monitor.interrupted.is_wished());
         CHECK(monitor.rays < 4000 * model.mesh.patches().size());
     }
 }
@@ -281,14 +282,14 @@ TEST_CASE("A time limit sets its flag once the time is over, and clears it in th
     StopFlag flag;
     {
         const TimeLimit none(flag, std::nullopt), long_one(flag, 1e300);
-        CHECK_FALSE(flag);
+        CHECK_FALSE(bool(flag));
     }
     {
         const TimeLimit limit(flag, 0.0);
         while (!flag)
             std::this_thread::yield();
-        CHECK(flag.out_of_time());
-        CHECK_FALSE(flag.load());
+        CHECK(flag.is_out_of_time());
+        CHECK_FALSE(flag.is_wished());
     }
-    CHECK_FALSE(flag);
+    CHECK_FALSE(bool(flag));
 }

@@ -223,7 +223,7 @@ TEST_CASE("A run ends at the steps, the time or the error asked for, or when int
     const bool completed =
         run(*solver, input, test::steps(10), [&](const StepRecord& record, const Solution& now) {
             last = now.radiosity;
-            monitor.interrupted = record.step == 4;
+            monitor.interrupted.set_wished(record.step == 4);
         });
     CHECK_FALSE(completed);
     CHECK(solver->solution().steps == 4);
@@ -337,7 +337,7 @@ TEST_CASE("monte-carlo shot by shot: brighter with each, and in the end its firs
     CHECK(end.energy.unshot == whole.energy.unshot);
     REQUIRE(solver->step()); // there is nothing left
     CHECK(test::same_bits(solver->solution().radiosity, whole.radiosity));
-    monitor.interrupted = true;
+    monitor.interrupted.set_wished(true);
     const auto other = method.make(input);
     CHECK_FALSE(other->step());
     CHECK(other->solution().steps == 0);

@@ -2,6 +2,7 @@
 // are the same, within standard errors for stored-transport.
 #include "io/scene_files/obj.h"
 #include "radiosity/engine/densities/subdivision_1997.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
@@ -152,7 +153,7 @@ TEST_CASE("A page that is interrupted has the solution of the steps before") {
         const auto solver = one->plain(input);
         REQUIRE(solver->step());
         const std::vector<Vec3> before = solver->solution().radiosity;
-        monitor.interrupted = true;
+        monitor.interrupted.set_wished(true);
         CHECK_FALSE(solver->step());
         CHECK(solver->solution().steps == 1);
         CHECK(test::same_bits(solver->solution().radiosity, before));

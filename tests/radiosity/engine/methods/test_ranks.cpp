@@ -1,5 +1,7 @@
 // The same bytes on any number of ranks, which are threads here: solutions, logs and states.
 #include "parallel/workers.h"
+#include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/light/final_gather/final_gather.h"
 #include "radiosity/light/final_gather/surface_points.h"
 #include "radiosity/light/light_error/division_error.h"
@@ -41,15 +43,14 @@ struct Run {
 
 Found solve_on(const Ranks& ranks, const Run& asked) {
     Monitor monitor;
-    monitor.interrupted.share(ranks);
+    const SharedStop shared(monitor.interrupted, ranks);
     const Needs needs = find_needs(asked.model.mesh);
     const SolverInput input{.mesh = asked.model.mesh,
                             .tracer = asked.model.bvh,
                             .options = asked.options,
                             .monitor = monitor,
                             .needs = needs,
-                            .target = asked.target,
-                            .ranks = ranks};
+                            .target = asked.target};
     const auto solver = asked.method.make(input);
     Before before;
     if (!asked.resumed.empty()) {
@@ -220,7 +221,7 @@ TEST_CASE("Ranks share the gathers that find how far light is off within patches
     std::vector<std::uint64_t> rays(2);
     run_as_ranks(2, [&](const Ranks& ranks) {
         StopFlag flag;
-        flag.share(ranks);
+        const SharedStop shared(flag, ranks);
         found[ranks.index()] = find(flag);
         rays[ranks.index()] = ranks.work().rays;
     });
@@ -240,7 +241,7 @@ TEST_CASE("What rays of a gather met is known to all ranks") {
     const PointsOverSurface surface(model.mesh, {});
     const auto gather_on = [&](const Ranks& ranks, std::vector<std::uint32_t>& met) {
         StopFlag flag;
-        flag.share(ranks);
+        const SharedStop shared(flag, ranks);
         FinalGather gather(model.mesh, model.bvh, std::span<const Vec3>(light));
         gather.record_receivers(met);
         return gather_over(surface, gather, 100, 2, 7, Workers(1), flag).irradiance;
@@ -271,16 +272,13 @@ TEST_CASE("Where one rank is interrupted all end at the same step") {
             std::atomic<int> completed{0};
             run_as_ranks(3, [&](const Ranks& ranks) {
                 Monitor monitor;
-                monitor.interrupted.share(ranks);
+                const SharedStop shared(monitor.interrupted, ranks);
                 const test::AfterStreams tracer(model.bvh, streams, [&] {
                     if (ranks.index() == 1)
-                        monitor.interrupted = true;
+                        monitor.interrupted.set_wished(true);
                 });
-                const SolverInput input{.mesh = model.mesh,
-                                        .tracer = tracer,
-                                        .options = options,
-                                        .monitor = monitor,
-                                        .ranks = ranks};
+                const SolverInput input{
+                    .mesh = model.mesh, .tracer = tracer, .options = options, .monitor = monitor};
                 const auto solver = method.make(input);
                 completed += run(*solver, input, test::steps(40)) ? 1 : 0;
                 found[ranks.index()] = solver->solution();

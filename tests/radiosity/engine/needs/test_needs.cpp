@@ -3,6 +3,7 @@
 #include "radiosity/engine/densities/density.h"
 #include "radiosity/engine/form_factors/point_to_patch.h"
 #include "radiosity/engine/needs/convex_enclosure.h"
+#include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/needs/lit_facets.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/solving/left_out.h"

@@ -65,11 +65,11 @@ TEST_CASE("A run of steps side by side goes on where it was interrupted") {
             CAPTURE(name, streams);
             Monitor monitor;
             const test::AfterStreams tracer(model.bvh, streams,
-                                            [&] { monitor.interrupted = true; });
+                                            [&] { monitor.interrupted.set_wished(true); });
             const auto solver = method.make({model.mesh, tracer, options, monitor});
             while (solver->solution().steps < 6)
                 if (!solver->step())
-                    REQUIRE(monitor.interrupted.exchange(false));
+                    REQUIRE(monitor.interrupted.own().wished.exchange(false));
             check_same(solver->solution(), whole);
         }
     }
@@ -107,7 +107,7 @@ TEST_CASE("What is worked out when a run is interrupted is not lost") {
                 return;
             ready = solver->steps_ready();
             at = record.step;
-            monitor.interrupted = ready > 0;
+            monitor.interrupted.set_wished(ready > 0);
         }));
     CHECK(ready > 0);
     CHECK(solver->solution().steps == at + ready);

@@ -153,7 +153,7 @@ TEST_CASE("Conjugate gradients end where they are interrupted") {
     const std::vector<Vec3> half(n, Vec3(.5)), d(n, Vec3(1));
     for (const bool stopped : {false, true}) {
         StopFlag flag;
-        flag = stopped;
+        flag.set_wished(stopped);
         std::vector<Vec3> h(n);
         CHECK((solve_by_gradients(f, area, half, d, h, workers, 1e-9, &flag) == 0) == stopped);
     }
@@ -298,12 +298,13 @@ TEST_CASE("A step of stored transport that was interrupted is taken up where it 
         REQUIRE(whole->step());
     for (const int streams : {1, 5, 30}) {
         CAPTURE(streams);
-        const test::AfterStreams tracer(model.bvh, streams, [&] { monitor.interrupted = true; });
+        const test::AfterStreams tracer(model.bvh, streams,
+                                        [&] { monitor.interrupted.set_wished(true); });
         const SolverInput input{model.mesh, tracer, options, monitor};
         const auto stopped = stored_transport().make(input);
         while (stopped->step())
             ;
-        REQUIRE(monitor.interrupted.exchange(false));
+        REQUIRE(monitor.interrupted.own().wished.exchange(false));
         REQUIRE(stopped->solution().steps < 3);
         const auto resumed = stored_transport().make(input);
         test::hand_over(*stopped, *resumed);

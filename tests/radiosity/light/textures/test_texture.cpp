@@ -1,5 +1,6 @@
 // Means of textures over polygons, beside sums over many points.
 
+#include "radiosity/light/textures/scene_textures.h"
 #include "radiosity/light/textures/texture.h"
 
 #include "radiosity/paper/sampling/rng.h"
@@ -149,11 +150,11 @@ TEST_CASE("patches have the means of their own parts of a texture", "[texture]")
     scene.materials.push_back({"m", Vec3(.2), Vec3(0.0)});
     scene.groups = {"g"};
     scene.faces = 1;
-    scene.textures.of_material.resize(1);
-    TextureMap& map = scene.textures.of_material[0].reflectance;
+    own_textures_of(scene).of_material.resize(1);
+    TextureMap& map = own_textures_of(scene).of_material[0].reflectance;
     map.texture = std::make_shared<const Texture>(steps());
     map.factor = Vec3(.5);
-    scene.textures.texcoords = {{Texcoords{{{0, 0}, {1, 0}, {1, 1}, {quad ? 0 : 1, 1}}}}};
+    own_textures_of(scene).texcoords = {{Texcoords{{{0, 0}, {1, 0}, {1, 1}, {quad ? 0 : 1, 1}}}}};
     Mesh whole(scene);
     CHECK(whole.material(0).reflectance.y == Approx(quad ? .25 : .125));
     const Mesh divided(scene, {.max_edge = 1});

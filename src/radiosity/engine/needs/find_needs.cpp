@@ -1,4 +1,4 @@
-#include "radiosity/paper/scene/needs.h"
+#include "radiosity/engine/needs/find_needs.h"
 
 #include "radiosity/engine/needs/convex_enclosure.h"
 #include "radiosity/engine/needs/lit_facets.h"

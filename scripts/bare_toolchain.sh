@@ -1,0 +1,81 @@
+#!/bin/sh
+# Shows that the storey `paper` needs a compiler, CMake, Make and GLM's headers and nothing else: builds
+# it with its examples, without warnings, and runs these.
+#
+#   scripts/bare_toolchain.sh           in an empty root with the files of those packages alone (Debian, as
+#                                       root; nothing is downloaded)
+#   scripts/bare_toolchain.sh --here    on this system, by each compiler that is found: g++ with Make,
+#                                       clang++ with Ninja and with libc++, the cross compiler for aarch64
+#                                       (run by qemu-user; the same bytes as here), and em++ (run by node)
+#
+# Ends with 77 where the first is not possible.
+set -eu
+case ${1-} in '' | --here) ;; *) sed -n '2,11s/^# \{0,1\}//p' "$0" >&2; exit 1 ;; esac
+cd "$(dirname "$0")/.."
+cores=$(nproc 2>/dev/null || echo 2)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# build NAME ARGUMENT...: configures with these arguments, builds and runs the examples.
+build() {
+    name=$1
+    shift
+    cmake -S . -B "$work/$name" -DHEMILUX_UP_TO=paper -DHEMILUX_WARNINGS_AS_ERRORS=ON \
+        -DCMAKE_BUILD_TYPE=Release -DCMAKE_DISABLE_FIND_PACKAGE_Catch2=ON "$@" >"$work/$name.txt" 2>&1 &&
+        cmake --build "$work/$name" --parallel "$cores" >>"$work/$name.txt" 2>&1 &&
+        (cd "$work/$name" && ctest --output-on-failure) >>"$work/$name.txt" 2>&1 ||
+        { cat "$work/$name.txt" >&2; exit 1; }
+    echo "$name: $(sed -n '/tests passed/p' "$work/$name.txt")"
+}
+
+if [ "${1-}" = --here ]; then
+    build make -G "Unix Makefiles" -DCMAKE_CXX_COMPILER=g++
+    "$work/make/examples/10_pages" >"$work/bytes.txt"
+    if command -v clang++ >/dev/null && command -v ninja >/dev/null; then
+        build clang-ninja -G Ninja -DCMAKE_CXX_COMPILER=clang++
+        if echo '#include <version>' | clang++ -stdlib=libc++ -x c++ -fsyntax-only - 2>/dev/null; then
+            build libc++ -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS=-stdlib=libc++
+        fi
+    fi
+    if command -v aarch64-linux-gnu-g++ >/dev/null && command -v qemu-aarch64 >/dev/null; then
+        build aarch64 -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 \
+            -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++ \
+            "-DCMAKE_CROSSCOMPILING_EMULATOR=qemu-aarch64;-L;/usr/aarch64-linux-gnu"
+        qemu-aarch64 -L /usr/aarch64-linux-gnu "$work/aarch64/examples/10_pages" | cmp - "$work/bytes.txt"
+        echo "aarch64: the same bytes"
+    fi
+    if command -v em++ >/dev/null; then
+        build emscripten "-DCMAKE_TOOLCHAIN_FILE=$(em-config EMSCRIPTEN_ROOT)/cmake/Modules/Platform/Emscripten.cmake" \
+            -DCMAKE_CXX_FLAGS=-fexceptions -Dglm_DIR="$(dirname "$(find /usr/lib /usr/share -name glmConfig.cmake | head -1)")"
+    fi
+    exit 0
+fi
+
+if [ "$(id -u)" -ne 0 ] || ! command -v apt-cache >/dev/null || ! command -v git >/dev/null; then
+    echo "an empty root needs Debian, root and git" >&2
+    exit 77
+fi
+packages="g++ cmake make libglm-dev dash coreutils grep sed diffutils findutils"
+# shellcheck disable=SC2086  # the list is meant to be split
+needed=$(apt-cache depends --recurse --installed --no-recommends --no-suggests --no-conflicts --no-breaks \
+    --no-replaces --no-enhances $packages | grep '^[a-z0-9]' | sort -u)
+for package in $needed; do
+    dpkg -L "$package" 2>/dev/null || true
+done | sort -u | while read -r file; do
+    if [ ! -d "$file" ] || [ -L "$file" ]; then echo "$file"; fi
+done >"$work/files.txt"
+root=$work/root
+mkdir "$root"
+# Links of the whole system, as /bin -> usr/bin, and what the loader and /etc/alternatives link to.
+tar -C / -cf - --ignore-failed-read --no-recursion -T "$work/files.txt" \
+    bin lib lib64 sbin etc/ld.so.cache etc/alternatives/c++ 2>/dev/null | tar -C "$root" -xf -
+mkdir -p "$root/tmp" "$root/dev" "$root/hemilux"
+: >"$root/dev/null"
+git ls-files -z | xargs -0 tar -cf - | tar -C "$root/hemilux" -xf -
+echo "$(wc -l <"$work/files.txt") files of $(echo "$needed" | wc -l) packages, $(du -sm "$root" | cut -f1) MB"
+chroot "$root" /usr/bin/env -i PATH=/usr/bin:/bin /bin/sh -c '
+    set -eu
+    cd /hemilux
+    cmake -S . -B /tmp/build -DHEMILUX_UP_TO=paper -DHEMILUX_WARNINGS_AS_ERRORS=ON -DCMAKE_BUILD_TYPE=Release
+    cmake --build /tmp/build --parallel '"$cores"'
+    cd /tmp/build && ctest --output-on-failure'

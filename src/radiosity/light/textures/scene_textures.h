@@ -1,0 +1,38 @@
+#pragma once
+// Holds the textures that the faces of a scene carry, and gives the mesh their means over patches.
+
+#include "radiosity/light/textures/texture_map.h"
+#include "radiosity/paper/scene/scene.h"
+#include "radiosity/paper/scene/varying_colours.h"
+
+#include <vector>
+
+namespace hemilux {
+
+struct MaterialTextures {
+    TextureMap reflectance, emission;
+    [[nodiscard]] bool any() const { return reflectance.texture || emission.texture; }
+};
+
+/// A textured material has the colours of its textures' means.
+struct SceneTextures final : VaryingColours {
+    std::vector<MaterialTextures> of_material;     ///< empty: no texture at all
+    std::vector<std::vector<Texcoords>> texcoords; ///< by set and facet
+
+    [[nodiscard]] bool on(std::uint32_t material) const override {
+        return material < of_material.size() && of_material[material].any();
+    }
+    [[nodiscard]] bool emission_on(std::uint32_t material) const override {
+        return on(material) && of_material[material].emission.texture;
+    }
+    [[nodiscard]] std::vector<Colours> means(const Mesh& mesh,
+                                             std::span<const std::uint32_t> patches,
+                                             unsigned threads) const override;
+};
+
+/// Returns the textures of a scene; none where it has no textures.
+[[nodiscard]] const SceneTextures& textures_of(const Scene& scene);
+/// Returns the textures of a scene to be changed, which no copy of the scene shares.
+[[nodiscard]] SceneTextures& own_textures_of(Scene& scene);
+
+} // namespace hemilux
