@@ -8,15 +8,13 @@
 #include "app/running/signals.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
-#include "app/settings/spill.h"
 #include "app/terminal/log.h"
+#include "app/terminal/print.h"
 #include "io/files/error.h"
 #include "io/files/printable.h"
-#include "io/files/spill_file.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <new>
 #include <optional>
 #include <string>
@@ -55,8 +53,8 @@ std::vector<std::string> arguments_of(int argc, const char* const* argv) {
 Provenance provenance(const Command& command, std::uint64_t seed) {
     constexpr auto beside = std::to_array<std::string_view>(
         {"--output", "--stats", "--steps-log", "--error-map", "--points-output", "--report",
-         "--every-step", "--threads", "--memory", "--spill", "--checkpoint", "--every", "--resume",
-         "--quiet", "--verbose", "--config"});
+         "--every-step", "--threads", "--memory", "--checkpoint", "--every", "--resume", "--quiet",
+         "--verbose", "--config"});
     return {"hemilux " HEMILUX_VERSION, "hemilux " + command.text_given(beside), seed};
 }
 
@@ -113,20 +111,17 @@ int run_program(std::vector<std::string> words, const Ranks& ranks, std::string&
     }
     const ConfigWords config(std::move(words), program.described());
     if (const std::string text = parsed(program, config); !text.empty()) {
-        if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
-            throw OutputError("standard output", "cannot be written");
+        print(text);
         return exit_done;
     }
     if (solve_command.parsed()) {
         solve_settings.from = provenance(solve_command, solve_settings.options.seed);
         solve_settings.given = solve_command.options_given();
-        begin_spilling(solve_settings.scene);
         return solve(solve_settings);
     }
     if (compare_command.parsed()) {
         compare_settings.from = provenance(compare_command, compare_settings.options.seed);
         compare_settings.given = compare_command.options_given();
-        begin_spilling(compare_settings.scene);
         return compare(compare_settings);
     }
     if (density_command.parsed()) {
@@ -157,8 +152,6 @@ int guarded_main(int argc, const char* const* argv) {
         return fail(exit_usage, error.what(), advice.c_str());
     } catch (const InputError& error) {
         return fail(exit_input, error.what());
-    } catch (const SpillError& error) {
-        return fail(exit_output, error.what());
     } catch (const std::bad_alloc&) {
         return fail(exit_output, "there is not enough memory");
     } catch (const std::exception& error) {

@@ -45,6 +45,8 @@ const std::vector<std::string> rooms{
     "radiosity/research/hierarchy",
     "radiosity/research/guiding",
     "radiosity/research/targets",
+    "radiosity/research/guides",
+    "radiosity/research/aimers",
     "radiosity/research/methods",
     "radiosity/light/textures",
     "radiosity/light/layers",
@@ -65,6 +67,8 @@ const std::vector<std::string> rooms{
     "io/meshes",
     "io/drawings",
     "app/settings",
+    "app/memory",
+    "app/rendering",
     "app/ranks",
     "app/terminal",
     "app/loading",
@@ -147,9 +151,8 @@ bool may_include_system(const std::string& file, const std::string& header) {
     for (const char* of_threads : {"thread", "mutex", "condition_variable", "stop_token"})
         if (header == of_threads) // the paper is read line after line, and needs none
             return storey_of(file) != "paper";
-    if (header == "sys/mman.h") // huge pages, arrays in a file, memory of several ranks
-        return file.starts_with("bvh/wide/") || file == "io/files/spill_file.cpp" ||
-               file == "mpi/memory_of_ranks.cpp";
+    if (header == "sys/mman.h") // huge pages, memory of several ranks
+        return file.starts_with("bvh/wide/") || file == "mpi/memory_of_ranks.cpp";
     const bool standard = header.find_first_of("./") == std::string::npos;
     const bool posix =
         header.ends_with(".h") && (header.find('/') == std::string::npos || begins("sys/"));

@@ -1,5 +1,6 @@
 #include "app/command_line/arguments.h"
 
+#include "app/command_line/unknown_option.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/names.h"
 #include "io/files/text_words.h"
@@ -49,7 +50,7 @@ std::string unknown_argument(const CLI::App& program, const std::string& otherwi
     else
         names = names_of(all_subcommands(program));
     const std::string word = left.front().substr(0, left.front().find('='));
-    return unknown_name(is_option ? "option" : "subcommand", word, names);
+    return is_option ? unknown_option(word, names) : unknown_name("subcommand", word, names);
 }
 
 /// Returns the option of a message of the parser, which begins with one of its names; or nullptr.

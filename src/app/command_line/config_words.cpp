@@ -1,5 +1,6 @@
 #include "app/command_line/config_words.h"
 
+#include "app/command_line/unknown_option.h"
 #include "app/settings/names.h"
 #include "io/files/error.h"
 
@@ -72,7 +73,7 @@ ConfigWords::ConfigWords(std::vector<std::string> words, const std::vector<Comma
         if (!entry.table.empty() && entry.table != command->name)
             continue;
         if (std::ranges::find(names, entry.key) == names.end())
-            throw InputError(path_, entry.line, unknown_name("option", entry.key, names));
+            throw InputError(path_, entry.line, unknown_option(entry.key, names));
         const auto option = std::ranges::find_if(command->options, [&entry](const OptionText& one) {
             return one.names.back() == "--" + entry.key;
         });

@@ -1,8 +1,8 @@
 #include "app/command_line/option_groups.h"
 
 #include "app/command_line/option_kinds.h"
+#include "app/memory/memory.h"
 #include "app/settings/exit_code.h"
-#include "app/settings/memory.h"
 #include "app/settings/names.h"
 
 #include <algorithm>
@@ -40,7 +40,8 @@ void choose_sides(SceneSettings& scene, Sides sides) {
 
 void add_sides_options(Command command, SceneSettings& scene) {
     const Option sides = add_choice<Sides>(
-        command, "--sides", sides_names,
+        command, "--sides",
+        {{Sides::automatic, "auto"}, {Sides::front, "front"}, {Sides::both, "both"}},
         "which sides of faces emit and reflect. auto: the front, faces that look away from the "
         "light being turned; front: the front as in the file; both [auto]",
         [&scene](Sides chosen) { choose_sides(scene, chosen); });
@@ -105,8 +106,6 @@ void add_memory_option(Command command, SceneSettings& scene) {
         "a number of bytes such as 800M or 1.5G",
         [](const std::string& text) { return parse_bytes(text); },
         [&scene](std::uint64_t bytes) { scene.memory = bytes; });
-    command.add_text("--spill", "FOLDER", scene.spill,
-                     "keep what is beyond --memory in a file there, which nobody sees");
 }
 
 void add_division_options(Command command, SolveOptions& options) {
@@ -208,7 +207,7 @@ void add_view_options(Command command, ViewSettings& view) {
             view.exposure = value.factor;
             view.stops = value.stops;
         });
-    add_choice(command, "--tone", view.tone, tone_names,
+    add_choice(command, "--tone", view.tone, {{Tone::neutral, "neutral"}, {Tone::srgb, "srgb"}},
                "how .png pictures show light above 0.8 of the screen's: neutral: compressed, with "
                "its hue; srgb: cut at 1 in each channel [neutral]");
 }

@@ -7,12 +7,12 @@
 #include "app/settings/extension.h"
 #include "app/settings/names.h"
 #include "app/settings/numbers.h"
+#include "radiosity/engine/solving/method_option.h"
 
-#include <algorithm>
-#include <array>
 #include <concepts>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace hemilux {
@@ -72,27 +72,28 @@ Option add_seconds(Command command, const std::string& name, Target& target,
                       [&target](double value) { target = value; });
 }
 
-/// Adds an option whose values are the names of an enumeration, in its order; `store` gets the
-/// value.
-template <class Choice, std::size_t count, class Store>
+/// Adds an option whose values are those of an enumeration; `store` gets the one that is named.
+template <class Choice, class Store>
 requires std::invocable<Store, Choice>
     Option add_choice(Command command, const std::string& name,
-                      const std::array<const char*, count>& names, const std::string& help,
+                      const std::vector<NamedChoice<Choice>>& choices, const std::string& help,
                       Store store) {
-    return command.add_value(name, joined(names, "|"), help, [=, &names](const std::string& text) {
-        const auto found = std::ranges::find(names, text);
-        if (found == names.end())
-            throw UsageError(
-                name + ": " +
-                unknown_name("choice", text, std::vector<std::string>(names.begin(), names.end())));
-        store(static_cast<Choice>(found - names.begin()));
+    std::vector<std::string> names;
+    for (const NamedChoice<Choice>& choice : choices)
+        names.emplace_back(choice.name);
+    return command.add_value(name, joined(names, "|"), help, [=](const std::string& text) {
+        const NamedChoice<Choice>* const chosen = named_choice<Choice>(choices, text);
+        if (!chosen)
+            throw UsageError(name + ": " + unknown_name("choice", text, names));
+        store(chosen->value);
     });
 }
 
-template <class Choice, std::size_t count>
+template <class Choice>
 Option add_choice(Command command, const std::string& name, Choice& target,
-                  const std::array<const char*, count>& names, const std::string& help) {
-    return add_choice<Choice>(command, name, names, help,
+                  const std::vector<NamedChoice<std::type_identity_t<Choice>>>& choices,
+                  const std::string& help) {
+    return add_choice<Choice>(command, name, choices, help,
                               [&target](Choice value) { target = value; });
 }
 

@@ -40,9 +40,9 @@ void add_method_option(Command command, const Method*& method) {
     method = &method_of(Role::standard);
     std::string taken(method->name);
     for (const Method* const other : methods())
-        if (!other->implied_by.empty())
+        if (other->implied_by)
             taken += "; " + std::string(other->name) + " where " +
-                     joined(other->implied_by, ", ", " or ") + " are given";
+                     joined(other->implied_by(), ", ", " or ") + " are given";
     command.add_value("--method", "METHOD", "how to solve, see below [" + taken + "]",
                       [&method](const std::string& name) { method = method_by_name(name); });
     command.after_parsing([command, &method] {
@@ -52,7 +52,7 @@ void add_method_option(Command command, const Method*& method) {
         if (given("--method"))
             return;
         for (const Method* const other : methods())
-            if (std::ranges::any_of(other->implied_by, given))
+            if (other->implied_by && std::ranges::any_of(other->implied_by(), given))
                 method = other;
     });
 }
@@ -81,7 +81,10 @@ void add_output_options(Command command, SolveSettings& settings) {
     command.add_flag("--every-step", settings.every_step,
                      "also write the pictures after every step, as NAME-0001.png and so on");
     add_choice(
-        command, "--bake", settings.bake, bake_names,
+        command, "--bake", settings.bake,
+        {{Bake::radiosity, name_of(Bake::radiosity)},
+         {Bake::irradiance, name_of(Bake::irradiance)},
+         {Bake::indirect, name_of(Bake::indirect)}},
         "what .glb and .ply files hold: radiosity: what surfaces send; irradiance: what "
         "arrives, for viewers with textures of their own; indirect: of that what was reflected "
         "before, for viewers that light by lamps, too [radiosity]");
@@ -89,7 +92,8 @@ void add_output_options(Command command, SolveSettings& settings) {
         command, "--lightmap", settings.lightmap, 16, SolveSettings::most_lightmap,
         "beside .glb files the same light as a picture NAME.lightmap.exr of N x N texels, "
         "linear floats, for the texture coordinates TEXCOORD_1");
-    add_choice(command, "--ply-colours", settings.ply_colours, ply_colour_names,
+    add_choice(command, "--ply-colours", settings.ply_colours,
+               {{PlyColours::linear, "linear"}, {PlyColours::shown, "shown"}},
                "colours of .ply files: linear: the light itself as float; shown: 8 bits as "
                "pictures show it, with the light as further properties [linear]");
     add_view_options(command, settings.view);

@@ -5,26 +5,24 @@
 #include "app/commands/compare_run.h"
 #include "app/commands/compare_summary.h"
 #include "app/loading/load.h"
+#include "app/memory/memory.h"
+#include "app/rendering/view.h"
 #include "app/report/comparison_page.h"
 #include "app/running/signals.h"
 #include "app/settings/exit_code.h"
-#include "app/settings/memory.h"
 #include "app/settings/method_options.h"
 #include "app/settings/names.h"
-#include "app/settings/spill.h"
 #include "app/settings/text.h"
-#include "app/settings/view.h"
 #include "app/terminal/log.h"
+#include "app/terminal/print.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/summary.h"
 #include "app/terminal/unused_options.h"
 #include "app/terminal/wrap.h"
-#include "io/files/error.h"
 #include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/paper/sampling/rng.h"
 
 #include <atomic>
-#include <iostream>
 #include <span>
 #include <unistd.h>
 
@@ -141,12 +139,9 @@ int finish(const Comparison& comparison, std::vector<MethodRuns> results) {
         log_line(verbosity, Verbosity::normal, "the reference's own error: " + percent(own));
         if (!warning.empty())
             log_line(verbosity, Verbosity::normal, "warning: " + warning);
-        std::cout << aligned_for(terminal_columns(STDOUT_FILENO), summary_rows(summaries))
-                  << std::flush;
+        print(aligned_for(terminal_columns(STDOUT_FILENO), summary_rows(summaries)));
         if (const std::string note = gain_note(summaries); !note.empty())
             log_line(verbosity, Verbosity::normal, note);
-        if (!std::cout)
-            throw OutputError("standard output", "cannot be written");
     }
     report.log(verbosity);
     if (comparison.monitor.interrupted)
@@ -193,7 +188,6 @@ int run_comparison(CompareSettings settings, std::vector<std::uint32_t>& face_li
     guard.watch(monitor.interrupted.own().wished);
     const SharedStop shared_stop(monitor.interrupted, *settings.ranks);
     log_line(settings.verbosity, Verbosity::verbose, tracer_text(tree, prepared.seconds));
-    leave_memory_to_steps();
     if (!reference)
         reference = compute_reference(settings, mesh, *tracer, needs, monitor);
     if (!reference) {

@@ -1,9 +1,9 @@
 #include "app/commands/compare_outputs.h"
 
+#include "app/rendering/view.h"
 #include "app/report/comparison_page.h"
 #include "app/settings/names.h"
 #include "app/settings/text.h"
-#include "app/settings/view.h"
 #include "io/drawings/false_colour.h"
 #include "io/drawings/plot.h"
 #include "io/files/atomic_file.h"

@@ -1,7 +1,7 @@
 #include "app/commands/compare_run.h"
 
+#include "app/memory/memory.h"
 #include "app/running/step_size.h"
-#include "app/settings/memory.h"
 #include "app/terminal/stopwatch.h"
 #include "radiosity/engine/solving/shared_stop.h"
 #include "radiosity/engine/solving/time_limit.h"

@@ -7,12 +7,11 @@
 #include "app/settings/exit_code.h"
 #include "app/settings/text.h"
 #include "app/terminal/log.h"
+#include "app/terminal/print.h"
 #include "app/terminal/wrap.h"
-#include "io/files/error.h"
 #include "io/results/scene_info_json.h"
 #include "radiosity/engine/needs/find_needs.h"
 
-#include <iostream>
 #include <unistd.h>
 
 namespace hemilux {
@@ -59,12 +58,9 @@ int info(const InfoSettings& settings) {
         if (report.info.bad_reflectances.empty())
             report.error_division = error_within_patches(mesh, *made.tracer);
     }
-    std::cout << (settings.json ? to_json(report)
-                                : message_for(STDOUT_FILENO, describe(report, read.scene, asked),
-                                              info_value_column));
-    std::cout.flush();
-    if (!std::cout)
-        throw OutputError("standard output", "cannot be written");
+    print(settings.json
+              ? to_json(report)
+              : message_for(STDOUT_FILENO, describe(report, read.scene, asked), info_value_column));
     return exit_done;
 }
 

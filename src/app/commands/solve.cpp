@@ -7,6 +7,8 @@
 #include "app/division/whole_error.h"
 #include "app/loading/load.h"
 #include "app/loading/reference.h"
+#include "app/memory/memory.h"
+#include "app/rendering/view.h"
 #include "app/running/checkpointing.h"
 #include "app/running/point_table.h"
 #include "app/running/run_files.h"
@@ -16,11 +18,8 @@
 #include "app/running/step_size.h"
 #include "app/running/target_weights.h"
 #include "app/settings/exit_code.h"
-#include "app/settings/memory.h"
 #include "app/settings/method_options.h"
-#include "app/settings/spill.h"
 #include "app/settings/text.h"
-#include "app/settings/view.h"
 #include "app/terminal/log.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/stopwatch.h"
@@ -168,10 +167,7 @@ std::unique_ptr<Solver> SolveRun::begin() {
     options_.stop = stop;
     try {
         const Method& method = *settings_.method;
-        std::unique_ptr<Solver> solver =
-            settings_.plain ? method.plain(*input_) : method.make(*input_);
-        leave_memory_to_steps();
-        return solver;
+        return settings_.plain ? method.plain(*input_) : method.make(*input_);
     } catch (const SolveError& error) {
         throw as_input_error(error);
     }
@@ -283,7 +279,6 @@ void SolveRun::estimate_errors() {
     if (!settings_.plain) // which leaves out nothing
         statistics_.left_out = left_out(prepared_->needs, settings_.work(), *solution_);
     statistics_.bytes_peak = peak_memory_bytes();
-    statistics_.bytes_spilled = bytes_spilled();
     if (settings_.ranks->are_several())
         statistics_.ranks =
             settings_.ranks->of_each(RankFigures{settings_.ranks->work(), statistics_.bytes_peak});

@@ -2,11 +2,11 @@
 
 #include "app/loading/lights.h"
 #include "app/loading/sides.h"
+#include "app/memory/memory.h"
+#include "app/rendering/view.h"
 #include "app/settings/exit_code.h"
 #include "app/settings/extension.h"
-#include "app/settings/memory.h"
 #include "app/settings/text.h"
-#include "app/settings/view.h"
 #include "app/terminal/log.h"
 #include "app/terminal/stopwatch.h"
 #include "app/terminal/summary.h"

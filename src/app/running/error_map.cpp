@@ -1,6 +1,6 @@
 #include "app/running/error_map.h"
 
-#include "app/settings/view.h"
+#include "app/rendering/view.h"
 #include "io/drawings/density_picture.h"
 #include "io/files/error.h"
 #include "parallel/workers.h"

@@ -1,6 +1,6 @@
 #include "app/running/layered_picture.h"
 
-#include "app/settings/view.h"
+#include "app/rendering/view.h"
 #include "io/files/error.h"
 #include "io/meshes/baked_light.h"
 #include "io/rendering/render.h"

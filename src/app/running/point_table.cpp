@@ -1,6 +1,6 @@
 #include "app/running/point_table.h"
 
-#include "app/settings/view.h"
+#include "app/rendering/view.h"
 #include "io/files/error.h"
 #include "parallel/workers.h"
 #include "radiosity/paper/sampling/rng.h"

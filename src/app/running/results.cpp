@@ -1,11 +1,11 @@
 #include "app/running/results.h"
 
 #include "app/loading/load.h"
+#include "app/rendering/view.h"
 #include "app/report/report_page.h"
 #include "app/running/error_map.h"
 #include "app/running/layered_picture.h"
 #include "app/running/point_table.h"
-#include "app/settings/view.h"
 #include "app/terminal/log.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
@@ -19,8 +19,8 @@
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/densities/density.h"
+#include "radiosity/engine/shooting/guide.h"
 #include "radiosity/paper/sampling/rng.h"
-#include "radiosity/research/guiding/guide.h"
 
 #include <algorithm>
 #include <mutex>
@@ -192,7 +192,7 @@ void write_report(const SolveSettings& settings, const Results& results) {
         camera_of(settings.view, mesh, tracer, solution.radiosity, statistics.threads),
         settings.view.exposure};
     const bool by_densities = settings.method == &method_of(Role::paper) &&
-                              guide_of(settings.options) == Guide::density && !settings.plain;
+                              !guide_of(settings.options) && !settings.plain;
     if (!by_densities)
         return write_report_page(settings.report, content);
     // The densities are counted again, as the method does not keep all.

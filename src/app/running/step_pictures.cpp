@@ -1,7 +1,7 @@
 #include "app/running/step_pictures.h"
 
+#include "app/rendering/view.h"
 #include "app/settings/text.h"
-#include "app/settings/view.h"
 
 #include <algorithm>
 #include <filesystem>

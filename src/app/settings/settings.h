@@ -13,7 +13,6 @@
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/paper/scene/mesh.h"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,9 +20,8 @@
 
 namespace hemilux {
 
-/// The sides of faces that emit and reflect, as --sides names them, in this order.
+/// The sides of faces that emit and reflect.
 enum class Sides { automatic, front, both };
-inline constexpr std::array<const char*, 3> sides_names = {"auto", "front", "both"};
 
 /// The scene, and the changes to it.
 struct SceneSettings {
@@ -37,7 +35,6 @@ struct SceneSettings {
     bool textures = true;                ///< they are read
     MeshOptions mesh;                    ///< two-sided with Sides::both
     std::optional<std::uint64_t> memory; ///< bytes that a run may need
-    std::string spill; ///< a folder for what memory has no room for (spill.h); empty: none
 };
 
 /// This says how much is reported on stderr.
@@ -129,7 +126,8 @@ struct Budget {
     static constexpr double default_steps = 64; ///< of the mean rays per patch and step
 };
 
-/// A method as `compare` names it: `hemisphere-visible` is hemisphere with `--guide visible`.
+/// A method as `compare` names it: METHOD-VALUE is the method with this value of one of its
+/// options.
 struct MethodVariant {
     std::string name;
     const Method* method = nullptr;

@@ -114,8 +114,6 @@ std::string memory_text(const Statistics& s) {
                           static_cast<double>(s.bytes_density) / static_cast<double>(s.patches)) +
                 " per patch; a byte per triangle of the full tree would be " +
                 byte_size(s.bytes_density_paper) + ")";
-    if (s.bytes_spilled > 0)
-        text += "; the file of --spill has " + byte_size(s.bytes_spilled);
     return text;
 }
 

@@ -22,6 +22,18 @@ Vec3 mean_of_corners(const Polygon& shape, const std::array<std::uint32_t, 4>& c
 
 } // namespace
 
+const char* name_of(Bake bake) {
+    switch (bake) {
+    case Bake::radiosity:
+        return "radiosity";
+    case Bake::irradiance:
+        return "irradiance";
+    case Bake::indirect:
+        break;
+    }
+    return "indirect";
+}
+
 Vec3 irradiance_of(const Material& material, const Vec3& radiosity) {
     return ratio_or_zero(radiosity - material.emission, material.reflectance);
 }

@@ -5,18 +5,18 @@
 #include "io/results/smooth.h"
 #include "radiosity/light/final_gather/linear_light.h"
 
-#include <array>
 #include <vector>
 
 namespace hemilux {
 
-/// The kinds of light, as --bake names them in this order.
+/// The kinds of light.
 enum class Bake {
     radiosity,  ///< B, what a surface sends: what pictures show
     irradiance, ///< (B - E) / rho, what arrives: for viewers that multiply by textures of their own
     indirect ///< what arrives by a reflection (indirect_light.h): for those that add emitters too
 };
-inline constexpr std::array<const char*, 3> bake_names = {"radiosity", "irradiance", "indirect"};
+/// Returns its name, as --bake and files have it.
+[[nodiscard]] const char* name_of(Bake bake);
 
 /// Returns (B - E) / rho [W/m2]. Where a channel reflects nothing, its irradiance is not known and
 /// 0 stands for it.

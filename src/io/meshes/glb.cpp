@@ -68,7 +68,7 @@ class Document {
         const int first = static_cast<int>(accessors_.size());
         add_vertices(part);
         add_indices(part);
-        std::string name = std::string("_") + bake_names[static_cast<std::size_t>(light_.bake)];
+        std::string name = std::string("_") + name_of(light_.bake);
         std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
         const std::string& group = mesh_.scene().groups[part.group];
         const Vec3 centre = mesh_.frame().centre;

@@ -18,7 +18,7 @@ std::string light_properties(const std::string& prefix) {
 }
 
 std::string header(std::size_t vertices, std::size_t faces, Bake bake, PlyColours colours) {
-    const std::string name = bake_names[static_cast<std::size_t>(bake)];
+    const std::string name = name_of(bake);
     const std::string unit = bake == Bake::radiosity ? " [W/m2 leaving]" : " [W/m2 arriving]";
     return "ply\nformat binary_little_endian 1.0\n"
            "comment " +

@@ -4,18 +4,16 @@
 
 #include "io/meshes/baked_light.h"
 
-#include <array>
 #include <string>
 
 namespace hemilux {
 
-/// The kinds of vertex colours, as --ply-colours names them in this order.
+/// The kinds of vertex colours.
 enum class PlyColours {
     linear, ///< float red, green, blue: the light [W/m2]
     shown   ///< uchar red, green, blue: what a screen shows; then the luminance as float quality,
             ///< and the light as float radiosity_red, ..._green, ..._blue, or irradiance_red, ...
 };
-inline constexpr std::array<const char*, 2> ply_colour_names = {"linear", "shown"};
 
 /// Writes vertices x, y, z (double, world units [m]) and their colours. Faces are the patches, in
 /// the mesh's order; a patch on whose sides corners of others lie becomes several triangles.

@@ -15,13 +15,9 @@
 
 #include <glm/glm.hpp>
 
-#include <array>
-
 namespace hemilux {
 
-/// The curves, as --tone names them in this order.
 enum class Tone { neutral, srgb };
-inline constexpr std::array<const char*, 2> tone_names = {"neutral", "srgb"};
 
 /// The way in which light is shown: it is multiplied by the exposure, then passed through the
 /// curve.

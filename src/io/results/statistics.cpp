@@ -85,8 +85,6 @@ Json to_object(const Statistics& s) {
         object["emitted_far"] = s.emitted_far;
         object["reflected"] = s.reflected;
     }
-    if (s.bytes_spilled > 0)
-        object["bytes_spilled"] = s.bytes_spilled;
     for (const auto& [work, bytes_peak] : s.ranks)
         object["ranks"].push_back({{"rays", work.rays},
                                    {"matrix_entries", work.entries},

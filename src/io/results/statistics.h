@@ -75,7 +75,6 @@ struct Statistics {
     /// that all other surfaces reflect [W]. Both are in the JSON where there are suns or skies.
     double emitted_far = 0, reflected = 0;
     std::vector<LeftOut> left_out;
-    std::uint64_t bytes_spilled = 0; ///< the size of the file of --spill; in the JSON where it is
     /// The figures of each rank, where there are several.
     std::vector<RankFigures> ranks = {};
     std::string program; ///< with its version, whose defaults hold for options that are not given

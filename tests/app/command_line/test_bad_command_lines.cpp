@@ -27,6 +27,20 @@ TEST_CASE("the nearest option and the nearest subcommand are suggested") {
     check_usage(place, "solve room.obj -o a.png -Z", "unknown option '-Z'");
 }
 
+TEST_CASE("an option that earlier versions had names what takes its place") {
+    const Workplace place;
+    place.write_room();
+    place.write("spill.toml", "spill = \".\"\n");
+    const std::string instead = "--spill: the program has this option no more; where memory is too "
+                                "small, a swap file";
+    for (const char* const option : {"--spill .", "--spill=.", "--memory 1G --spill . --steps 1"})
+        check_usage(place, std::string("solve room.obj -o a.csv ") + option, instead);
+    check_usage(place, "compare room.obj -o a --spill .", instead);
+    test::check_fails(place, 2, "solve room.obj -o a.csv --config spill.toml",
+                      "spill.toml:1: " + instead);
+    CHECK_FALSE(place.has("a.csv"));
+}
+
 TEST_CASE("values that are missing, doubled or contradict each other") {
     const Workplace place;
     place.write_room();
@@ -47,8 +61,6 @@ TEST_CASE("values that are missing, doubled or contradict each other") {
     check_usage(place, "solve room.obj -o a.png -q -v", "contradict");
     check_usage(place, "solve room.obj -o a.png --exact", "--exact is for --method matrix");
     check_usage(place, "solve room.obj -o a.png --one-shot", "--one-shot is for");
-    check_usage(place, "solve room.obj -o a.png --method stratified --guide visible",
-                "--guide visible is for --method hemisphere");
     check_usage(place, "solve room.obj -o a.png --parts 16",
                 "--parts 16 is for --method hemisphere-1997");
     const std::string of_1997 = "solve room.obj -o a.png --method hemisphere-1997 ";

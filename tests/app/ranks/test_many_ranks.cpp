@@ -133,14 +133,3 @@ TEST_CASE("Where a rank dies all end with one message and exit code 3, and no ha
           "hemilux: a rank was killed by signal 9 (Killed)\n");
     CHECK_FALSE(place.has("out.csv"));
 }
-
-TEST_CASE("Ranks that spill write the bytes of one process that does not") {
-    if (!can_start_ranks())
-        return;
-    const Workplace place;
-    place.write_room();
-    const std::string solve = "solve room.obj --divide .1 --steps 3 -t 1 -o ";
-    REQUIRE(place.hemilux(solve + "one.csv").code == 0);
-    REQUIRE(place.hemilux_on(2, solve + "two.csv --memory 200k --spill .").code == 0);
-    CHECK((place.read("two.csv") == place.read("one.csv")));
-}

@@ -1,7 +1,7 @@
 // What the system does to a run: signals, full disks, closed files, little memory.
+#include "app/memory/memory.h"
 #include "app/program.h"
 #include "app/running.h"
-#include "app/settings/memory.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/scenes.h"
@@ -173,21 +173,6 @@ TEST_CASE("a full disk leaves nothing half-written") {
     CHECK(shell(place, "\"$H\" formfactors room.obj -o full.csv") == 3);
 }
 
-TEST_CASE("a disk without room for --spill is one message and exit code 3") {
-    for (const char* const threads : {"-t 1", "-t 3"}) {
-        const Workplace place;
-        place.write_room();
-        CAPTURE(threads);
-        CHECK(shell(place, std::string("ulimit -f 4 && \"$H\" solve room.obj --max-edge .05 "
-                                       "--steps 1 --memory 200k --spill . -q -o a.csv ") +
-                               threads) == 3);
-        const std::string text = place.read("stderr.txt");
-        CHECK_THAT(text, Contains("no room for more than 0 MiB of --spill: File too large"));
-        CHECK(lines_of_message(text) == 1);
-        CHECK_FALSE(place.has("a.csv"));
-    }
-}
-
 TEST_CASE("folders that cannot be written to or are files are refused before any work") {
     const Workplace place;
     place.write("slow.obj", "not even read");
@@ -213,13 +198,29 @@ TEST_CASE("a closed stdout or stderr is an error to report, or none at all") {
     CHECK(shell(place, "\"$H\" --help >&-") == 3);
     CHECK(shell(place, "\"$H\" solve --help >/dev/full") == 3);
     CHECK_THAT(place.read("stderr.txt"), Contains("standard output: cannot be written"));
-    CHECK(shell(place, "mkfifo pipe && { exec 3<>pipe; exec 4>pipe; exec 3<&-; "
-                       "\"$H\" info room.obj >&4; }") == 3); // nobody reads
     // No output file takes the number of a closed one, and what is said goes nowhere.
     CHECK(shell(place, "\"$H\" solve room.obj --steps 1 -v -o a.csv <&- >&- 2>&-") == 0);
     CHECK(shell(place, "\"$H\" solve room.obj --steps 1 -o b.csv") == 0);
     CHECK(place.read("a.csv") == place.read("b.csv"));
     CHECK(shell(place, "\"$H\" solve none.obj -o a.csv 2>&-") == 2);
+}
+
+TEST_CASE("a reader that closes its pipe has read enough of what is printed, but not of results") {
+    const Workplace place;
+    place.write_room();
+    const std::string nobody_reads =
+        "rm -f pipe; mkfifo pipe && exec 3<>pipe 4>pipe 3<&- && \"$H\" ";
+    for (const char* const printed :
+         {"--help", "help", "solve --help", "--version", "compare --version", "--print man",
+          "--print bash", "--print fish", "info room.obj", "info room.obj --json",
+          "compare room.obj --methods monte-carlo --rays 10 --runs 1 --reference-error .2 -o a "
+          "-q"}) {
+        CAPTURE(printed);
+        CHECK(shell(place, nobody_reads + printed + " >&4") == 0);
+        CHECK(place.read("stderr.txt").empty());
+    }
+    CHECK(shell(place, nobody_reads + "solve room.obj --steps 1 -q -o - >&4") == 3);
+    CHECK_THAT(place.read("stderr.txt"), Contains("cannot write: Broken pipe"));
 }
 
 TEST_CASE("a scene too large for --memory stops with what it would need") {

@@ -3,7 +3,7 @@
 #include "app/check_fails.h"
 #include "app/picture_file.h"
 #include "app/program.h"
-#include "app/settings/view.h"
+#include "app/rendering/view.h"
 #include "support/catch.h"
 
 #include <nlohmann/json.hpp>

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,8 +31,9 @@ struct MethodOption {
     /// The texts that may follow it, as `density`; capitals stand for other text, as in
     /// `hemicube:N`. A flag has none.
     std::vector<std::string> values;
-    /// Sets it; false for a text that is none of the values, which for a flag is all but "yes".
-    /// Throws std::invalid_argument with what was expected where there is more to say.
+    /// Sets it. False, with nothing changed, for a text that is none of the values; those of a flag
+    /// are "yes" and "no". Throws std::invalid_argument with what was expected where there is more
+    /// to say.
     std::function<bool(SolveOptions&, std::string_view)> set;
     /// Returns its value; "yes" or "no" of a flag.
     std::function<std::string(const SolveOptions&)> get;
@@ -59,8 +61,10 @@ template <class Own>
             .values = {},
             .set =
                 [member](SolveOptions& options, std::string_view text) {
+                    if (text != "yes" && text != "no")
+                        return false;
                     options.own.of<Own>().*member = text == "yes";
-                    return text == "yes";
+                    return true;
                 },
             .get = [member](const SolveOptions& options) -> std::string {
                 return options.own.of<Own>().*member ? "yes" : "no";
@@ -94,26 +98,48 @@ template <class Own>
                 }};
 }
 
-/// Makes an option with one of the values of an enumeration that counts from 0, by their names in
-/// order. It is held as it is: own.of<Choice>().
+/// A value of an enumeration and the text that stands for it.
+template <class Choice>
+struct NamedChoice {
+    Choice value;
+    const char* name;
+};
+
+/// Returns the choice of this name; none: nullptr.
+template <class Choice>
+[[nodiscard]] const NamedChoice<Choice>* named_choice(std::span<const NamedChoice<Choice>> choices,
+                                                      std::string_view name) {
+    for (const NamedChoice<Choice>& choice : choices)
+        if (choice.name == name)
+            return &choice;
+    return nullptr;
+}
+
+/// Makes an option with one of these values of an enumeration. It is held as it is:
+/// own.of<Choice>().
 template <class Choice>
 [[nodiscard]] MethodOption choice_option(const std::string& name, const std::string& help,
-                                         const std::vector<std::string>& names) {
+                                         const std::vector<NamedChoice<Choice>>& choices) {
+    std::vector<std::string> names;
+    for (const NamedChoice<Choice>& choice : choices)
+        names.emplace_back(choice.name);
     return {.name = name,
             .help = help,
             .values = names,
             .set =
-                [names](SolveOptions& options, std::string_view text) {
-                    const auto found = std::ranges::find(names, text);
-                    if (found == names.end())
-                        return false;
-                    options.own.of<Choice>() = static_cast<Choice>(found - names.begin());
-                    return true;
+                [choices](SolveOptions& options, std::string_view text) {
+                    const NamedChoice<Choice>* const chosen = named_choice<Choice>(choices, text);
+                    if (chosen)
+                        options.own.of<Choice>() = chosen->value;
+                    return chosen != nullptr;
                 },
-            .get =
-                [names](const SolveOptions& options) {
-                    return names.at(static_cast<std::size_t>(options.own.of<Choice>()));
-                }};
+            .get = [choices](const SolveOptions& options) -> std::string {
+                const auto found = std::ranges::find(choices, options.own.of<Choice>(),
+                                                     &NamedChoice<Choice>::value);
+                if (found == choices.end())
+                    throw std::logic_error("an option has a value without a name");
+                return found->name;
+            }};
 }
 
 } // namespace hemilux

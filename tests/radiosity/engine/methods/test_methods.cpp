@@ -256,7 +256,7 @@ namespace {
 /// The texts that an option takes, with 8 for a number.
 std::vector<std::string> values_of(const MethodOption& option) {
     if (option.values.empty())
-        return {"yes"};
+        return {"no", "yes"};
     std::vector<std::string> values = option.values;
     for (std::string& value : values)
         std::ranges::replace(value, 'N', '8');

@@ -208,6 +208,8 @@ TEST_CASE("Ranks share the rays and the matrix evenly") {
 TEST_CASE("Where one rank is interrupted all end at the same step") {
     const Model model(test::room_with_block(), divided);
     for (const char* name : {"stored-transport", "stratified", "hierarchical", "matrix"}) {
+        if (!find_method(name)) // of research
+            continue;
         const Method& method = *find_method(name);
         const SolveOptions options{.rays = 16, .stop = many_steps, .threads = 1};
         for (const int streams : {5, 60, 130}) {

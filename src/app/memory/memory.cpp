@@ -1,0 +1,202 @@
+#include "app/memory/memory.h"
+
+#include "app/settings/text.h"
+#include "radiosity/light/layers/coplanar_overlaps.h"
+#include "radiosity/light/textures/scene_textures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+
+namespace hemilux {
+
+namespace {
+
+/// The program itself, its libraries and threads.
+constexpr double bytes_of_program = 12e6;
+/// Arrays that grow keep the old one until the new one is filled.
+constexpr double growth = 2;
+/// The bytes per triangle: boxes while the tree is built, and a leaf's share.
+constexpr double bytes_per_triangle = 150;
+/// The bytes of a stepwise method: solution, spread, one step.
+constexpr double bytes_per_solution = 241;
+/// The bytes that `stored-transport` may use for its rays where --memory says nothing: a scene of a
+/// million patches then stays within 4 GiB.
+constexpr std::uint64_t default_transport = std::uint64_t{5} << 29;
+/// The bytes of corners, planes and boxes of both sides of a facet, and of its edges.
+constexpr double bytes_of_analysis = 350;
+/// The bytes per pixel: the picture, its bytes, the rows that are compressed, and the file. For
+/// `compare` there are the reference, the method and their difference.
+constexpr double bytes_per_pixel = 26, bytes_per_compared_pixel = 56;
+/// The bytes for the light of a pixel in its parts and of more surfaces at edges, and for a quarter
+/// of a point at which indirect light is gathered.
+constexpr double bytes_per_gathered_pixel = 154;
+/// The bytes of rays that wait to be summed.
+constexpr double bytes_of_ray_batches = 32e6;
+
+struct Lengths {
+    double along, across;
+};
+
+double length(const Scene& scene, const Facet& facet, std::size_t a, std::size_t b) {
+    return glm::length(scene.vertices[facet.vertex[b]] - scene.vertices[facet.vertex[a]]);
+}
+
+/// Returns the sides by which a facet is divided (Mesh). The shortest side of a triangle decides
+/// how many columns there are, and there are as many rows as columns or more.
+Lengths lengths_of(const Scene& scene, const Facet& facet) {
+    if (!facet.is_triangle())
+        return {std::max(length(scene, facet, 0, 1), length(scene, facet, 3, 2)),
+                std::max(length(scene, facet, 0, 3), length(scene, facet, 1, 2))};
+    std::array<double, 3> sides{length(scene, facet, 0, 1), length(scene, facet, 1, 2),
+                                length(scene, facet, 2, 0)};
+    std::ranges::sort(sides);
+    return {sides[2], 2 * sides[0] >= sides[2] ? sides[2] : sides[0]};
+}
+
+double pieces(double length, double max_edge) {
+    return std::max(1.0, std::ceil(length / max_edge));
+}
+
+double bytes_of(const Method& method, const SolveOptions& options, double patches) {
+    return bytes_per_solution * patches + (method.bytes ? method.bytes(options, patches) : 0);
+}
+
+std::string rounded(double bytes) {
+    return bytes < 1e18 ? byte_size(static_cast<std::uint64_t>(bytes))
+                        : formatted("%.2g bytes", bytes);
+}
+
+/// Returns the bytes of pictures, each once, and of texture coordinates.
+std::vector<double> bytes_of_textures(const Scene& scene) {
+    std::set<const Texture*> textures;
+    for (const auto& [reflectance, emission] : textures_of(scene).of_material)
+        for (const TextureMap* const map : {&reflectance, &emission})
+            textures.insert(map->texture.get());
+    std::vector<double> bytes;
+    for (const Texture* const texture : textures)
+        bytes.push_back(texture ? texture->bytes() : 0);
+    for (const std::vector<Texcoords>& set : textures_of(scene).texcoords)
+        bytes.push_back(static_cast<double>(set.size() * sizeof(Texcoords)));
+    return bytes;
+}
+
+} // namespace
+
+std::optional<std::uint64_t> parse_bytes(std::string_view text) {
+    constexpr std::string_view units = "kMGT";
+    double unit = 1;
+    if (const std::size_t at = text.empty() ? text.npos : units.find(text.back());
+        at != text.npos) {
+        unit = std::ldexp(1.0, 10 * (static_cast<int>(at) + 1));
+        text.remove_suffix(1);
+    }
+    const std::optional<double> number = parse_number(text);
+    const double bytes = number.value_or(0) * unit;
+    constexpr double most = 9e18;
+    return bytes >= 1 && bytes <= most ? std::optional(static_cast<std::uint64_t>(bytes))
+                                       : std::nullopt;
+}
+
+double patches_of(const Scene& scene, const MeshOptions& options) {
+    double patches = 0;
+    for (const Facet& facet : scene.facets) {
+        const double sides = options.two_sided || facet.two_sided ? 2 : 1;
+        const auto [along, across] = lengths_of(scene, facet);
+        const bool is_divided = options.max_edge > 0 && !scene.materials[facet.material].is_far;
+        patches += is_divided
+                       ? sides * pieces(along, options.max_edge) * pieces(across, options.max_edge)
+                       : sides;
+    }
+    return patches;
+}
+
+MemoryNeed memory_need(const Scene& scene, const MeshOptions& mesh, const SolveOptions& options,
+                       std::span<const Method* const> methods, const Method* before) {
+    const double patches = patches_of(scene, mesh);
+    const auto facets = static_cast<double>(scene.facets.size());
+    const auto vertices = static_cast<double>(scene.vertices.size());
+    MemoryNeed need;
+    need.scene = bytes_of_program + growth * (sizeof(Vec3) * vertices + sizeof(Facet) * facets);
+    need.mesh =
+        sizeof(Patch) * patches + sizeof(Vec3) * vertices + (sizeof(FacetCorners) + 48) * facets;
+    for (const double bytes : bytes_of_textures(scene))
+        need.scene += bytes;
+    if (!textures_of(scene).of_material.empty())
+        need.mesh += sizeof(Material) * patches;
+    need.pairs =
+        OverlapLimits::bytes_per_pair * static_cast<double>(OverlapLimits::of(scene).pairs);
+    need.analysis = bytes_of_analysis * facets;
+    for (const Facet& facet : scene.facets)
+        need.tree += bytes_per_triangle * (facet.is_triangle() ? 1 : 2);
+    for (const Method* const method : methods)
+        need.method += bytes_of(*method, options, patches);
+    if (before)
+        need.method = std::max(need.method, bytes_of(*before, options, patches));
+    need.method += bytes_of_ray_batches;
+    return need;
+}
+
+SolveOptions with_memory(SolveOptions options, const SceneSettings& scene, std::size_t solvers) {
+    options.memory = scene.memory ? *scene.memory / 2 / solvers : default_transport;
+    return options;
+}
+
+double bytes_of_picture(PixelSize size, bool gathered) {
+    return (bytes_per_pixel + (gathered ? bytes_per_gathered_pixel : 0)) *
+           static_cast<double>(size.width) * size.height;
+}
+
+double bytes_of_lightmap(int size) {
+    constexpr double bytes_per_texel = 16 + 12 + 24; // light and distance, channels, file
+    return bytes_per_texel * size * size;
+}
+
+double bytes_of_points(std::size_t points, unsigned gather) {
+    constexpr double bytes_per_point = 256, bytes_per_ray = 16, rays_per_block = 1 << 20;
+    const double rays_per_point = double(gather) * PointSettings::rays_per_gather_ray;
+    const auto count = static_cast<double>(points);
+    return bytes_per_point * count +
+           bytes_per_ray * std::min(rays_per_block + rays_per_point, count * rays_per_point);
+}
+
+double bytes_of_compared_pictures(PixelSize size) {
+    return bytes_per_compared_pixel * static_cast<double>(size.width) * size.height;
+}
+
+std::function<void(double bytes)> memory_guard(const std::string& path,
+                                               std::optional<std::uint64_t> limit) {
+    if (!limit)
+        return {};
+    return [path, most = static_cast<double>(*limit)](double bytes) {
+        if (const double need = bytes_of_program + bytes; need > most)
+            throw std::runtime_error(path + ": needs " + rounded(need) +
+                                     " to be read alone, and --memory is " + rounded(most));
+    };
+}
+
+void check_memory_to_read(const std::string& path, std::optional<std::uint64_t> limit) {
+    if (!limit)
+        return;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    memory_guard(path, limit)(error ? 0 : static_cast<double>(size));
+}
+
+void check_memory(const MemoryNeed& need, std::optional<std::uint64_t> limit,
+                  const std::string& path) {
+    if (!limit || need.all() <= static_cast<double>(*limit))
+        return;
+    throw std::runtime_error(
+        path + ": needs about " + rounded(need.all()) + " (scene " + rounded(need.scene) +
+        ", patches " + rounded(need.mesh) + ", tree " + rounded(need.tree) + ", method " +
+        rounded(need.method) + ", pictures " + rounded(need.pictures) + "), and --memory is " +
+        rounded(static_cast<double>(*limit)) +
+        "; a larger --max-edge, fewer --rays, a smaller --size or --no-gather need less");
+}
+
+} // namespace hemilux

@@ -1,0 +1,91 @@
+#include "app/rendering/view.h"
+
+#include "app/settings/exit_code.h"
+#include "app/settings/text.h"
+#include "io/meshes/baked_light.h"
+#include "io/pictures/exr.h"
+#include "io/rendering/render.h"
+#include "radiosity/paper/scene/mesh.h"
+
+#include <cmath>
+
+namespace hemilux {
+
+void check_camera(const ViewSettings& view, const Mesh& mesh) {
+    if (view.camera &&
+        mesh.frame().to_local(view.camera->eye) == mesh.frame().to_local(view.camera->target))
+        throw UsageError("--camera: expected an eye and a target that differ; beside the scene's "
+                         "distance from the origin these two are the same point");
+}
+
+std::string camera_text(const Camera& camera) {
+    auto [eye, target, up, fov] = camera;
+    const double far = glm::distance(eye, target);
+    for (Vec3* point : {&eye, &target})
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::abs((*point)[axis]) < 1e-9 * far) // 0, but for rounding
+                (*point)[axis] = 0;
+    const std::string text = formatted("--camera %g,%g,%g,%g,%g,%g,%g", eye.x, eye.y, eye.z,
+                                       target.x, target.y, target.z, fov);
+    return up == Camera().up ? text : text + formatted(",%g,%g,%g", up.x, up.y, up.z);
+}
+
+Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
+                 std::span<const Vec3> radiosity, unsigned threads) {
+    const auto [width, height] = view.size;
+    return view.camera ? *view.camera
+                       : automatic_camera(mesh, tracer, radiosity,
+                                          static_cast<double>(width) / height, view.up, threads);
+}
+
+bool PictureTime::is_over() const {
+    constexpr std::chrono::seconds moment(2);
+    return interrupted_ && std::chrono::steady_clock::now() - start_ > moment;
+}
+
+Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
+                  std::span<const Vec3> radiosity, const Camera& camera, unsigned threads,
+                  const PictureTime& time, const CornerClasses* classes, unsigned gather,
+                  std::span<const Slope> slope) {
+    const auto [width, height] = view.size;
+    return render(mesh, tracer, radiosity, camera,
+                  {.width = width,
+                   .height = height,
+                   .textures = true,
+                   .gather = gather,
+                   .threads = threads,
+                   .classes = classes,
+                   .slope = slope,
+                   .give_up = [&time] { return time.is_over(); }});
+}
+
+void write_picture(const Output& output, const Image& image, const ViewSettings& view,
+                   const Provenance& from) {
+    if (output.kind == OutputKind::hdr)
+        return write_hdr(output.path, image, from);
+    if (output.kind == OutputKind::exr) {
+        std::vector<ExrChannel> channels;
+        add_exr_channels(channels, "", image);
+        return write_exr(output.path, image.width, image.height, std::move(channels), from);
+    }
+    write_png(output.path, image, display_of(view), from);
+}
+
+void choose_exposure(ViewSettings& view, const Image& picture, const Mesh& mesh,
+                     const Tracer& tracer, const Camera& camera, unsigned threads) {
+    if (!view.exposure)
+        view.exposure = exposure_of(picture, mesh, tracer, camera, threads);
+}
+
+Display display_of(const ViewSettings& view) {
+    return {std::exp2(view.stops) * view.exposure.value_or(1), view.tone};
+}
+
+Display display_of(const ViewSettings& view, const Mesh& mesh, const CornerClasses& classes,
+                   std::span<const Vec3> of_class) {
+    return {std::exp2(view.stops) *
+                (view.exposure ? *view.exposure : auto_exposure(mesh, classes, of_class)),
+            view.tone};
+}
+
+} // namespace hemilux
