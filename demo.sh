@@ -39,5 +39,5 @@ Look at
     $PWD/$out/paper.csv           a row per patch: radiosity and its standard error
     $PWD/$out/mesh.ply            the mesh with its radiosity as vertex colours
     $PWD/$out/statistics.json     rays, seconds, bytes, energy balance
-Go on with docs/tutorial.md (your own model), docs/reading-guide.md (the paper), $hemilux solve --help
+Go on with docs/use/tutorial.md (your own model), docs/paper/reading-guide.md (the paper), $hemilux solve --help
 END

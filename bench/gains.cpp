@@ -13,10 +13,10 @@
 #include "clock.h"
 #include "io/scene_files/obj.h"
 #include "radiosity/engine/needs/find_needs.h"
+#include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"
 #include "radiosity/paper/scene/mesh.h"
-#include "radiosity/research/guiding/guide.h"
 
 #include <array>
 #include <cmath>
@@ -58,18 +58,15 @@ struct Measured {
 
 struct Variant {
     std::string name, method;
-    Guide guide = Guide::density;
+    const Guide* guide = nullptr;
 };
 
 Variant variant_of(const std::string& name) {
     if (name == "density")
         return {name, "hemisphere"};
-    if (name == "pyramid")
-        return {name, "hemisphere", Guide::pyramid};
-    if (name == "visible")
-        return {name, "hemisphere", Guide::visible};
-    if (name == "learned")
-        return {name, "hemisphere", Guide::learned};
+    for (const Guide* const guide : additions().guides)
+        if (guide->name == name)
+            return {name, "hemisphere", guide};
     if (find_method(name) == nullptr)
         throw std::invalid_argument("neither a guide nor a method: " + name);
     return {name, name};
@@ -96,7 +93,7 @@ class Measurement {
         options.rays = rays_per_step;
         options.threads = 1;
         options.seed = seed;
-        options.own.of<Guide>() = variant.guide;
+        options.own.of<GuideChoice>().guide = variant.guide;
         const double start = bench::cpu_seconds();
         const Solution s =
             solve(variant.method, options, {.steps = steps, .seconds = {}, .error = {}});

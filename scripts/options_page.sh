@@ -1,7 +1,7 @@
 #!/bin/sh
-# Prints docs/options.md: what the program says of its options. A test compares the two.
+# Prints docs/use/options.md: what the program says of its options. A test compares the two.
 #
-#   scripts/options_page.sh build/release/hemilux >docs/options.md
+#   scripts/options_page.sh build/release/hemilux >docs/use/options.md
 set -eu
 [ $# -eq 1 ] || { sed -n '2,4s/^# \{0,1\}//p' "$0" >&2; exit 1; }
 

@@ -1,9 +1,8 @@
 #pragma once
 // The runs whose checkpoints are in corpus/checkpoint_sealed (make_checkpoints.sh).
 
-#include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/shooting/additions.h"
 #include "radiosity/paper/scene/scene.h"
-#include "radiosity/research/guiding/guide.h"
 
 #include <utility>
 #include <vector>
@@ -24,13 +23,15 @@ inline Scene facing_triangles() {
 /// All methods that can resume, and one with a guide that learns, which saves more.
 inline std::vector<std::pair<const Method*, SolveOptions>> saved_runs() {
     const SolveOptions usual{.rays = 4, .threads = 1};
-    SolveOptions learned = usual;
-    learned.own.of<Guide>() = Guide::learned;
     std::vector<std::pair<const Method*, SolveOptions>> runs;
     for (const Method* const method : methods())
         if (method->can_resume())
             runs.emplace_back(method, usual);
-    runs.emplace_back(find_method("hemisphere"), learned);
+    for (const Guide* const guide : additions().guides)
+        if (guide->name == "learned") {
+            runs.emplace_back(find_method("hemisphere"), usual);
+            runs.back().second.own.of<GuideChoice>().guide = guide;
+        }
     return runs;
 }
 

@@ -235,27 +235,67 @@ std::vector<std::string> unknown_in(const std::string& reference) {
     return unknown;
 }
 
-bool has_test(const fs::path& folder, const std::string& name) {
-    return std::ranges::any_of(
-        fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {
-            return text_of(entry.path()).find("TEST_CASE(\"" + name + '"') != std::string::npos;
-        });
+/// All pages of a folder and of the folders in it.
+std::vector<fs::path> pages_below(const fs::path& folder) {
+    std::vector<fs::path> pages;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder))
+        if (entry.path().extension() == ".md")
+            pages.push_back(entry.path());
+    return pages;
+}
+
+bool has_test(const std::string& name) {
+    const fs::recursive_directory_iterator tests(root / "tests");
+    return std::any_of(begin(tests), end(tests), [&](const fs::directory_entry& entry) {
+        return entry.path().extension() == ".cpp" &&
+               text_of(entry.path()).find("TEST_CASE(\"" + name + '"') != std::string::npos;
+    });
 }
 
 /// The pages whose sections are decisions.
-constexpr std::array pages_of_decisions{"docs/decisions.md", "docs/design.md",
-                                        "docs/engineering.md"};
+constexpr std::array pages_of_decisions{"docs/paper/decisions.md", "docs/making/design.md",
+                                        "docs/making/engineering.md"};
 
-/// The numbers of the sections "### D7. ..." of a page, as they follow each other.
-std::vector<int> decisions_in(const char* page) {
-    std::vector<int> numbers;
-    std::istringstream stream(text_of(root / page));
-    for (std::string line; std::getline(stream, line);) {
+/// The sections "### D7. ..." of a page: their headings by their numbers, as they follow each
+/// other.
+std::vector<std::pair<int, std::string>> decisions_in(const fs::path& page) {
+    std::vector<std::pair<int, std::string>> sections;
+    for (const std::string& line : prose_of(text_of(root / page))) {
         constexpr std::string_view mark = "### D";
         if (line.starts_with(mark))
-            numbers.push_back(std::stoi(line.substr(mark.size())));
+            sections.emplace_back(std::stoi(line.substr(mark.size())), line);
     }
-    return numbers;
+    return sections;
+}
+
+/// The row of a decision in the index, which stands in docs/README.md.
+std::string index_row(const fs::path& page, const std::string& heading) {
+    const std::string file = page.lexically_relative("docs").generic_string();
+    const std::size_t dot = heading.find(". ");
+    return "| " + heading.substr(4, dot - 4) + " | [" + file + "](" + file + "#" +
+           anchor_of(heading) + ") | " + heading.substr(dot + 2) + " |";
+}
+
+/// "design.md, D57" in a text: numbers that stand behind the name of a page without such a section.
+std::vector<std::string> decisions_of_other_pages(const std::string& text) {
+    std::vector<std::string> wrong;
+    constexpr std::string_view mark = ".md, D";
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
+        std::size_t begin = at;
+        while (begin > 0 && (is_word_character(text[begin - 1]) || text[begin - 1] == '-'))
+            --begin;
+        const std::string file = text.substr(begin, at + 3 - begin),
+                          digits = text.substr(at + mark.size(), 2);
+        const bool right = std::ranges::any_of(pages_of_decisions, [&](const fs::path& page) {
+            return page.filename() == file &&
+                   std::ranges::any_of(decisions_in(page), [&](const auto& section) {
+                       return section.first == std::atoi(digits.c_str());
+                   });
+        });
+        if (!right)
+            wrong.push_back(file + ", D" + digits);
+    }
+    return wrong;
 }
 
 /// "D7" in a text: the numbers of decisions that it refers to.
@@ -304,7 +344,8 @@ TEST_CASE("what documents name is told from what is not there") {
     CHECK(missing_in("`src/no.cpp` and [no](docs/no.md), [no](README.md#no)", root) ==
           std::vector<std::string>{"src/no.cpp", "docs/no.md", "README.md#no"});
     CHECK(anchor_of("### D7. The paper's own, and `x`") == "d7-the-papers-own-and-x");
-    CHECK(unknown_in("`is_source_path` in `tests/repository/test_docs.cpp` \"what a page names exists\"")
+    CHECK(unknown_in(
+              "`is_source_path` in `tests/repository/test_docs.cpp` \"what a page names exists\"")
               .empty());
     const std::string absent = std::string("no_such_") + "name";
     CHECK(unknown_in("`" + absent + "` in `src/app/main.cpp` \"x\"") ==
@@ -326,14 +367,19 @@ TEST_CASE("a name that is declared is told from one that is used") {
                 {"d", "src/z.h"},
                 {"e", "src/z.h"}});
     CHECK(decisions_named_in("(D1, D2) D10; SD3 D4x 2D5 D678") == std::set<int>{1, 2, 10});
+    CHECK(index_row("docs/a/b.md", "### D7. The paper's `x`") ==
+          "| D7 | [a/b.md](a/b.md#d7-the-papers-x) | The paper's `x` |");
+    CHECK(decisions_of_other_pages("(docs/paper/decisions.md, D1, D57), numerics.md, not D1")
+              .empty());
+    CHECK(decisions_of_other_pages(std::string("see decisions") + ".md, D57") ==
+          std::vector<std::string>{"decisions.md, D57"});
 }
 
 TEST_CASE("what a page names exists") {
     std::vector<fs::path> pages{root / "README.md", root / "DEVELOPERS.md"};
-    for (const fs::directory_entry& entry : fs::directory_iterator(root / "docs"))
-        if (entry.path().extension() == ".md")
-            pages.push_back(entry.path());
-    CHECK(pages.size() > 3);
+    for (const fs::path& page : pages_below("docs"))
+        pages.push_back(page);
+    CHECK(pages.size() > 20);
     for (const fs::path& page : pages) {
         CAPTURE(page);
         REQUIRE(fs::exists(page));
@@ -353,16 +399,18 @@ TEST_CASE("the code that decisions refer to exists") {
 
 TEST_CASE("decisions stand in their order, each in one place, and all that are referred to exist") {
     std::set<int> all;
-    std::size_t sections = 0;
+    std::size_t count = 0;
     for (const char* page : pages_of_decisions) {
         CAPTURE(page);
-        const std::vector<int> numbers = decisions_in(page);
-        CHECK_FALSE(numbers.empty());
-        CHECK(std::ranges::is_sorted(numbers));
-        sections += numbers.size();
-        all.insert(numbers.begin(), numbers.end());
+        const auto sections = decisions_in(page);
+        CHECK_FALSE(sections.empty());
+        CHECK(std::ranges::is_sorted(sections, {},
+                                     [](const auto& section) { return section.first; }));
+        count += sections.size();
+        for (const auto& [number, heading] : sections)
+            all.insert(number);
     }
-    CHECK(all.size() == sections);
+    CHECK(all.size() == count);
     for (const char* folder : {"src", "tests", "bench", "examples", "docs"})
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
             const fs::path& file = entry.path();
@@ -372,23 +420,37 @@ TEST_CASE("decisions stand in their order, each in one place, and all that are r
                 continue;
             CAPTURE(file);
             CHECK(std::ranges::includes(all, decisions_named_in(text_of(file))));
+            CHECK(decisions_of_other_pages(text_of(file)) == std::vector<std::string>{});
         }
 }
 
+TEST_CASE("the index of decisions has each one once, with its page and its title") {
+    std::vector<std::string> rows, expected;
+    for (const std::string& line : prose_of(text_of(root / "docs/README.md")))
+        if (line.starts_with("| D") && std::isdigit(static_cast<unsigned char>(line[3])) != 0)
+            rows.push_back(line);
+    for (const char* page : pages_of_decisions)
+        for (const auto& [number, heading] : decisions_in(page))
+            expected.push_back(index_row(page, heading));
+    std::ranges::sort(expected, {},
+                      [](const std::string& row) { return std::stoi(row.substr(3)); });
+    CHECK(rows == expected);
+}
+
 TEST_CASE("the map of the paper names code and tests that exist") {
-    CHECK(checked_rows_of("docs/paper_map.md") > 30);
+    CHECK(checked_rows_of("docs/paper/paper_map.md") > 30);
 }
 
 TEST_CASE("the reading guide names code that exists") {
-    CHECK(checked_rows_of("docs/reading-guide.md") > 30);
+    CHECK(checked_rows_of("docs/paper/reading-guide.md") > 30);
 }
 
 TEST_CASE("programs and tests that pages of results run are there") {
-    const std::string bench = text_of(root / "bench/CMakeLists.txt");
+    const std::string bench = text_of(root / "bench/CMakeLists.txt"),
+                      tests = text_of(root / "tests/CMakeLists.txt");
     std::string pages;
-    for (const fs::directory_entry& entry : fs::directory_iterator(root / "docs"))
-        if (entry.path().filename().string().starts_with("results"))
-            pages += text_of(entry.path());
+    for (const fs::path& page : pages_below("docs/measured"))
+        pages += text_of(page);
     int programs = 0;
     std::istringstream page(pages);
     for (std::string line; std::getline(page, line);) {
@@ -406,7 +468,8 @@ TEST_CASE("programs and tests that pages of results run are there") {
             if (folder == "bench")
                 CHECK(bench.find("add_executable(" + name + ' ') != std::string::npos);
             else if (folder == "tests")
-                CHECK(fs::is_directory(root / "tests" / name.substr(name.find('_') + 1)));
+                CHECK(tests.find("folders_of_" + name.substr(name.find('_') + 1) + ' ') !=
+                      std::string::npos);
             else if (folder == "examples" || folder == "fuzz")
                 CHECK(fs::exists(root / fs::path(folder == "fuzz" ? "tests/fuzz" : folder) /
                                  (name + ".cpp")));
@@ -414,7 +477,7 @@ TEST_CASE("programs and tests that pages of results run are there") {
                 CHECK(name == "hemilux");
             const std::vector<std::string> quoted = between(line, "\"", "\"");
             if (folder == "tests" && !quoted.empty() && std::isalpha(quoted[0][0]) != 0)
-                CHECK(has_test(root / "tests" / name.substr(name.find('_') + 1), quoted[0]));
+                CHECK(has_test(quoted[0]));
         }
     }
     CHECK(programs > 10);
@@ -422,7 +485,7 @@ TEST_CASE("programs and tests that pages of results run are there") {
 
 TEST_CASE("README leads to the line that computes N_tr") {
     const std::string page = "src/radiosity/paper/pages/section_5_hemisphere.cpp",
-                      line = "const double N_tr =";
+                      line = "const Rays N_tr =";
     const std::string readme = text_of(root / "README.md");
     CHECK(readme.find("](" + page + ")") != std::string::npos);
     CHECK(readme.find("`" + line + "`") != std::string::npos);
@@ -434,6 +497,6 @@ TEST_CASE("the page of options is what the program says") {
     const test::Workplace place;
     const std::string page = place.path("options.md").string();
     REQUIRE(std::system(("'" + script + "' '" HEMILUX_PROGRAM "' >'" + page + "'").c_str()) == 0);
-    INFO("scripts/options_page.sh build/release/hemilux >docs/options.md makes the page anew");
-    CHECK((text_of(page) == text_of(root / "docs/options.md")));
+    INFO("scripts/options_page.sh build/release/hemilux >docs/use/options.md makes the page anew");
+    CHECK((text_of(page) == text_of(root / "docs/use/options.md")));
 }

@@ -45,6 +45,8 @@ const std::vector<std::string> rooms{
     "radiosity/research/hierarchy",
     "radiosity/research/guiding",
     "radiosity/research/targets",
+    "radiosity/research/guides",
+    "radiosity/research/aimers",
     "radiosity/research/methods",
     "radiosity/light/textures",
     "radiosity/light/layers",

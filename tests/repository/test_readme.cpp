@@ -1,5 +1,6 @@
-// The commands that README.md and the pages for users print work: every line of a block that is
-// fenced as ```sh run is executed in the repository's folder, with hemilux in the PATH.
+// The commands that README.md, the reading guide and pages for users print work: every line of a
+// block that is fenced as ```sh run is executed in the repository's folder, with hemilux in the
+// PATH.
 #include "support/catch.h"
 
 #include <cstdlib>
@@ -39,11 +40,11 @@ TEST_CASE("runnable commands are told from other blocks") {
     CHECK(runnable_commands(text) == std::vector<std::string>{"one", "two \\\n  more", "three"});
 }
 
-TEST_CASE("the commands of README.md and the pages for users work", "[slow]") {
+TEST_CASE("the commands of README.md, the reading guide and the pages for users work", "[slow]") {
     const std::string root = HEMILUX_SOURCE_DIR;
     const std::string programs = std::filesystem::path(HEMILUX_PROGRAM).parent_path().string();
-    for (const char* name :
-         {"/README.md", "/docs/tutorial.md", "/docs/how-to.md", "/docs/exchange.md"}) {
+    for (const char* name : {"/README.md", "/docs/paper/reading-guide.md", "/docs/use/tutorial.md",
+                             "/docs/use/how-to.md", "/docs/use/exchange.md"}) {
         std::ifstream page(root + name);
         const std::vector<std::string> commands = runnable_commands(page);
         CAPTURE(name);

@@ -3,7 +3,7 @@
 #include "bvh/brute_force.h"
 #include "bvh/bvh.h"
 #include "bvh/wide/wide_bvh.h"
-#include "radiosity/engine/densities/density.h"
+#include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"

@@ -2,8 +2,9 @@
 #include "app/command_line/option_kinds.h"
 #include "app/command_line/options.h"
 #include "app/settings/names.h"
-#include "radiosity/research/guiding/guide.h"
+#include "radiosity/engine/shooting/additions.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace hemilux {
@@ -16,6 +17,25 @@ constexpr const char* density_examples = R"(Examples:
   hemilux density room.obj --method hemisphere-1997 --estimated-steps 0 -o parts.svg
   hemilux density room.obj --method hemisphere-1997 --plane -o plane.svg
 )";
+
+/// Adds --guide, for the guides by which the hemispheres of `hemisphere` are divided; nothing where
+/// there is none.
+void add_dividing_guide(Command command, SolveOptions& options) {
+    std::vector<std::string> names{"density"};
+    for (const Guide* const guide : additions().guides)
+        if (guide->densities)
+            names.emplace_back(guide->name);
+    if (names.size() == 1)
+        return;
+    command.add_value(
+        "--guide", joined(names, "|"), "what divides hemisphere's [density]",
+        [names, &guide = options.own.of<GuideChoice>().guide](const std::string& text) {
+            if (std::ranges::find(names, text) == names.end())
+                throw UsageError("--guide: " + unknown_name("choice", text, names));
+            const auto found = std::ranges::find(additions().guides, text, &Guide::name);
+            guide = found == additions().guides.end() ? nullptr : *found;
+        });
+}
 
 /// Adds --method, for the methods whose hemispheres can be drawn.
 void add_dividing_method(Command command, const Method*& method) {
@@ -44,9 +64,7 @@ Command add_density_command(Arguments& program, DensitySettings& settings) {
     add_scene_options(command, settings.scene);
     add_dividing_method(method, settings.method);
     add_division_options(method, settings.options);
-    add_choice(method, "--guide", settings.options.own.of<Guide>(),
-               {{Guide::density, "density"}, {Guide::pyramid, "pyramid"}},
-               "what divides hemisphere's [density]");
+    add_dividing_guide(method, settings.options);
     add_own_options(command.under(own_group), {&forerunner, 1}, settings.options);
     add_random_options(method, settings.options);
     add_path(outputs, "-o,--output", "FILE",

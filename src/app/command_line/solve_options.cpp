@@ -40,9 +40,9 @@ void add_method_option(Command command, const Method*& method) {
     method = &method_of(Role::standard);
     std::string taken(method->name);
     for (const Method* const other : methods())
-        if (!other->implied_by.empty())
+        if (other->implied_by)
             taken += "; " + std::string(other->name) + " where " +
-                     joined(other->implied_by, ", ", " or ") + " are given";
+                     joined(other->implied_by(), ", ", " or ") + " are given";
     command.add_value("--method", "METHOD", "how to solve, see below [" + taken + "]",
                       [&method](const std::string& name) { method = method_by_name(name); });
     command.after_parsing([command, &method] {
@@ -52,7 +52,7 @@ void add_method_option(Command command, const Method*& method) {
         if (given("--method"))
             return;
         for (const Method* const other : methods())
-            if (std::ranges::any_of(other->implied_by, given))
+            if (other->implied_by && std::ranges::any_of(other->implied_by(), given))
                 method = other;
     });
 }

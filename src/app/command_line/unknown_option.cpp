@@ -14,7 +14,7 @@ struct RemovedOption {
 
 constexpr std::array removed_options{RemovedOption{
     "--spill", "the program has this option no more; where memory is too small, a swap file "
-               "of the system takes its place (docs/how-to.md, Scenes larger than memory)"}};
+               "of the system takes its place (docs/use/how-to.md, Scenes larger than memory)"}};
 
 } // namespace
 

@@ -18,7 +18,7 @@
 #include "io/drawings/plane_svg.h"
 #include "io/files/atomic_file.h"
 #include "radiosity/engine/densities/subdivision_1997.h"
-#include "radiosity/research/guiding/guide.h"
+#include "radiosity/engine/shooting/guide.h"
 
 #include <algorithm>
 #include <array>
@@ -150,9 +150,10 @@ void check(const DensitySettings& settings) {
         throw UsageError("--patch, --rays and --plane are for .svg outputs, and there is none");
     check_own_options(settings.options, {&settings.method, 1});
     const bool has_parts = settings.method == &method_of(Role::forerunner);
-    const bool by_pyramids = settings.options.own.of<Guide>() == Guide::pyramid;
-    if (by_pyramids && settings.plane)
-        throw UsageError("--plane shows rays that count, and --guide pyramid has none");
+    const Guide* const guide = settings.options.own.of<GuideChoice>().guide;
+    if (guide && settings.plane)
+        throw UsageError("--plane shows rays that count, and --guide " + std::string(guide->name) +
+                         " has none");
     const std::uint32_t parts =
         has_parts ? settings.options.own.of<Subdivision1997Options>().parts : 1;
     if (settings.part >= parts)

@@ -3,10 +3,9 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/densities/density.h"
 #include "radiosity/engine/densities/subdivision_1997.h"
+#include "radiosity/engine/shooting/guide.h"
 #include "radiosity/engine/shooting/strategy.h"
 #include "radiosity/paper/sampling/rng.h"
-#include "radiosity/research/guiding/guide.h"
-#include "radiosity/research/guiding/pyramids.h"
 
 namespace hemilux {
 
@@ -30,19 +29,18 @@ class RayDrawer {
     double due_;
 };
 
-/// The hemispheres of section 5, or with pyramids in place of rays.
+/// The hemispheres of section 5, divided by counts or by what --guide names.
 class ByDensity final : public DividedHemispheres {
   public:
     ByDensity(const SolverInput& input, const Workers& workers)
-        : input_(input), workers_(workers), hemisphere_(input.options.depth) {
-        const double threshold = input.options.threshold;
-        if (input.options.own.of<Guide>() == Guide::pyramid) {
-            leaves_ = std::make_unique<PyramidMap>(input.mesh, hemisphere_, threshold, workers,
-                                                   input.monitor);
+        : input_(input), workers_(workers), hemisphere_(input.options.depth),
+          guide_(guide_of(input.options)) {
+        if (guide_) {
+            leaves_ = guide_->densities(input, hemisphere_, workers);
             return;
         }
-        auto counted = std::make_unique<DensityMap>(input.mesh, input.tracer, hemisphere_,
-                                                    threshold, workers, input.monitor);
+        auto counted = std::make_unique<DensityMap>(
+            input.mesh, input.tracer, hemisphere_, input.options.threshold, workers, input.monitor);
         counted_ = counted.get();
         leaves_ = std::move(counted);
     }
@@ -78,7 +76,7 @@ class ByDensity final : public DividedHemispheres {
         return drawer.rays;
     }
     [[nodiscard]] std::string unit() const override {
-        return counted_ ? DividedHemispheres::unit() : "root of patches per mean triangle";
+        return guide_ ? std::string(guide_->unit) : DividedHemispheres::unit();
     }
     [[nodiscard]] std::uint64_t density_rays() const override { return leaves_->rays(); }
     [[nodiscard]] std::uint64_t bytes() const override { return leaves_->bytes(); }
@@ -87,8 +85,9 @@ class ByDensity final : public DividedHemispheres {
     SolverInput input_;
     Workers workers_;
     Hemisphere hemisphere_;
+    const Guide* guide_;
     std::unique_ptr<LeafDensities> leaves_;
-    const DensityMap* counted_ = nullptr; ///< leaves_, unless they are of pyramids
+    const DensityMap* counted_ = nullptr; ///< leaves_, unless they are the guide's
 };
 
 /// The hemispheres of section 4: the triangles of the last guided step.

@@ -31,10 +31,10 @@ std::string camera_text(const Camera& camera) {
 
 Camera camera_of(const ViewSettings& view, const LitScene& scene) {
     const auto [width, height] = view.size;
-    return view.camera ? *view.camera
-                       : automatic_camera(scene.mesh, scene.tracer, scene.radiosity,
-                                          static_cast<double>(width) / height, view.up,
-                                          scene.threads);
+    return view.camera
+               ? *view.camera
+               : automatic_camera(scene.mesh, scene.tracer, scene.radiosity,
+                                  static_cast<double>(width) / height, view.up, scene.threads);
 }
 
 bool PictureTime::is_over() const {

@@ -19,8 +19,8 @@
 #include "io/results/smooth.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/densities/density.h"
+#include "radiosity/engine/shooting/guide.h"
 #include "radiosity/paper/sampling/rng.h"
-#include "radiosity/research/guiding/guide.h"
 
 #include <algorithm>
 #include <mutex>
@@ -192,8 +192,8 @@ void write_report(const SolveSettings& settings, const Results& results) {
                           settings.from.command,
                           camera_of(settings.view, results.lit()),
                           settings.view.exposure};
-    const bool by_densities = settings.method == &method_of(Role::paper) &&
-                              guide_of(options) == Guide::density && !settings.plain;
+    const bool by_densities =
+        settings.method == &method_of(Role::paper) && !guide_of(options) && !settings.plain;
     if (!by_densities)
         return write_report_page(settings.report, content);
     // The densities are counted again, as the method does not keep all.

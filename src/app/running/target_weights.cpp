@@ -69,10 +69,11 @@ void check_target(const SolveSettings& settings) {
     const TargetSettings& target = settings.target;
     if (target.names().empty())
         return;
-    if (!settings.method->aims)
-        throw UsageError("--for: --method " + std::string(settings.method->name) +
-                         " solves for all patches alike; these take a target: " +
-                         names_of_methods([](const Method& method) { return method.aims; }));
+    if (!settings.method->takes_target())
+        throw UsageError(
+            "--for: --method " + std::string(settings.method->name) +
+            " solves for all patches alike; these take a target: " +
+            names_of_methods([](const Method& method) { return method.takes_target(); }));
     if (settings.plain)
         throw UsageError("--for: --plain solves for all patches alike; leave one of them out");
     if (settings.options.literal)

@@ -126,7 +126,8 @@ struct Budget {
     static constexpr double default_steps = 64; ///< of the mean rays per patch and step
 };
 
-/// A method as `compare` names it: `hemisphere-visible` is hemisphere with `--guide visible`.
+/// A method as `compare` names it: METHOD-VALUE is the method with this value of one of its
+/// options.
 struct MethodVariant {
     std::string name;
     const Method* method = nullptr;

@@ -61,8 +61,6 @@ TEST_CASE("values that are missing, doubled or contradict each other") {
     check_usage(place, "solve room.obj -o a.png -q -v", "contradict");
     check_usage(place, "solve room.obj -o a.png --exact", "--exact is for --method matrix");
     check_usage(place, "solve room.obj -o a.png --one-shot", "--one-shot is for");
-    check_usage(place, "solve room.obj -o a.png --method stratified --guide visible",
-                "--guide visible is for --method hemisphere");
     check_usage(place, "solve room.obj -o a.png --parts 16",
                 "--parts 16 is for --method hemisphere-1997");
     const std::string of_1997 = "solve room.obj -o a.png --method hemisphere-1997 ";

@@ -160,30 +160,6 @@ TEST_CASE("a comparison labels a method as the user called it") {
     CHECK(place.has("a/gathering.png"));
 }
 
-TEST_CASE("hemisphere is compared with itself, guided in other ways") {
-    const Workplace place;
-    place.write_room();
-    place.write("room.obj", place.read("room.obj") + // something that hides something
-                                "v .2 .2 .2\nv .6 .2 .5\nv .3 .7 .4\nf -3 -2 -1\n");
-    const auto outcome =
-        place.hemilux("compare room.obj -o a --runs 1 --rays 4 -q --methods "
-                      "hemisphere,hemisphere-visible,hemisphere-learned,progressive-monte-carlo " +
-                      quick);
-    CAPTURE(outcome.err);
-    REQUIRE(outcome.code == 0);
-    const auto table = table_of(outcome.out);
-    for (const char* name : {"hemisphere", "hemisphere-visible", "hemisphere-learned"}) {
-        CHECK(table.contains(name));
-        CHECK(place.has(std::string("a/") + name + "_difference.png"));
-    }
-    CHECK(table.at("hemisphere")[3] != table.at("hemisphere-visible")[3]);
-    CHECK(table.at("hemisphere-learned")[3] != table.at("hemisphere-visible")[3]);
-    const auto twice =
-        place.hemilux("compare room.obj -o a --methods hemisphere-learned,hemisphere-learned");
-    CHECK(twice.code == 1);
-    CHECK_THAT(twice.err, Contains("named twice"));
-}
-
 TEST_CASE("the reference that was computed serves again, and steps do not depend on threads") {
     const Workplace place;
     place.write_room();

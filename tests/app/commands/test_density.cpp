@@ -56,15 +56,9 @@ TEST_CASE("density draws the hemispheres over the parts of a patch") {
     CHECK_THAT(place.read("p.svg"), Contains("part 3, 256 triangles"));
 }
 
-TEST_CASE("density draws pyramids, and the subdivision in a plane") {
+TEST_CASE("density draws the subdivision in a plane") {
     const Workplace place;
     place.write_room();
-    CHECK(place
-              .hemilux("density room.obj --guide pyramid --patch 5 --rays 50 -o h.svg -o d.png "
-                       "--size 40x30")
-              .code == 0);
-    CHECK_THAT(place.read("h.svg"), Contains("root of patches per mean triangle") &&
-                                        Contains(" energy rays") && !Contains("density rays"));
     for (const std::string method : {"hemisphere", "hemisphere-1997"}) {
         CHECK(place.hemilux("density room.obj --plane --patch 5 --method " + method + " -o p.svg")
                   .code == 0);
@@ -104,10 +98,6 @@ TEST_CASE("density says what is wrong with what it is asked") {
     fails(1, "room.obj -o a.svg --parts 4 --part 1", "numbered from 0 to 0");
     fails(1, "room.obj -o a.svg --parts 16", "--parts 16 is for --method hemisphere-1997");
     fails(1, "room.obj -o a.svg --method hemisphere-1997 --part 4", "numbered from 0 to 3");
-    fails(1, "room.obj -o a.svg --guide learned", "unknown choice");
-    fails(1, "room.obj -o a.svg --guide pyramid --plane", "--guide pyramid has none");
-    fails(1, "room.obj -o a.svg --guide pyramid --method hemisphere-1997",
-          "--guide pyramid is for --method hemisphere");
     fails(1, "room.obj -o a.png --plane", "there is none");
     fails(1, "room.obj -o a.svg -o a.svg", "named twice");
     fails(2, "none.obj -o a.svg", "none.obj");

@@ -50,9 +50,6 @@ TEST_CASE("solve --plain is refused where there is no page or the page has no su
         "hemisphere-1997, monte-carlo, progressive-monte-carlo, stored-transport";
     for (const char* name : {"matrix", "progressive", "stratified"})
         refused("--method " + std::string(name), "--method " + std::string(name) + " " + pages);
-    refused("--method hemisphere --guide visible", "leave out --guide visible");
-    refused("--guide pyramid", "leave out --guide pyramid");
-    refused("--guide learned", "leave out --guide learned");
     refused("--method monte-carlo --checkpoint a", "leave out --checkpoint and --resume");
     refused("--method hemisphere --resume a", "leave out --checkpoint and --resume");
     refused("--max-edge .01", "up to 2 000 patches");

@@ -302,10 +302,9 @@ TEST_CASE("stored transport solves, or hemisphere where one of its own options i
     };
     CHECK(method_of("") == "stored-transport");
     CHECK(method_of("--method gathering") == "stored-transport"); // its former name
-    for (const char* option : {"--depth 1", "--threshold 2", "--guide visible", "--literal"}) {
+    for (const char* option : {"--depth 1", "--threshold 2", "--literal"}) {
         CHECK(method_of(option) == "hemisphere");
-        if (option != std::string("--guide visible")) // which is of hemisphere alone
-            CHECK(method_of(std::string("--method stratified ") + option) == "stratified");
+        CHECK(method_of(std::string("--method stratified ") + option) == "stratified");
     }
     const auto unasked = place.hemilux("solve room.obj -o a.csv --stats a.json");
     CHECK(unasked.code == 0);

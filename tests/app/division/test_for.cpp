@@ -169,8 +169,9 @@ TEST_CASE("A target that cannot be is refused") {
     refused(2, "--for points:air.txt", "air.txt:2: --for: expected a point on a face");
     refused(2, "--for points:words.txt", "words.txt:2: expected six numbers");
     refused(2, "--for group:lamp", "nothing that --for names reflects light");
-    refused(1, "--for group:walls --method matrix", "these take a target: hemisphere, ");
-    refused(1, "--for group:walls --method hemisphere --literal", "with --literal each patch");
+    refused(1, "--for group:walls --method matrix", "these take a target: ");
+    refused(1, "--for group:walls --literal --method stored-transport",
+            "with --literal each patch");
     refused(1, "--for group:walls --plain", "--plain solves for all patches alike");
     place.write("p.txt", ".6 .6 0 0 0 1\n");
     test::check_fails(place, 1, "solve room.obj -o x.csv --stats p.txt --for points:p.txt",

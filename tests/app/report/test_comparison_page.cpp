@@ -1,7 +1,7 @@
 // `hemilux compare --report`: the page has the numbers of the table, and the light of the methods.
 #include "app/check_fails.h"
 #include "app/report/half_light.h"
-#include "app/report/report_page.h"
+#include "app/report/read_report.h"
 #include "app/split.h"
 #include "io/results/tables.h"
 #include "support/catch.h"

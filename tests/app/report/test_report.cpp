@@ -1,7 +1,7 @@
 // `hemilux solve --report`: the page has the numbers of the tables, and no name breaks it.
 #include "app/check_fails.h"
 #include "app/report/base64.h"
-#include "app/report/report_page.h"
+#include "app/report/read_report.h"
 #include "app/running.h"
 #include "io/results/tables.h"
 #include "support/catch.h"

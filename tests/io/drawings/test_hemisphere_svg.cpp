@@ -4,6 +4,7 @@
 #include "io/drawings/hemisphere_svg.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/densities/density.h"
+#include "radiosity/paper/hemisphere/density_direction.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

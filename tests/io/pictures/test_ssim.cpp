@@ -1,4 +1,4 @@
-#include "../../bench/ssim.h"
+#include "../../../bench/ssim.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
 

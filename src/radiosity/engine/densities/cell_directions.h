@@ -19,7 +19,7 @@ inline constexpr std::uint16_t whole_hemisphere = 0xffff;
 /// The meaning of A in A_tr / A_hemi of the paper.
 enum class CellArea {
     projected_solid_angle, ///< so that Lambert's law holds
-    solid_angle            ///< as printed; biased (docs/decisions.md, D1)
+    solid_angle            ///< as printed; biased (docs/paper/decisions.md, D1)
 };
 
 /// Returns A_tr / A_hemi of the paper [-]: the share of a diffuse patch's power that a cell of the

@@ -1,11 +1,11 @@
 #include "radiosity/engine/densities/density.h"
 
 #include "parallel/workers.h"
+#include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hemilux {
 namespace {
@@ -64,13 +64,6 @@ class TreeWalk {
 constexpr double divide_all = -1;
 
 } // namespace
-
-Vec3 density_direction(const Vec3& vertex) {
-    constexpr double least_sine = 0.01; // sine of the elevation
-    const bool pole = vertex.x == 0 && vertex.y == 0;
-    return glm::normalize(
-        Vec3(pole ? least_sine : vertex.x, vertex.y, std::max(vertex.z, least_sine)));
-}
 
 DensityMap::DensityMap(const Mesh& mesh, const Tracer& tracer, const Hemisphere& hemisphere,
                        double threshold, const Workers& workers, Monitor& monitor,

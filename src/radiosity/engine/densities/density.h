@@ -5,7 +5,7 @@
 // The counts at the vertices determine the mean of every triangle, and whether a triangle is
 // divided follows from its mean and the threshold. So a patch keeps one byte per vertex of the
 // triangles that exist, and no flags. That is 5 bytes if nothing is divided, and 41 at most at
-// depth 2, where the paper's one byte per triangle would be 84 (docs/decisions.md, D8).
+// depth 2, where the paper's one byte per triangle would be 84 (docs/paper/decisions.md, D8).
 
 #include "bvh/tracer.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
@@ -38,12 +38,6 @@ struct DensityCount {
     std::uint16_t vertex;  ///< of Hemisphere::vertices()
     std::uint8_t surfaces; ///< 255: or more
 };
-
-/// Returns the direction of a density ray through a vertex of the table. Vertices on the horizon
-/// lie in the patch's plane, where a count would depend on rounding errors; their rays are lifted a
-/// little. The ray of the pole is tilted by as much: where walls stand at right angles, there is
-/// often an edge straight ahead of the middle of a patch.
-[[nodiscard]] Vec3 density_direction(const Vec3& vertex);
 
 /// This is what a strategy needs to know of the densities of patches, however they were found.
 class LeafDensities {

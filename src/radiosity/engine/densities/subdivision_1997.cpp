@@ -1,7 +1,7 @@
 #include "radiosity/engine/densities/subdivision_1997.h"
 
 #include "parallel/workers.h"
-#include "radiosity/engine/densities/density.h"
+#include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <algorithm>

@@ -59,7 +59,8 @@ MethodOption factors_option(bool with_exact) {
                           ? std::vector<std::string>{"rays", "exact", "hemicube", "hemicube:N"}
                           : std::vector<std::string>{"rays", "hemicube", "hemicube:N"},
             .set = set,
-            .get = factors_text};
+            .get = factors_text,
+            .on_page = false};
 }
 
 MethodOption exact_option() {
@@ -71,6 +72,7 @@ MethodOption exact_option() {
         .set = [](SolveOptions& options,
                   std::string_view text) { return text == "yes" && set_factors(options, "exact"); },
         .get = [](const SolveOptions& options) { return is_exact(options) ? "yes" : "no"; },
+        .on_page = false,
         .excludes = "--factors"};
 }
 

@@ -6,6 +6,7 @@
 // the running mean. The method needs no preprocessing and no memory. It is the yardstick for all
 // others.
 
+#include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/shooting/shooting.h"
 #include "radiosity/paper/pages/pages.h"
 
@@ -14,7 +15,6 @@ namespace {
 
 class Cosine final : public Strategy {
   public:
-    [[nodiscard]] bool is_same_in_all_steps() const override { return true; }
     Allocation allocate(std::uint32_t, AllocatedCells&) const override {
         static constexpr std::uint16_t cell = whole_hemisphere;
         static constexpr float all_rays = 1;
@@ -38,7 +38,7 @@ extern const Method cosine_method{
     .work = {.passes = true},
     .plain = plain::progressive_monte_carlo,
     .role = Role::baseline,
-    .aims = true,
+    .aims = has_aimer,
 };
 
 } // namespace hemilux

@@ -6,30 +6,27 @@
 //
 //     N_tr = N_hemi A_tr / A_hemi D_tr / D_average,   Phi_tr = Phi_patch A_tr / A_hemi.
 //
-// A is the projected solid angle, so that Lambert's law holds whatever the triangles (D1).
-// D_average is weighted by the same areas, so that the N_tr sum to N_hemi (D4). With --literal, A
-// is the solid angle, as printed: the light is then distributed wrongly, however many rays are
-// shot.
+// A is the projected solid angle, so that Lambert's law holds whatever the triangles
+// (docs/paper/decisions.md, D1). D_average is weighted by the same areas, so that the N_tr sum to
+// N_hemi (D4). With --literal, A is the solid angle, as printed: the light is then distributed
+// wrongly, however many rays are shot.
 //
 // The method is good where small objects crowd in few directions. It is of little use where a wall
 // hides a crowd, to which it sends rays in vain. It costs at most 41 rays and bytes per patch at
-// depth 2. With --guide pyramid, the density is that of the patches in the pyramid of a triangle
-// (pyramids.h). With --guide visible or learned, rays follow what is seen, which the wall does not
-// mislead (visibility_guide.h).
+// depth 2. With --guide, other densities or another strategy guide its rays (guide.h).
 
 #include "radiosity/engine/densities/density.h"
+#include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/shooting/shooting.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/scene/mesh.h"
-#include "radiosity/research/guiding/guide.h"
-#include "radiosity/research/guiding/patch_boxes.h"
-#include "radiosity/research/guiding/pyramids.h"
-#include "radiosity/research/guiding/visibility_guide.h"
 
 #include <algorithm>
-#include <array>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace hemilux {
 namespace {
@@ -52,7 +49,6 @@ class HemisphereStrategy final : public Strategy {
             keep_allocated(input, workers);
     }
 
-    [[nodiscard]] bool is_same_in_all_steps() const override { return true; }
     Allocation allocate(std::uint32_t patch, AllocatedCells& memory) const override {
         if (!densities_)
             return allocated_of_one_surface_.view();
@@ -76,9 +72,8 @@ class HemisphereStrategy final : public Strategy {
     [[nodiscard]] static std::unique_ptr<LeafDensities>
     find_densities(const SolverInput& input, const Hemisphere& hemisphere, const Workers& workers) {
         const SolveOptions& options = input.options;
-        if (guide_of(options) == Guide::pyramid)
-            return std::make_unique<PyramidMap>(input.mesh, hemisphere, options.threshold, workers,
-                                                input.monitor, input.needs);
+        if (const Guide* const guide = guide_of(options); guide && guide->densities)
+            return guide->densities(input, hemisphere, workers);
         return std::make_unique<DensityMap>(
             input.mesh, input.tracer, hemisphere, options.threshold, workers, input.monitor,
             input.needs, options.keep_all ? DensityStore::everything : DensityStore::divided_only);
@@ -149,41 +144,58 @@ class HemisphereStrategy final : public Strategy {
 
 std::unique_ptr<Strategy> make_hemisphere(const SolverInput& input, const Hemisphere& hemisphere,
                                           const Workers& workers) {
-    const Guide guide = guide_of(input.options);
-    const bool by_visibility = guide == Guide::visible || guide == Guide::learned;
-    if (by_visibility && input.needs.visibility)
-        return make_visibility_guide(input, hemisphere, workers, guide == Guide::learned);
+    const Guide* const guide = guide_of(input.options);
+    if (guide && guide->strategy && input.needs.visibility)
+        return guide->strategy(input, hemisphere, workers);
     return std::make_unique<HemisphereStrategy>(input, hemisphere, workers);
 }
 
+constexpr std::string_view counted_densities = "density";
+
+bool set_guide(SolveOptions& options, std::string_view name) {
+    const auto guides = additions().guides;
+    const auto found = std::ranges::find(guides, name, &Guide::name);
+    if (found == guides.end() && name != counted_densities)
+        return false;
+    options.own.of<GuideChoice>().guide = found == guides.end() ? nullptr : *found;
+    return true;
+}
+
+std::string name_of_guide(const SolveOptions& options) {
+    const Guide* const guide = options.own.of<GuideChoice>().guide;
+    return std::string(guide ? guide->name : counted_densities);
+}
+
+/// Returns --guide, where there is more than one to choose from.
 std::vector<MethodOption> options() {
-    MethodOption guide = choice_option<Guide>("--guide", "what guides it [density]",
-                                              {{Guide::density, "density"},
-                                               {Guide::pyramid, "pyramid"},
-                                               {Guide::visible, "visible"},
-                                               {Guide::learned, "learned"}});
-    guide.on_page = false;
-    guide.makes_variants = true;
+    if (additions().guides.empty())
+        return {};
+    MethodOption guide{.name = "--guide",
+                       .help = "what guides it [density]",
+                       .values = {std::string(counted_densities)},
+                       .set = set_guide,
+                       .get = name_of_guide,
+                       .on_page = false,
+                       .makes_variants = true};
+    for (const Guide* const added : additions().guides)
+        guide.values.emplace_back(added->name);
     return {guide};
 }
 
-double bytes(const SolveOptions& options, double patches) {
-    const Hemisphere hemisphere(options.depth);
-    const double cells = double(Hemisphere::cells_up_to(options.depth));
-    switch (guide_of(options)) {
-    case Guide::density: // by vertex; the array is copied as it grows
-        return 2 * patches * double(hemisphere.vertices().size());
-    case Guide::pyramid:
-        return patches * (cells + 2 * sizeof(PatchBoxes::Node));
-    case Guide::visible:
-    case Guide::learned: // by leaf: its byte, and the importance and number of its hits
-        break;
-    }
-    return 18 * patches * (cells - double(Hemisphere::cells_up_to(options.depth - 1)));
+std::vector<std::string> implied_by() {
+    std::vector<std::string> names{"--depth", "--threshold"};
+    for (const MethodOption& own : options())
+        names.push_back(own.name);
+    names.emplace_back("--literal");
+    return names;
 }
 
-constexpr std::array<std::string_view, 4> division_options{"--depth", "--threshold", "--guide",
-                                                           "--literal"};
+/// Counted densities take a byte by vertex, and the array is copied as it grows.
+double bytes(const SolveOptions& options, double patches) {
+    if (const Guide* const guide = guide_of(options))
+        return guide->bytes(options.depth, patches);
+    return 2 * patches * double(Hemisphere(options.depth).vertices().size());
+}
 
 } // namespace
 
@@ -199,10 +211,10 @@ extern const Method hemisphere_method{
     .work = {.densities = true, .passes = true},
     .plain = plain::hemisphere,
     .role = Role::paper,
-    .aims = true,
+    .aims = has_aimer,
     .options = options,
     .bytes = bytes,
-    .implied_by = division_options,
+    .implied_by = implied_by,
 };
 
 } // namespace hemilux

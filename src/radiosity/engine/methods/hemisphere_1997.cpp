@@ -11,7 +11,7 @@
 // `progressive-monte-carlo`.
 //
 // By default the area of a triangle is its projected solid angle, so that Lambert's law holds
-// (docs/decisions.md, D1). Rays start anywhere on the part (D2). If there are fewer rays than
+// (docs/paper/decisions.md, D1). Rays start anywhere on the part (D2). If there are fewer rays than
 // triangles, they are allocated by systematic sampling (D4). Counting rays are shot before the
 // first step and carry no energy.
 //
@@ -19,7 +19,7 @@
 // triangle gets one ray at least. Subdivision then goes on between the steps: each begins by
 // dividing once more. The rays that count carry energy too. Besides its random rays, each triangle
 // shoots one through each corner that the step has found, all with the same part of its power
-// (docs/decisions.md, D61). --depth and --threshold are not used.
+// (docs/paper/decisions.md, D61). --depth and --threshold are not used.
 //
 // The method is good for comparison. It is bad because large triangles, where few surfaces are, get
 // as few rays as small ones: these rays carry much power each and their noise is seen. With the
@@ -28,10 +28,12 @@
 // step has four times as many triangles, and there should not be many more of them than rays.
 
 #include "parallel/workers.h"
-#include "radiosity/engine/densities/density.h"
 #include "radiosity/engine/densities/subdivision_1997.h"
+#include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/shooting/shooting.h"
+#include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/scene/mesh.h"
 
@@ -45,7 +47,7 @@ namespace {
 
 static_assert(Subdivision1997::most_triangles < whole_hemisphere);
 
-class Hemisphere1997 final : public Strategy {
+class Hemisphere1997 final : public Strategy, StepHook, PrivateCells {
   public:
     Hemisphere1997(const SolverInput& input, const Workers& workers)
         : input_(input), workers_(workers), printed_(input.options.literal),
@@ -72,8 +74,9 @@ class Hemisphere1997 final : public Strategy {
     }
 
     Allocation allocate(std::uint32_t, AllocatedCells&) const override { return allocated_.view(); }
+    [[nodiscard]] StepHook* step_hook() override { return this; }
+    [[nodiscard]] const PrivateCells* private_cells() const override { return this; }
 
-    [[nodiscard]] bool has_private_cells() const override { return true; }
     [[nodiscard]] std::optional<PrivateCell> private_cell(std::uint32_t patch,
                                                           std::uint16_t cell) const override {
         if (cell == whole_hemisphere)
@@ -153,7 +156,7 @@ extern const Method hemisphere_1997_method{
     .work = {.densities = true, .passes = true},
     .plain = plain::hemisphere_1997,
     .role = Role::forerunner,
-    .aims = true,
+    .aims = has_aimer,
     .options = options,
     .check = check,
     .bytes = bytes,

@@ -24,6 +24,7 @@
 #include "radiosity/engine/linear/hemicube_matrix.h"
 #include "radiosity/engine/linear/surfaces.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -232,6 +233,8 @@ extern const Method matrix_method{
     .default_stop = {.steps = {}, .seconds = {}, .error = .002},
     .make = make_matrix,
     .work = {.pairs = true, .linear_systems = true, .passes = true},
+    .plain = plain::matrix,
+    .most_plain_patches = plain::most_patches_of_matrix,
     .role = Role::reference,
     .options = options,
     .check = check_exact,

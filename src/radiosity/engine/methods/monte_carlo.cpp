@@ -22,6 +22,7 @@
 #include "geometry/frame.h"
 #include "parallel/workers.h"
 #include "radiosity/engine/sampling/largest_first.h"
+#include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/shooting/stepwise.h"
 #include "radiosity/engine/solving/one_shot.h"
 #include "radiosity/paper/pages/pages.h"
@@ -169,7 +170,7 @@ bool shoot_all(const SolverInput& input, const StepTask& task, StepResult& resul
 
 class MonteCarloSolver final : public StepwiseSolver {
   public:
-    explicit MonteCarloSolver(const SolverInput& input) : StepwiseSolver(input, true) {}
+    explicit MonteCarloSolver(const SolverInput& input) : StepwiseSolver(input, true, false) {}
 
   private:
     [[nodiscard]] bool steps_are_alike() const override { return true; }
@@ -252,7 +253,7 @@ extern const Method monte_carlo_method{
     .work = {.passes = true},
     .saves = true,
     .plain = plain::monte_carlo,
-    .aims = true,
+    .aims = has_aimer,
     .options = options,
     .adapt = [](MethodWork& work,
                 const SolveOptions& options) { work.ends_by_itself = is_one_shot(options); },

@@ -15,7 +15,7 @@
 // is left unshot, a pass is done: with 64 rays it is within 1 or 2 % of the exact solution. The
 // next one begins again, four times as accurate, and the result is the mean of the passes, weighted
 // by their rays. --one-shot makes a step of each shot and ends with the first pass. --ambient shows
-// what is still unshot, and --overshoot shoots ahead (ProgressiveOptions in progressive_pass.h).
+// what is still unshot, and --overshoot shoots ahead (ProgressiveOptions).
 //
 // With --factors hemicube, the shooter's hemicube shows the form factors to all others at once,
 // with one ray per pixel, as in Cohen et al. (1988): F_is = F_si A_s / A_i. Another pass would see
@@ -33,11 +33,13 @@
 #include "radiosity/engine/form_factors/factor_options.h"
 #include "radiosity/engine/progressive/progressive_pass.h"
 #include "radiosity/engine/solving/one_shot.h"
+#include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/scene/alike_neighbours.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/error_spread.h"
 #include "radiosity/paper/solution/solve_error.h"
 #include "radiosity/paper/solving/check_input.h"
+#include "radiosity/paper/solving/progressive_options.h"
 
 #include <algorithm>
 #include <cmath>
@@ -183,11 +185,14 @@ class ProgressiveSolver final : public Solver {
 };
 
 std::vector<MethodOption> options() {
+    MethodOption overshoot =
+        flag_option("--overshoot", "also shoot what a patch will probably receive later",
+                    &ProgressiveOptions::overshoot);
+    overshoot.on_page = false;
     return {factors_option(false), one_shot_option(),
             flag_option("--ambient", "show an estimate of the light that is still unshot",
                         &ProgressiveOptions::ambient),
-            flag_option("--overshoot", "also shoot what a patch will probably receive later",
-                        &ProgressiveOptions::overshoot)};
+            overshoot};
 }
 
 void adapt(MethodWork& work, const SolveOptions& options) {
@@ -204,6 +209,7 @@ extern const Method progressive_method{
     .default_stop = {.steps = {}, .seconds = {}, .error = .01},
     .make = make_solver_of<ProgressiveSolver>,
     .work = {.pairs = true},
+    .plain = plain::progressive,
     .options = options,
     .adapt = adapt,
 };

@@ -24,13 +24,13 @@
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/stored_transport/batch_light.h"
 #include "radiosity/engine/stored_transport/importance.h"
+#include "radiosity/engine/stored_transport/page/stored_transport.h"
 #include "radiosity/engine/stored_transport/ray_plan.h"
 #include "radiosity/engine/stored_transport/row_spread.h"
 #include "radiosity/engine/stored_transport/step_errors.h"
 #include "radiosity/engine/stored_transport/stored_rays.h"
 #include "radiosity/engine/stored_transport/transport_errors.h"
 #include "radiosity/engine/stored_transport/transport_system.h"
-#include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solve_error.h"
 #include "radiosity/paper/solving/check_input.h"
@@ -253,7 +253,7 @@ extern const Method stored_transport_method{
     .plain = plain::stored_transport,
     .most_plain_patches = plain::most_patches_of_stored_transport,
     .role = Role::standard,
-    .aims = true,
+    .aims = [] { return true; },
     .bytes =
         [](const SolveOptions& options, double patches) {
             return bytes_per_factor * patches * std::min(patches, options.rays);

@@ -4,6 +4,7 @@
 // by merely dividing the hemisphere, before it has looked at the scene. It needs no density rays
 // and no memory.
 
+#include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/shooting/shooting.h"
 
 namespace hemilux {
@@ -19,7 +20,6 @@ class Stratified final : public Strategy {
             allocated_.add(cell, power_share(hemisphere, cell, CellArea::projected_solid_angle));
         }
     }
-    [[nodiscard]] bool is_same_in_all_steps() const override { return true; }
     Allocation allocate(std::uint32_t, AllocatedCells&) const override { return allocated_.view(); }
 
   private:
@@ -42,7 +42,7 @@ extern const Method stratified_method{
     .make = shoot_with<make_stratified>,
     .strategy = make_stratified,
     .work = {.passes = true},
-    .aims = true,
+    .aims = has_aimer,
 };
 
 } // namespace hemilux

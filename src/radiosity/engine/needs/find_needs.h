@@ -2,8 +2,8 @@
 // Finds what a scene needs: work that would not change its solution is left out.
 //
 // This small analysis of the mesh is made once. Methods and tracers ask it before they do their
-// work. docs/decisions.md says which omission keeps every byte and which keeps the result within
-// its error.
+// work. docs/paper/decisions.md says which omission keeps every byte and which keeps the result
+// within its error.
 
 #include "radiosity/paper/scene/needs.h"
 
@@ -19,7 +19,7 @@ class Mesh;
 [[nodiscard]] bool needs_tree(const Mesh& mesh);
 
 /// Up to so many triangles form one leaf of the tree, tested at once. With more of them boxes pay
-/// (measured in docs/results.md).
+/// (measured in docs/measured/results.md).
 inline constexpr std::size_t most_triangles_without_tree = 8;
 
 } // namespace hemilux

@@ -14,6 +14,7 @@
 #include "radiosity/engine/progressive/shot_balance.h"
 #include "radiosity/engine/progressive/shot_factors.h"
 #include "radiosity/engine/sampling/largest_first.h"
+#include "radiosity/paper/solving/progressive_options.h"
 #include "radiosity/paper/solving/solver.h"
 
 #include <cstdint>
@@ -22,16 +23,6 @@
 #include <vector>
 
 namespace hemilux {
-
-/// The options of the method `progressive`.
-struct ProgressiveOptions {
-    /// Adds to the solution shown an estimate of the light that is still unshot (Cohen et al.
-    /// 1988). It makes early pictures brighter and is gone at the end.
-    bool ambient = false;
-    /// Patches also shoot what they will probably receive later, and take back what was too much
-    /// (Feda and Purgathofer 1992). This takes fewer shots in bright rooms.
-    bool overshoot = false;
-};
 
 class ProgressivePass {
   public:

@@ -24,8 +24,8 @@ constexpr double rest_of_same_number = 1e-4;
 
 constexpr std::size_t bits_of_word = 64;
 
-/// This stands for the receiver of a ray whose power is carried by rays to a ball.
-constexpr std::uint32_t shot_apart = 0xfffffffd;
+/// This stands for the receiver of a ray whose power is carried by separate rays.
+constexpr std::uint32_t shot_separately = 0xfffffffd;
 
 } // namespace
 
@@ -85,8 +85,9 @@ std::uint64_t Bounces::bounce(std::uint64_t stream, StepResult& result) {
     Place next{0, rays_by_power() ? whole_below(rays_before_[0]) : 0};
     while (cut(next) && !input_.monitor.interrupted)
         shoot_items(workers, stream, result);
-    if (has_balls() && !input_.monitor.interrupted)
-        shoot_to_balls(workers, stream, result);
+    if (task_->separate && !input_.monitor.interrupted)
+        task_->separate->shoot(input_, {senders_, unshot_, task_->ray_power}, stream, workers,
+                               [&](const SeparateShots& shots) { collect(shots, result); });
     return result.rays - before;
 }
 
@@ -130,7 +131,7 @@ void Bounces::collect(const RayBatch& batch, StepResult& result) {
             Lost lost;
             receive(group->ray_power * held, {receivers, group->rays}, lost);
             receivers += group->rays;
-            sent += (group->rays - lost.shot_apart) * group->ray_power;
+            sent += (group->rays - lost.separate) * group->ray_power;
             lost_in_open += lost.escaped * group->ray_power;
             lost_on_backs += lost.absorbed * group->ray_power;
         }
@@ -140,9 +141,25 @@ void Bounces::collect(const RayBatch& batch, StepResult& result) {
         if (lost_on_backs > 0)
             result.absorbed += lost_on_backs * held;
     }
-    if (tools_.strategy->learns())
+    if (learns())
         teach(batch);
     result.rays += batch.receivers.size();
+}
+
+void Bounces::collect(const SeparateShots& shots, StepResult& result) {
+    if (input_.monitor.interrupted) // the batch may not be whole
+        return;
+    for (std::size_t k = 0; k < shots.rays.size(); ++k) {
+        const Vec3 power = shots.power[k] * unshot_[shots.senders[k]];
+        Lost lost;
+        receive(power, std::span(shots.receivers).subspan(k, 1), lost);
+        result.sent += power;
+        if (lost.escaped > 0)
+            result.escaped += power;
+        if (lost.absorbed > 0)
+            result.absorbed += power;
+    }
+    result.rays += shots.rays.size();
 }
 
 /// Each ray brings `power`, which is Phi_ray.
@@ -151,7 +168,7 @@ void Bounces::receive(const Vec3& power, std::span<const std::uint32_t> receiver
         if (receiver >= received_.size()) {
             ++(receiver == escaped    ? lost.escaped
                : receiver == absorbed ? lost.absorbed
-                                      : lost.shot_apart);
+                                      : lost.separate);
             continue;
         }
         hit_[receiver / bits_of_word] |= std::uint64_t{1} << receiver % bits_of_word;
@@ -163,9 +180,8 @@ void Bounces::receive(const Vec3& power, std::span<const std::uint32_t> receiver
 void Bounces::teach(const RayBatch& batch) const {
     std::size_t ray = 0;
     for (const RayGroup& group : batch.groups) {
-        tools_.strategy->learn(group.patch, group.cell,
-                               std::span(batch.receivers).subspan(ray, group.rays),
-                               std::span(batch.arrivals).subspan(ray, group.rays));
+        hook_->learn(group.patch, group.cell, std::span(batch.receivers).subspan(ray, group.rays),
+                     std::span(batch.arrivals).subspan(ray, group.rays));
         ray += group.rays;
     }
 }
@@ -201,13 +217,13 @@ void Bounces::trace(std::uint64_t stream, RayBatch& batch) const {
             return;
         find_receivers(rays, input_.mesh, input_.tracer, batch.receivers);
         const std::span<std::uint32_t> receivers = std::span(batch.receivers).last(rays.size());
-        if (has_balls())
+        if (task_->separate)
             drawn.for_each_patch([&](std::size_t k, std::uint32_t patch) {
-                if (task_->balls->takers(patch, rays[k].origin, rays[k].direction) > 0)
-                    receivers[k] = shot_apart;
+                if (task_->separate->carry(patch, rays[k]))
+                    receivers[k] = shot_separately;
             });
-        if (tools_.strategy->learns())
-            tools_.strategy->find_arrivals(rays, receivers, batch.arrivals);
+        if (learns())
+            hook_->find_arrivals(rays, receivers, batch.arrivals);
     }
 }
 

@@ -8,7 +8,9 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/densities/cell_directions.h"
 #include "radiosity/engine/shooting/grouped_rays.h"
+#include "radiosity/engine/shooting/separate_rays.h"
 #include "radiosity/engine/shooting/shooting_rules.h"
+#include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/engine/shooting/stepwise.h"
 #include "radiosity/engine/shooting/strategy.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
@@ -38,7 +40,8 @@ struct ShootingTools {
 class Bounces {
   public:
     /// The tools must outlive this object. It may be used for one step after another.
-    explicit Bounces(const ShootingTools& tools) : tools_(tools), input_(tools.input) {}
+    explicit Bounces(const ShootingTools& tools)
+        : tools_(tools), input_(tools.input), hook_(tools.strategy->step_hook()) {}
 
     /// Shoots the light that `result` has as radiosity, and all its bounces. Returns false when
     /// interrupted.
@@ -61,14 +64,7 @@ class Bounces {
     struct RayBatch {
         std::vector<RayGroup> groups;
         std::vector<std::uint32_t> receivers; ///< a patch, `escaped` or `absorbed`, ray by ray
-        std::vector<std::uint16_t> arrivals;  ///< from which of its cells, if the strategy learns
-    };
-
-    /// Rays to balls, and where each arrived.
-    struct BallShots {
-        std::vector<Ray> rays;
-        std::vector<double> power; ///< over that of the sender
-        std::vector<std::uint32_t> senders, receivers;
+        std::vector<std::uint16_t> arrivals;  ///< from which of its cells, if the hook learns
     };
 
     /// The power that a patch received in a bounce. It fills one cache line, as rays hit patches in
@@ -80,7 +76,7 @@ class Bounces {
 
     /// Returns whether rays are allocated by power; otherwise each patch shoots the same number.
     [[nodiscard]] bool rays_by_power() const { return tools_.rules.rays == RaysPerPatch::by_power; }
-    [[nodiscard]] bool has_balls() const { return task_->balls && task_->balls->count() > 0; }
+    [[nodiscard]] bool learns() const { return hook_ && hook_->learns(); }
     void begin(const StepResult& result);
     /// Shoots all unshot power once; adds what arrives. Returns the number of rays.
     std::uint64_t bounce(std::uint64_t stream, StepResult& result);
@@ -103,16 +99,12 @@ class Bounces {
     void shoot_items(const Workers& workers, std::uint64_t stream, StepResult& result);
     void shoot_item(const WorkItem& item, std::uint64_t stream, RayBatch& batch) const;
     void trace(std::uint64_t stream, RayBatch& batch) const;
-    // These do the same with rays to the balls of a target (bounces_to_balls.cpp).
-    void shoot_to_balls(const Workers& workers, std::uint64_t of_bounce, StepResult& result);
-    void shoot_to_balls(std::span<const double> rays_before, double from, double to,
-                        std::uint64_t stream, BallShots& shots) const;
-    void collect(const BallShots& shots, StepResult& result);
 
     void collect(const RayBatch& batch, StepResult& result);
+    void collect(const SeparateShots& shots, StepResult& result);
     /// The numbers of rays of one power that reached no patch.
     struct Lost {
-        std::uint32_t escaped = 0, absorbed = 0, shot_apart = 0;
+        std::uint32_t escaped = 0, absorbed = 0, separate = 0;
     };
     /// Adds to `lost` how many rays reached no patch. Returning it by value would stall each call.
     void receive(const Vec3& power, std::span<const std::uint32_t> receivers, Lost& lost);
@@ -122,6 +114,7 @@ class Bounces {
 
     const ShootingTools& tools_;
     SolverInput input_;
+    StepHook* hook_; ///< of the strategy; nullptr: all steps are alike
     const StepTask* task_ = nullptr;
 
     // These belong to the current bounce.

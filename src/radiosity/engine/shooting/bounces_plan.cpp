@@ -29,7 +29,7 @@ std::uint32_t ray_number(double rays_before) {
 
 } // namespace
 
-/// Allocates rays in proportion to the power to be shot, times the strategy's factor. Sender k owns
+/// Allocates rays in proportion to the power to be shot, times the hook's factor. Sender k owns
 /// the interval from rays_before_[k] to rays_before_[k+1] of a line on which a ray stands at each
 /// whole number. As the line's origin is random, each patch and each cell gets its expected number
 /// on average, rounded up or down.
@@ -38,9 +38,9 @@ void Bounces::plan(std::uint64_t stream) {
     rays_before_[0] = Rng(stream).uniform();
     for (std::size_t k = 0; k < senders_.size(); ++k) {
         const std::uint32_t i = senders_[k];
-        const double rays = rays_by_power()
-                                ? task_->rays(i, unshot_[i]) * tools_.strategy->rays_for_power(i)
-                                : input_.options.rays;
+        const double rays =
+            rays_by_power() ? task_->rays(i, unshot_[i]) * (hook_ ? hook_->rays_for_power(i) : 1)
+                            : input_.options.rays;
         rays_before_[k + 1] = rays_before_[k] + rays;
     }
 }

@@ -10,7 +10,7 @@ namespace hemilux {
 GroupedRays::GroupedRays(const RaySource& source, std::span<RayGroup> groups, std::uint64_t stream,
                          std::vector<Ray>& memory)
     : source_(source), groups_(groups), stream_(stream), rays_(memory),
-      has_private_cells_(source.strategy.has_private_cells()) {
+      private_(source.strategy.private_cells()) {
     rays_.resize(DirectionBatch::room);
     runs_.reserve(DirectionBatch::room);
 }
@@ -49,8 +49,8 @@ void GroupedRays::list_group(RayGroup& group, std::uint32_t rays) {
         listed_ = group.patch;
         key_ = hash_words({stream_, group.patch});
     }
-    if (has_private_cells_)
-        if (auto own = source_.strategy.private_cell(group.patch, group.cell))
+    if (private_)
+        if (auto own = private_->private_cell(group.patch, group.cell))
             return list_private(group, rays, *own);
     add_to_batch(group, rays, group.cell, source_.directions.power_share(group.cell));
     if (!runs_.empty() && runs_.back().patch == group.patch && runs_.back().own == none)

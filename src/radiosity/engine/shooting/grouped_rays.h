@@ -80,7 +80,7 @@ class GroupedRays {
     std::span<RayGroup> groups_;
     std::uint64_t stream_;
     std::vector<Ray>& rays_;
-    bool has_private_cells_;
+    const PrivateCells* private_; ///< nullptr: the strategy has none
     std::uint32_t drawn_ = 0;     ///< of the first of groups_
     std::uint32_t listed_ = none; ///< the patch of that
     std::uint64_t key_ = 0;       ///< of that patch's random numbers

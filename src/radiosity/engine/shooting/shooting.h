@@ -3,10 +3,10 @@
 //
 // Each step is a complete, unbiased solution of all bounces (stepwise.h). Power is shot from all
 // patches that hold some; what arrives is reflected and shot in turn, until nothing is left. Rays
-// are allocated in proportion to the power to be shot (docs/decisions.md, D10). So each carries
-// about the same, unless the strategy gives some patches more and weaker ones. Numbers of rays are
-// made whole by systematic sampling over all patches and cells at once. This is unbiased and ends
-// the series of bounces by itself.
+// are allocated in proportion to the power to be shot (docs/paper/decisions.md, D10). So each
+// carries about the same, unless the strategy gives some patches more and weaker ones. Numbers of
+// rays are made whole by systematic sampling over all patches and cells at once. This is unbiased
+// and ends the series of bounces by itself.
 
 #include "radiosity/engine/shooting/bounces.h"
 #include "radiosity/engine/shooting/stepwise.h"
@@ -23,11 +23,8 @@ class ShootingSolver final : public StepwiseSolver {
 
   private:
     bool solve_once(const StepTask& task, StepResult& result) override;
-    [[nodiscard]] bool steps_are_alike() const override {
-        return tools_.strategy->is_same_in_all_steps();
-    }
-    [[nodiscard]] bool shoots_to_balls() const override { return true; }
-    void save_more(StateWriter& state) const override { tools_.strategy->save(state); }
+    [[nodiscard]] bool steps_are_alike() const override { return !tools_.strategy->step_hook(); }
+    void save_more(StateWriter& state) const override;
     /// Also throws StateError if the strategy would take far more rays than are asked for.
     void load_more(StateReader& state) override;
 

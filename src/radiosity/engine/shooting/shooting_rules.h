@@ -10,7 +10,7 @@ namespace hemilux {
 /// The points where rays into a cell start; those into the whole hemisphere start anywhere.
 enum class RayOrigins {
     anywhere, ///< uniform over the patch, or over the part that a private cell belongs to
-    centre,   ///< of that: biased (docs/decisions.md, D2)
+    centre,   ///< of that: biased (docs/paper/decisions.md, D2)
 };
 
 /// The number of rays that a patch shoots in a bounce.

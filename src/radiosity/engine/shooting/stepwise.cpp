@@ -2,11 +2,10 @@
 
 #include "radiosity/engine/saving/solution_state.h"
 #include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/shooting/additions.h"
 #include "radiosity/engine/solving/shared_stop.h"
-#include "radiosity/engine/target/target.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solve_error.h"
-#include "radiosity/research/targets/aimed_rays.h"
 
 #include <algorithm>
 #include <chrono>
@@ -22,8 +21,11 @@ constexpr double longest_seconds = 3e11;
 
 } // namespace
 
-StepwiseSolver::StepwiseSolver(const SolverInput& input, bool equal_rays)
-    : input_(input), mean_(input, equal_rays), workers_(input.options.threads) {}
+StepwiseSolver::StepwiseSolver(const SolverInput& input, bool equal_rays, bool separately)
+    : input_(input), mean_(input, equal_rays), workers_(input.options.threads) {
+    if (!input.target.empty() && has_aimer())
+        aimer_ = additions().make_aimer(input_, separately);
+}
 
 bool StepwiseSolver::step() {
     if (mean_.ray_power == 0 && !find_ray_power())
@@ -78,7 +80,8 @@ void StepwiseSolver::work_at(std::size_t first, std::size_t every) {
 /// Returns the task of the step that comes `ahead` steps after the next one.
 StepTask StepwiseSolver::task_of(std::size_t ahead, const Workers& workers) const {
     const std::uint64_t number = mean_.solution.steps + ahead;
-    return {number, number + 1, mean_.ray_power, workers, mean_.aimed, &balls_};
+    return {number,  number + 1,  mean_.ray_power,
+            workers, mean_.aimed, aimer_ ? aimer_->separate_rays() : nullptr};
 }
 
 void StepwiseSolver::solve(Ahead& ahead, const StepTask& task) {
@@ -179,14 +182,9 @@ bool StepwiseSolver::find_ray_power() {
     });
 }
 
-/// If there is a target, the pilot finds out what is important to it.
+/// If rays are aimed, the pilot finds out what is important to the target.
 bool StepwiseSolver::shoot_pilot(const StepTask& task, StepResult& pilot) {
-    if (input_.target.empty())
-        return solve_once(task, pilot);
-    Aim aim = aim_rays(input_, task, shoots_to_balls(), pilot);
-    mean_.aimed = std::move(aim.times);
-    balls_ = std::move(aim.balls);
-    return !mean_.aimed.empty();
+    return aimer_ ? aimer_->shoot_pilot(task, pilot, mean_) : solve_once(task, pilot);
 }
 
 /// Rays die out by chance, which in a room of reflectance .99999 takes about 2e6 bounces.
@@ -226,12 +224,8 @@ void StepwiseSolver::save(StateWriter& state) const {
     state.add(std::span<const Vec3>(solution.radiosity));
     state.add(std::span<const Vec3>(sums.squares));
     state.add(std::span<const std::uint64_t>(solution.hits));
-    if (!input_.target.empty()) {
-        state.add(hash_of_weights(input_.target));
-        state.add(std::span<const double>(mean_.aimed));
-        state.add(std::uint64_t{balls_.count() > 0});
-        state.add(std::as_const(balls_).times());
-    }
+    if (aimer_)
+        aimer_->save(state, mean_);
     save_more(state);
 }
 
@@ -275,45 +269,11 @@ void StepwiseSolver::load(StateReader& state) {
             throw StateError("more rays arrived than were traced");
         hits_left -= hits;
     }
-    if (!input_.target.empty())
-        load_aim(state);
+    if (aimer_)
+        aimer_->load(state, mean_);
     if (solution.steps > 1)
         mean_.estimate_errors();
     load_more(state);
-}
-
-/// Loads the numbers of rays to the balls; none are saved if no ball gets rays.
-void StepwiseSolver::load_balls(StateReader& state) {
-    constexpr Bounds times{0, 1e6};
-    if (!state.flag())
-        balls_ = {};
-    state.get(balls_.times(), times);
-}
-
-/// Loads the factors on rays. Over all power, patches must get about as many rays as by power
-/// alone.
-void StepwiseSolver::load_aim(StateReader& state) {
-    constexpr Bounds times{1e-6, 1e6};
-    constexpr double most_rays = 1e3; // for those that power alone would give
-    if (state.whole() != hash_of_weights(input_.target))
-        throw StateError("what the run was for is not what it is for this time");
-    const bool is_aimed = mean_.ray_power > 0 && mean_.ray_power <= bounds::largest;
-    mean_.aimed.resize(is_aimed && input_.needs.bounces ? input_.target.size() : 0);
-    state.get(std::span(mean_.aimed), times);
-    if (is_aimed && shoots_to_balls())
-        balls_ = TargetBalls(input_.mesh, values_of_arrival(input_));
-    load_balls(state);
-    double power = 0, rays = 0;
-    for (std::uint32_t i = 0; i < mean_.aimed.size(); ++i) {
-        const double of_patch =
-            input_.mesh.patches()[i].area * mean_of_channels(mean_.solution.radiosity[i]);
-        power += of_patch;
-        rays += of_patch * mean_.aimed[i];
-        for (std::size_t k = 0; k < balls_.count(); ++k)
-            rays += of_patch * balls_.times(i, k);
-    }
-    if (!(rays <= most_rays * power))
-        throw StateError("its patches would trace far more rays than are asked for");
 }
 
 } // namespace hemilux

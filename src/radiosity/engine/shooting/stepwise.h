@@ -3,13 +3,15 @@
 // independent, several are solved at the same time, each by a thread, or by a rank.
 
 #include "parallel/workers.h"
+#include "radiosity/engine/shooting/aimer.h"
+#include "radiosity/engine/shooting/separate_rays.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/solving/mean_of_steps.h"
-#include "radiosity/research/targets/target_balls.h"
 
 #include <cstdint>
 #include <deque>
 #include <exception>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,8 +23,8 @@ struct StepTask {
     std::uint64_t number; ///< from 1; the pilot belongs to the first
     double ray_power;     ///< that each ray is to carry on average, mean of channels; or infinite
     Workers workers;      ///< for this one
-    std::span<const double> aimed = {}; ///< MeanOfSteps::aimed
-    const TargetBalls* balls = nullptr; ///< that get rays of their own
+    std::span<const double> aimed = {};     ///< MeanOfSteps::aimed
+    const SeparateRays* separate = nullptr; ///< rays besides those of the strategy
 
     /// Returns how many rays the patch is to shoot, on average.
     [[nodiscard]] double rays(std::uint32_t patch, const Vec3& power) const {
@@ -48,7 +50,8 @@ class StepwiseSolver : public Solver {
 
   protected:
     /// Without equal rays there is no power per ray: each patch shoots the same number of rays.
-    StepwiseSolver(const SolverInput& input, bool equal_rays);
+    /// With `separately`, solve_once shoots the separate rays of a task.
+    StepwiseSolver(const SolverInput& input, bool equal_rays, bool separately);
 
     /// Finds one solution of all bounces. `result` comes with the emission as radiosity and nothing
     /// else. Returns false when interrupted. If steps are alike, it is called for several at the
@@ -56,8 +59,6 @@ class StepwiseSolver : public Solver {
     virtual bool solve_once(const StepTask& task, StepResult& result) = 0;
     /// Returns whether no step depends on those before.
     [[nodiscard]] virtual bool steps_are_alike() const { return false; }
-    /// Returns whether solve_once shoots to the balls of a task.
-    [[nodiscard]] virtual bool shoots_to_balls() const { return false; }
 
     /// These save and load what else the next steps depend on, as Solver does.
     virtual void save_more(StateWriter&) const {}
@@ -91,15 +92,13 @@ class StepwiseSolver : public Solver {
     [[nodiscard]] double steps_to_come() const;
     bool find_ray_power();
     bool shoot_pilot(const StepTask& task, StepResult& pilot);
-    void load_aim(StateReader& state);
-    void load_balls(StateReader& state);
     void check_ray_power() const;
 
     Workers workers_;
-    std::deque<Ahead> ahead_;     ///< the next steps
-    double seconds_per_step_ = 0; ///< of one thread, when several are worked out; 0: unknown
-    std::vector<Vec3> pilot_;     ///< its radiosity; empty where there was none
-    TargetBalls balls_;           ///< of the target
+    std::deque<Ahead> ahead_;      ///< the next steps
+    double seconds_per_step_ = 0;  ///< of one thread, when several are worked out; 0: unknown
+    std::vector<Vec3> pilot_;      ///< its radiosity; empty where there was none
+    std::unique_ptr<Aimer> aimer_; ///< nullptr: all patches count alike
 };
 
 } // namespace hemilux

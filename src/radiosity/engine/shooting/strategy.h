@@ -70,54 +70,30 @@ struct PrivateCell {
     std::array<Vec3, 3> direction{};
 };
 
+/// The cells of a strategy that are not in the shared table.
+class PrivateCells {
+  public:
+    virtual ~PrivateCells() = default;
+    /// Returns the shape and power of an allocated cell; empty if the cell is in the shared table.
+    [[nodiscard]] virtual std::optional<PrivateCell> private_cell(std::uint32_t patch,
+                                                                  std::uint16_t cell) const = 0;
+};
+
+class StepHook;
+
 class Strategy {
   public:
     virtual ~Strategy() = default;
-    /// Returns whether it allocates alike in all steps and learns nothing. If so, several steps are
-    /// solved at the same time, and prepare(), begin_step() and end_step() are not called.
-    [[nodiscard]] virtual bool is_same_in_all_steps() const { return false; }
-    /// Is called before each step except the pilot, with estimates of the radiosity by patch [W/m2]
-    /// and the power of a ray. This power is the mean of channels [W/m2 times area in local units].
-    /// The radiosity of each patch is multiplied by the factor on its rays for a target, if there
-    /// is one.
-    virtual void prepare(std::span<const Vec3> /*radiosity*/, double /*ray_power*/) {}
-    /// Is called when a step begins; the first is 0. Allocations that follow belong to it.
-    virtual void begin_step(std::uint64_t) {}
-    /// Is called when a step ends, unless it was interrupted: what was learned in an interrupted
-    /// step is to be forgotten.
-    virtual void end_step() {}
-    /// Returns the factor on the rays that power alone would give to the patch; each ray carries as
-    /// much less power. The factor is positive, the same throughout a step, and on average over all
-    /// power about 1.
-    [[nodiscard]] virtual double rays_for_power(std::uint32_t /*patch*/) const { return 1; }
     /// Returns the cells of a patch, always in the same order. The result is a view of what is kept
     /// or of what is put into `memory`, and is valid until either changes. It may be called from
     /// several threads.
     [[nodiscard]] virtual Allocation allocate(std::uint32_t patch,
                                               AllocatedCells& memory) const = 0;
-    /// Returns whether any cell that it allocates may be private.
-    [[nodiscard]] virtual bool has_private_cells() const { return false; }
-    /// Returns the shape and power of an allocated cell; empty if the cell is in the shared table.
-    [[nodiscard]] virtual std::optional<PrivateCell> private_cell(std::uint32_t /*patch*/,
-                                                                  std::uint16_t /*cell*/) const {
-        return std::nullopt;
-    }
-
-    /// Returns whether it learns in this step from what its rays hit.
-    [[nodiscard]] virtual bool learns() const { return false; }
-    /// Adds for each ray the cell of its receiver's hemisphere that it comes from, as `learn` takes
-    /// it. It may be called from several threads.
-    virtual void find_arrivals(std::span<const Ray> /*rays*/,
-                               std::span<const std::uint32_t> /*receivers*/,
-                               std::vector<std::uint16_t>& /*added to*/) const {}
-    /// Is called in a fixed order with where the rays of a cell arrived (receivers.h).
-    virtual void learn(std::uint32_t /*patch*/, std::uint16_t /*cell*/,
-                       std::span<const std::uint32_t> /*receivers*/,
-                       std::span<const std::uint16_t> /*arrivals*/) {}
-
-    /// These save and load what was learned, as Solver does.
-    virtual void save(StateWriter&) const {}
-    virtual void load(StateReader&) {}
+    /// Returns its part that changes from step to step (step_hook.h). If it has none, all steps are
+    /// alike, and several are solved at the same time.
+    [[nodiscard]] virtual StepHook* step_hook() { return nullptr; }
+    /// Returns its private cells; nullptr if all that it allocates are in the shared table.
+    [[nodiscard]] virtual const PrivateCells* private_cells() const { return nullptr; }
 
     /// Returns the number of density rays so far; a strategy may look between the steps too.
     [[nodiscard]] virtual std::uint64_t density_rays() const { return 0; }

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -58,7 +59,8 @@ struct Method {
     std::unique_ptr<Solver> (*plain)(const SolverInput&) = nullptr;
     std::size_t most_plain_patches = std::numeric_limits<std::size_t>::max(); ///< of its page
     std::optional<Role> role = {};
-    bool aims = false; ///< --for changes it
+    /// Returns whether --for changes it; nullptr: it never does.
+    bool (*aims)() = nullptr;
 
     /// Returns its own options. Several methods may declare one of the same name: the first in
     /// alphabetical order knows all its values, the others may take fewer.
@@ -70,11 +72,12 @@ struct Method {
     void (*adapt)(MethodWork&, const SolveOptions&) = nullptr;
     /// Returns roughly the bytes that it takes at the peak besides solutions and rays under way.
     double (*bytes)(const SolveOptions&, double patches) = nullptr;
-    /// The options that make it the one to solve with where --method is not given.
-    std::span<const std::string_view> implied_by = {};
+    /// Returns the options that make it the one to solve with where --method is not given.
+    std::vector<std::string> (*implied_by)() = nullptr;
     std::string_view former_name = {}; ///< what --method takes too; empty where there is none
 
     [[nodiscard]] bool can_resume() const { return saves || strategy; }
+    [[nodiscard]] bool takes_target() const { return aims && aims(); }
     [[nodiscard]] std::vector<MethodOption> own_options() const {
         return options ? options() : std::vector<MethodOption>{};
     }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
 
 namespace hemilux {
 namespace {
@@ -19,12 +18,6 @@ constexpr double most_growth = 2;
 constexpr double least_seconds = 1;
 
 } // namespace
-
-void Solver::save(StateWriter&) const {
-    throw std::logic_error("this method cannot save its state");
-}
-
-void Solver::load(StateReader&) { throw std::logic_error("this method cannot load a state"); }
 
 bool run(Solver& solver, const SolverInput& input, const StopRule& stop,
          const std::function<void(const StepRecord&, const Solution&)>& after_step,

@@ -14,7 +14,7 @@ constexpr double least_share = 1.0 / 8;
 
 /// The least share of what is expected for a patch, where patches are not of the same importance.
 /// With an eighth, patches with many rays inherit too much of what those with few are off by
-/// (docs/design.md, D57).
+/// (docs/making/design.md, D57).
 constexpr double least_of_expected = 1.0 / 4;
 
 /// Returns the power of two nearest to a number, in logarithms: the largest up to sqrt(2) rays.

@@ -6,8 +6,8 @@
 // anything: a window that no ray has left through, a lit room that no ray has reached through a
 // hole. There the rule of three holds. If none of N rays met something, the share that would meet
 // it is below 3 / N in 95 of 100 cases (missed_light.h). The errors below follow from that share by
-// the balance of energy of each part of the scene. docs/numerics.md has the whole account and its
-// assumptions.
+// the balance of energy of each part of the scene. docs/making/numerics.md has the whole account
+// and its assumptions.
 
 #include "geometry/vector.h"
 

@@ -3,7 +3,7 @@
 // octants, each divided at its edge midpoints into four, level by level.
 //
 // Directions are in a patch's own frame, z being its normal. "Equal" triangles of the paper differ
-// in solid angle by a factor of up to 1.96, so true areas are kept (docs/decisions.md, D3).
+// in solid angle by a factor of up to 1.96, so true areas are kept (docs/paper/decisions.md, D3).
 
 #include "geometry/spherical_triangle.h"
 

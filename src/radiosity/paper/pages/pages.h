@@ -3,11 +3,13 @@
 //
 // A page is nested loops with the paper's names, one ray at a time. It has no threads and no vector
 // instructions, and keeps nothing but what the method is about. To read one, have the scene, the
-// mesh, the tracer and the random numbers at hand, and step.h, where power is received and
-// reflected. Section 5 also needs hemisphere.h, section 4 stored_subdivision.h and edge_division.h,
-// and stored transport batches.h. The tests compare the engine with these pages by ==, all bits of
-// the radiosity. They compare `stored-transport`, whose page shows the principle alone, within
-// standard errors. Page and engine average their steps by the same code (mean_of_steps.h). The
+// mesh, the tracer and the random numbers at hand. Sections 3.2 to 5 also need step.h, where power
+// is received and reflected, section 4 stored_subdivision.h and edge_division.h, section 5
+// hemisphere.h and share_line.h, and sections 2 and 3.1 batches.h.
+//
+// The tests compare the engine with the pages of sections 3.2 to 5 by ==, all bits of the
+// radiosity. They compare the other two, whose engines find form factors in better ways, within
+// standard errors. Pages and engine average their steps by the same code (mean_of_steps.h). The
 // option on the command line is --plain.
 //
 // A page does everything, even what the scene does not need. Only the end of a run where nothing
@@ -15,10 +17,18 @@
 
 #include "radiosity/paper/solving/solver.h"
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 
 namespace hemilux::plain {
 
+/// Makes the full matrix, section 2. It keeps all pairs of patches, 40 bytes each. Throws
+/// std::invalid_argument if there are more than `most_patches_of_matrix` patches.
+[[nodiscard]] std::unique_ptr<Solver> matrix(const SolverInput& input);
+inline constexpr std::size_t most_patches_of_matrix = 2000;
+/// Makes progressive radiosity, section 3.1. A step is one shot.
+[[nodiscard]] std::unique_ptr<Solver> progressive(const SolverInput& input);
 /// Makes Monte Carlo radiosity, section 3.2.
 [[nodiscard]] std::unique_ptr<Solver> monte_carlo(const SolverInput& input);
 /// Makes Monte Carlo progressive radiosity, section 3.3.
@@ -27,10 +37,11 @@ namespace hemilux::plain {
 [[nodiscard]] std::unique_ptr<Solver> hemisphere_1997(const SolverInput& input);
 /// Makes the new approach of hemisphere subdivision, section 5.
 [[nodiscard]] std::unique_ptr<Solver> hemisphere(const SolverInput& input);
-/// Makes stored transport, which is not in the paper: all bounces are solved on what rays hit. It
-/// keeps all pairs of patches, 48 bytes each. Throws std::invalid_argument if there are more than
-/// `most_patches_of_stored_transport` patches.
-[[nodiscard]] std::unique_ptr<Solver> stored_transport(const SolverInput& input);
-inline constexpr std::size_t most_patches_of_stored_transport = 2000;
+
+/// Answers whether an image is useful: "Useful (Image)" of the paper.
+using Useful = std::function<bool(const Solution& image)>;
+/// The paper's procedure NewHemisphereRadiosity (Scene), section 5, from its beginning to its end.
+/// The program does the same step by step, and asks whether the image is useful by its stop rules.
+[[nodiscard]] Solution new_hemisphere_radiosity(const SolverInput& scene, const Useful& useful);
 
 } // namespace hemilux::plain

@@ -1,6 +1,6 @@
 #pragma once
 // The random numbers of one ray: a hash of the stream, of the ray's number in that, and of the
-// attempt. So no ray depends on which others are traced (docs/decisions.md, D14).
+// attempt. So no ray depends on which others are traced (docs/paper/decisions.md, D14).
 
 #include "geometry/vector.h"
 

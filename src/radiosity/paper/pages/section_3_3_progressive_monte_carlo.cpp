@@ -3,7 +3,7 @@
 // Every step shoots a few further rays from each patch, towards directions that follow the cosine
 // law. "If the total number of rays is k times greater, what was received before is divided by k"
 // is the mean of equal steps (mean_of_steps.h). N_hemi is a mean: patches shoot in proportion to
-// their power, so that every ray carries about the same (docs/decisions.md, D10).
+// their power, so that every ray carries about the same (docs/paper/decisions.md, D10).
 
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/pages/step.h"

@@ -3,53 +3,75 @@
 // A patch is divided, in thought, into parts with a hemisphere over the centre of each. In n steps
 // all spherical triangles are divided into four at new directions on their edges, nearer to the end
 // where more surfaces were counted, and are stored. In m further steps they are divided by
-// estimated counts, and nothing is stored (stored_subdivision.h). Every triangle gets the same
-// number of rays; its energy goes by its area. Plain progressive refinement follows, and is also
-// the pilot of step.h. n, m and the number of parts are the user's (subdivision_1997.h).
-//
-// With --literal (`printed_`) the rules are those of the print; beside each stands the corrected
-// one (docs/decisions.md, D1, D2, D4, D10, D34 and D61).
+// estimated counts, and nothing is stored (stored_subdivision.h). Plain progressive refinement
+// follows. First stand the rules of the print, which --literal keeps, and beside them the corrected
+// ones (D numbers: docs/paper/decisions.md).
 
-#include "radiosity/engine/densities/subdivision_1997.h"
+#include "radiosity/paper/hemisphere/subdivision_1997_options.h"
 #include "radiosity/paper/pages/pages.h"
 #include "radiosity/paper/pages/step.h"
 #include "radiosity/paper/pages/stored_subdivision.h"
 
 #include <algorithm>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 namespace hemilux::plain {
 namespace {
 
+using std::numbers::pi;
+
+struct Printed {
+    /// A_tr / A_hemi are areas on the sphere, which breaks Lambert's law (D1).
+    static double area(const SphericalTriangle& tr) { return tr.solid_angle() / (2 * pi); }
+    /// Dim patches shoot N_hemi rays too (D10), one at least into each triangle (D34).
+    static Rays rays(const Due&, double N_hemi, std::size_t /*k*/, std::size_t triangles) {
+        return rays_rounded(std::max(N_hemi / double(triangles), 1.0));
+    }
+    static Rays rays(const Due&, double N_hemi) { return rays_rounded(N_hemi); }
+    /// Rays start at the centre of the part (D2).
+    static Vec3 start(const Polygon& part, RayNumbers) { return part.centre(); }
+    /// Triangles are divided between the steps, and the rays that count also carry energy (D61).
+    static constexpr bool counts_by_the_way = true;
+    /// The last light would cost as many rays as the first, so this share of it is not shot (D10).
+    static constexpr double rest = 1e-4;
+};
+
+struct Corrected {
+    /// A_tr / A_hemi are areas of the projection to the patch's plane, as Lambert's law asks.
+    static double area(const SphericalTriangle& tr) { return tr.projected_solid_angle() / pi; }
+    /// Patches shoot by their power. Triangle k owns as long a part of the line as any other.
+    static Rays rays(const Due& due, double /*N_hemi*/, std::size_t k, std::size_t triangles) {
+        return rays_on_line(due, k, triangles);
+    }
+    static Rays rays(const Due& due, double /*N_hemi*/) { return rays_on_line(due); }
+    /// Rays start anywhere on the part.
+    static Vec3 start(const Polygon& part, RayNumbers u) { return part.sample(u.start()); }
+    /// All triangles are divided, and all surfaces counted, before the first step.
+    static constexpr bool counts_by_the_way = false;
+    /// All light is shot: dim patches have few rays, and chance ends the last ones.
+    static constexpr double rest = 0;
+};
+
+template <class Rules>
 class Hemisphere1997 final : public StepSolver {
   public:
     explicit Hemisphere1997(const SolverInput& input)
-        : StepSolver(input, !input.options.literal), printed_(input.options.literal),
-          n(static_cast<int>(input.options.own.of<Subdivision1997Options>().stored_steps)),
-          m(static_cast<int>(input.options.own.of<Subdivision1997Options>().estimated_steps)),
-          parts_(input.options.own.of<Subdivision1997Options>().parts), tree_(n),
-          stored_(input.mesh.patches().size() * parts_) {
-        if (!printed_)
-            divide_to(n);
+        : StepSolver(input, Rules::rest == 0), own_(input.options.own.of<Subdivision1997Options>()),
+          tree_(n()), stored_(input.mesh.patches().size() * own_.parts) {
+        if (!Rules::counts_by_the_way)
+            divide_to(n());
     }
 
   private:
-    /// Returns A_tr / A_hemi.
-    [[nodiscard]] double area(const SphericalTriangle& tr) const {
-        using std::numbers::pi;
-        return printed_ ? tr.solid_angle() / (2 * pi)
-                        : std::max(tr.projected_solid_angle() / pi, 0.0);
-    }
+    [[nodiscard]] int n() const { return static_cast<int>(own_.stored_steps); }
 
     /// Divides the triangles of all hemispheres until they are of this level, and counts.
     void divide_to(int level) {
-        for (; divided_ < std::min(level, n); ++divided_)
+        for (; divided_ < level; ++divided_)
             for (std::size_t h = 0; h < stored_.size() && !input_.monitor.interrupted; ++h) {
-                const auto patch = static_cast<std::uint32_t>(h / parts_);
-                const Polygon& shape = input_.mesh.patches()[patch].shape;
-                const Vec3 centre = part_of(shape, parts_, h % parts_).centre();
+                const auto patch = static_cast<std::uint32_t>(h / own_.parts);
+                const Polygon& whole = input_.mesh.patches()[patch].shape;
+                const Vec3 centre = part_of(whole, own_.parts, h % own_.parts).centre();
                 stored_[h].divide_to(divided_ + 1, tree_, [&](const Vec3& direction) {
                     return count_surfaces(patch, centre, direction);
                 });
@@ -61,19 +83,19 @@ class Hemisphere1997 final : public StepSolver {
 
     /// Shoots a ray for each patch, each triangle and each direction, bounce after bounce.
     bool compute_radiosity(std::uint64_t step, double Phi_mean, Step& result) override {
-        divide_to(std::cmp_less(step, n) ? static_cast<int>(step) + 1 : n);
-        const double least = printed_ ? 1e-4 * result.power_unshot() : 0; // or it never ends
-        for (std::uint64_t bounce = 0; result.power_unshot() > least; ++bounce) {
+        const bool guided = step < own_.stored_steps + own_.estimated_steps; // n + m
+        const int level = guided ? static_cast<int>(step) + 1 : n();
+        divide_to(std::min(level, n()));
+        const double rest = Rules::rest * result.power_unshot();
+        for (std::uint64_t bounce = 0; result.power_unshot() > rest; ++bounce) {
             const std::uint64_t stream = hash_words({input_.options.seed, step, bounce});
             for (const Due& due : result.due(stream, Phi_mean)) {
                 if (input_.monitor.interrupted)
                     return false;
-                if (std::cmp_less(step, n + m))
-                    shoot(due, static_cast<int>(step) + 1, result);
+                if (guided)
+                    shoot(due, level, result);
                 else
-                    shoot_plainly(due,
-                                  printed_ ? rays_rounded(input_.options.rays) : rays_on_line(due),
-                                  result);
+                    shoot_plainly(due, Rules::rays(due, input_.options.rays), result);
             }
             result.reflect();
         }
@@ -84,46 +106,34 @@ class Hemisphere1997 final : public StepSolver {
     void shoot(const Due& due, int level, Step& result) const {
         const Patch& patch = input_.mesh.patches()[due.patch];
         const Frame frame = input_.mesh.hemisphere_frame(due.patch);
-        const std::size_t of_part = std::size_t{4} << (2 * level), all = parts_ * of_part;
-        const double N_hemi = printed_ ? input_.options.rays : due.rays();
-        const double N_tr = N_hemi / double(all);
-        double from = due.begin;
+        const std::size_t of_part = std::size_t{4} << (2 * level), all = own_.parts * of_part;
         std::uint32_t number = 0;
         for (std::size_t k = 0; k < all; ++k) {
-            const double share = double(k + 1) / double(all);
-            const double to = k + 1 < all ? due.begin + N_hemi * share : due.end;
-            const std::size_t index = k % of_part;
-            Rays rays = printed_ ? rays_rounded(std::max(N_tr, 1.0)) : rays_on_line(N_tr, from, to);
-            from = to;
-            if (rays.number == 0)
+            Rays N_tr = Rules::rays(due, input_.options.rays, k, all);
+            if (N_tr.number == 0)
                 continue;
-            const CountedTriangle abc =
-                stored_[parts_ * due.patch + k / of_part].triangle(level, index, tree_);
-            const std::vector<Vec3> known = // as printed, those that were counted shoot too
-                printed_ && level <= n ? counted_directions(abc, level, index)
-                                       : std::vector<Vec3>();
-            rays.number += known.size();
-            rays.divisor += double(known.size());
+            const std::size_t hemisphere = own_.parts * due.patch + k / of_part;
+            const CountedTriangle abc = stored_[hemisphere].triangle(level, k % of_part, tree_);
+            std::vector<Vec3> counted; // the directions of the rays that counted in this step
+            if (Rules::counts_by_the_way && level <= n())
+                counted = counted_directions(abc, level, k % of_part);
+            N_tr.number += counted.size();
+            N_tr.divisor += double(counted.size());
             const SphericalTriangle tr(abc[0].direction, abc[1].direction, abc[2].direction);
-            const Polygon part = part_of(patch.shape, parts_, k / of_part);
-            const PolygonSampler points(part);
-            const Vec3 Phi_ray = // Phi_tr / N_tr, Phi_tr = Phi_patch A_part / A_patch A_tr / A_hemi
-                1 / rays.divisor * (part.area() / patch.area * area(tr)) * result.unshot[due.patch];
-            for (std::uint64_t i = 0; i < rays.number; ++i, ++number) {
-                RayNumbers random(due.key, number);
-                Rng in_triangle(hash_words({due.key & 0xffffffff, due.key >> 32, number}));
-                const Vec3 start = printed_ ? part.centre() : points.sample(random.start());
-                const Vec3 direction =
-                    i < known.size() ? known[i]
-                                     : tr.sample_rejection([&] { return in_triangle.uniform(); });
-                result.shoot(patch, start, frame.to_world(direction), Phi_ray);
+            const Polygon part = part_of(patch.shape, own_.parts, k / of_part);
+            const double A_tr = part.area() / patch.area * std::max(Rules::area(tr), 0.0);
+            const Vec3 Phi_ray = 1 / N_tr.divisor * A_tr * result.unshot[due.patch];
+            for (std::uint64_t i = 0; i < N_tr.number; ++i, ++number) {
+                Rng random(hash_words({due.key & 0xffffffff, due.key >> 32, number}));
+                const auto u = [&] { return random.uniform(); };
+                const Vec3 direction = i < counted.size() ? counted[i] : tr.sample_rejection(u);
+                result.shoot(patch, Rules::start(part, RayNumbers(due.key, number)),
+                             frame.to_world(direction), Phi_ray);
             }
         }
     }
 
-    bool printed_;
-    int n, m; ///< steps whose triangles are stored, and estimated
-    std::size_t parts_;
+    Subdivision1997Options own_;
     Hemisphere tree_;
     int divided_ = -1;                      ///< the last level that is stored
     std::vector<StoredSubdivision> stored_; ///< by patch and part
@@ -132,7 +142,9 @@ class Hemisphere1997 final : public StepSolver {
 } // namespace
 
 std::unique_ptr<Solver> hemisphere_1997(const SolverInput& input) {
-    return std::make_unique<Hemisphere1997>(input);
+    if (input.options.literal)
+        return std::make_unique<Hemisphere1997<Printed>>(input);
+    return std::make_unique<Hemisphere1997<Corrected>>(input);
 }
 
 } // namespace hemilux::plain

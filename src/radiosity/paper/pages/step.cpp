@@ -1,6 +1,6 @@
 #include "radiosity/paper/pages/step.h"
 
-#include "radiosity/engine/densities/density.h"
+#include "radiosity/paper/hemisphere/density_direction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,13 @@ namespace hemilux::plain {
 Rays rays_on_line(double N, double begin, double end) {
     const double whole = std::floor(end) - std::floor(begin);
     return {static_cast<std::uint64_t>(whole), N >= 1 ? whole : N};
+}
+
+Rays rays_on_line(const Due& due, std::size_t part, std::size_t parts) {
+    const auto begin = [&](std::size_t k) {
+        return k < parts ? due.begin + due.rays() * (double(k) / double(parts)) : due.end;
+    };
+    return rays_on_line(due.rays() / double(parts), begin(part), begin(part + 1));
 }
 
 Rays rays_rounded(double N) {
@@ -73,7 +80,8 @@ double Step::power_unshot() const {
 }
 
 /// N_hemi is the mean number of rays of a patch in a step. How much power all bounces carry
-/// together depends on the scene; a pilot with few rays finds it, and no step uses its light (D16).
+/// together depends on the scene; a pilot with few rays finds it, and no step uses its light
+/// (docs/paper/decisions.md, D16).
 bool StepSolver::step() {
     constexpr std::uint64_t pilot = ~std::uint64_t{0}; // steps count from 0
     const auto solve_pilot = [&](double Phi_mean, StepResult& result) {
@@ -107,6 +115,18 @@ std::uint8_t StepSolver::count_surfaces(std::uint32_t patch, const Vec3& from,
     ++mean_.solution.rays_density;
     ++input_.monitor.rays;
     return static_cast<std::uint8_t>(std::min(input_.tracer.count(ray), 255U));
+}
+
+StepSolver::CountAtVertex StepSolver::count_from_centre(std::uint32_t patch,
+                                                        const Hemisphere& hemisphere) {
+    constexpr int not_counted = -1;
+    std::vector<int> counts(hemisphere.vertices().size(), not_counted);
+    return [this, patch, &hemisphere, counts](std::uint16_t vertex) mutable {
+        if (counts[vertex] == not_counted)
+            counts[vertex] = count_surfaces(patch, input_.mesh.patches()[patch].centre,
+                                            hemisphere.vertices()[vertex]);
+        return counts[vertex];
+    };
 }
 
 } // namespace hemilux::plain

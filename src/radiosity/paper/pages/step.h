@@ -2,11 +2,13 @@
 // The pages that trace bounces share this: the power that patches receive and shoot in a step, the
 // rays that they are due, and the mean of the steps (mean_of_steps.h).
 
+#include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/pages/ray_numbers.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/solving/mean_of_steps.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -14,7 +16,7 @@ namespace hemilux::plain {
 
 /// All patches with power to shoot own intervals of one line, as long as the rays that they are
 /// due. A ray stands at each whole number. So each number of rays is rounded up or down, and is
-/// right on average (docs/decisions.md, D4, D10).
+/// right on average (docs/paper/decisions.md, D4, D10).
 struct Due {
     std::uint32_t patch;
     std::uint64_t key; ///< of the patch's random numbers in this bounce
@@ -33,6 +35,8 @@ struct Rays {
 [[nodiscard]] inline Rays rays_on_line(const Due& due) {
     return rays_on_line(due.rays(), due.begin, due.end);
 }
+/// Returns the rays of one of so many parts that own the patch's interval, each as long.
+[[nodiscard]] Rays rays_on_line(const Due& due, std::size_t part, std::size_t parts);
 /// Returns N rays as printed: rounded, so that power is lost where N is below one half.
 [[nodiscard]] Rays rays_rounded(double N);
 
@@ -86,6 +90,13 @@ class StepSolver : public Solver {
     /// as one byte holds them. Directions on the horizon are lifted a little (D7).
     [[nodiscard]] std::uint8_t count_surfaces(std::uint32_t patch, const Vec3& from,
                                               const Vec3& direction);
+
+    /// Counts the surfaces along a ray from a patch's centre to a vertex of its hemisphere.
+    using CountAtVertex = std::function<int(std::uint16_t vertex)>;
+    /// Returns a function that does so for a patch. It traces one ray to each vertex at most, as
+    /// triangles share vertices.
+    [[nodiscard]] CountAtVertex count_from_centre(std::uint32_t patch,
+                                                  const Hemisphere& hemisphere);
 
     SolverInput input_;
     MeanOfSteps mean_;

@@ -5,7 +5,7 @@
 // Triangles share directions as in the regular subdivision, whose vertices are numbered in the
 // order in which its triangles need them.
 
-#include "radiosity/engine/densities/density.h"
+#include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/hemisphere/edge_division.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 

@@ -115,7 +115,7 @@ class Mesh {
     [[nodiscard]] std::span<const Vec3> vertices() const { return facets_.vertices; }
     /// Returns the frame in which the subdivided hemisphere of a patch stands. It is turned about
     /// the normal by an angle hashed from the patch's index. So its vertices do not run along the
-    /// edges of a regular mesh (docs/decisions.md, D12).
+    /// edges of a regular mesh (docs/paper/decisions.md, D12).
     [[nodiscard]] Frame hemisphere_frame(std::uint32_t patch) const;
     /// Returns the cosine and sine of that angle. Finding them takes about as long as drawing a
     /// ray; whoever asks for the frames of all patches many times may keep them.

@@ -1,7 +1,8 @@
 #pragma once
 // Computes the mean of steps each of which is a complete solution of all bounces, independent of
-// the others (docs/decisions.md, D11). Paper section 5b, point 2: "the radiosity of each patch
-// computed up until the previous step is combined with the radiosity computed in the current step".
+// the others (docs/paper/decisions.md, D11). Paper section 5b, point 2: "the radiosity of each
+// patch computed up until the previous step is combined with the radiosity computed in the current
+// step".
 //
 // The spread of the steps is the standard error of their mean (D16, D19).
 

@@ -16,8 +16,8 @@ struct SolveOptions {
     int depth = 2;
     /// A triangle whose mean density [surfaces per ray] is higher is divided.
     double threshold = 0;
-    /// The method follows the rules as printed in the paper; it is biased (docs/decisions.md, D1,
-    /// D2, D10).
+    /// The method follows the rules as printed in the paper; it is biased (docs/paper/decisions.md,
+    /// D1, D2, D10).
     bool literal = false;
     std::uint64_t seed = 1;
     /// The rule that will end the run, as far as the caller knows: methods plan their steps by it.

@@ -1,9 +1,9 @@
 #include "radiosity/research/guiding/pyramids.h"
 
 #include "parallel/workers.h"
-#include "radiosity/engine/densities/log_byte.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solving/solver.h"
+#include "radiosity/research/guiding/log_byte.h"
 
 #include <algorithm>
 #include <cmath>

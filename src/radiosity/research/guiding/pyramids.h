@@ -6,7 +6,7 @@
 // Three rays along the edges of a pyramid, as the paper's density has them, may all miss what
 // stands between them. A pyramid misses nothing. A patch counts in it if some of it lies within the
 // three planes, whether it is hidden or not, and whichever side it shows. The abstract does not say
-// how the rays per triangle depend on that number (docs/decisions.md, D60).
+// how the rays per triangle depend on that number (docs/paper/decisions.md, D60).
 //
 // Patches are found from a tree of boxes. A box beyond one of the planes is left out, one within
 // all three counts as a whole, and a single patch is clipped. What a triangle's pyramid holds is

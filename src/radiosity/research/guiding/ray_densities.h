@@ -3,7 +3,7 @@
 // (visibility_guide.h). They are proportional to sqrt(V), which each triangle keeps in one byte, as
 // a logarithm.
 
-#include "radiosity/engine/densities/log_byte.h"
+#include "radiosity/research/guiding/log_byte.h"
 
 #include <array>
 #include <cstdint>

@@ -3,6 +3,7 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/rays/receivers.h"
@@ -41,7 +42,7 @@ bool is_time_to_estimate(std::uint64_t step) {
     return step <= 4 || odd == 1 || odd == 3;
 }
 
-class VisibilityGuide final : public Strategy {
+class VisibilityGuide final : public Strategy, StepHook {
   public:
     VisibilityGuide(const SolverInput& input, const Hemisphere& hemisphere, const Workers& workers,
                     bool learn)
@@ -52,6 +53,8 @@ class VisibilityGuide final : public Strategy {
         describe_sides();
         look(input);
     }
+
+    [[nodiscard]] StepHook* step_hook() override { return this; }
 
     void prepare(std::span<const Vec3> radiosity, double ray_power) override {
         prepared_ = true;
@@ -312,6 +315,11 @@ std::unique_ptr<Strategy> make_visibility_guide(const SolverInput& input,
                                                 const Hemisphere& hemisphere,
                                                 const Workers& workers, bool learn) {
     return std::make_unique<VisibilityGuide>(input, hemisphere, workers, learn);
+}
+
+double bytes_of_visibility_guide(int depth, double patches) {
+    return 18 * patches *
+           (double(Hemisphere::cells_up_to(depth)) - double(Hemisphere::cells_up_to(depth - 1)));
 }
 
 } // namespace hemilux

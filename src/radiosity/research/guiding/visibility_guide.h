@@ -37,4 +37,8 @@ class Workers;
                                                               const Hemisphere& hemisphere,
                                                               const Workers& workers, bool learn);
 
+/// Returns what it keeps, as Method::bytes: by leaf its byte, and the importance and number of its
+/// hits.
+[[nodiscard]] double bytes_of_visibility_guide(int depth, double patches);
+
 } // namespace hemilux

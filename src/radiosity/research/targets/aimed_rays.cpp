@@ -1,6 +1,7 @@
 #include "radiosity/research/targets/aimed_rays.h"
 
 #include "radiosity/engine/shooting/bounces.h"
+#include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/paper/rays/shot.h"
 #include "radiosity/paper/scene/alike_neighbours.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -44,7 +45,7 @@ struct Found {
 
 /// A strategy that shoots rays by the cosine law and records what light does for the target where
 /// they arrive.
-class ArrivalsRecorder final : public Strategy {
+class ArrivalsRecorder final : public Strategy, StepHook {
   public:
     /// Both spans are by patch. With an empty `importance` nothing is recorded.
     ArrivalsRecorder(std::span<const double> importance, std::span<Found> found)
@@ -55,6 +56,7 @@ class ArrivalsRecorder final : public Strategy {
         static constexpr float all_rays = 1;
         return {{&cell, 1}, {&all_rays, 1}};
     }
+    [[nodiscard]] StepHook* step_hook() override { return this; }
     [[nodiscard]] bool learns() const override { return !importance_.empty(); }
     void learn(std::uint32_t patch, std::uint16_t, std::span<const std::uint32_t> receivers,
                std::span<const std::uint16_t>) override {

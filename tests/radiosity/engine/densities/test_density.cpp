@@ -2,6 +2,7 @@
 #include "radiosity/engine/densities/density.h"
 
 #include "parallel/workers.h"
+#include "radiosity/paper/hemisphere/density_direction.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"

@@ -2,9 +2,10 @@
 // lie.
 #include "geometry/spherical_triangle.h"
 #include "parallel/workers.h"
-#include "radiosity/engine/densities/density.h"
 #include "radiosity/engine/densities/subdivision_1997.h"
+#include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/engine/shooting/strategy.h"
+#include "radiosity/paper/hemisphere/density_direction.h"
 #include "radiosity/paper/hemisphere/edge_division.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "support/catch.h"
@@ -52,9 +53,14 @@ struct Allocator {
         const SolverInput input{model.mesh, model.bvh, options, monitor};
         strategy = find_method("hemisphere-1997")->strategy(input, hemisphere, Workers(1));
     }
+    [[nodiscard]] StepHook& hook() const { return *strategy->step_hook(); }
+    [[nodiscard]] std::optional<PrivateCell> private_cell(std::uint32_t patch,
+                                                          std::uint16_t cell) const {
+        return strategy->private_cells()->private_cell(patch, cell);
+    }
     /// What is allocated is the same for all patches, and kept until the next step.
     [[nodiscard]] Allocation allocate(std::uint64_t step) const {
-        strategy->begin_step(step);
+        hook().begin_step(step);
         AllocatedCells memory;
         return strategy->allocate(0, memory);
     }
@@ -133,13 +139,13 @@ TEST_CASE("In a convex room all counts are equal, and edges are halved") {
     const Allocator allocator(model);
     const Hemisphere regular(3);
     for (const std::uint64_t step : {0u, 1u, 2u}) {
-        allocator.strategy->begin_step(step);
+        allocator.hook().begin_step(step);
         const int level = static_cast<int>(step) + 1;
         const std::size_t begin = Hemisphere::cells_up_to(level - 1);
         const std::size_t cells = Hemisphere::cells_up_to(level) - begin;
         double worst = 0;
         for (std::size_t k = 0; k < 4 * cells; ++k) {
-            const auto own = allocator.strategy->private_cell(7, static_cast<std::uint16_t>(k));
+            const auto own = allocator.private_cell(7, static_cast<std::uint16_t>(k));
             REQUIRE(own);
             for (std::size_t v = 0; v < 3; ++v)
                 worst = std::max(
@@ -158,15 +164,14 @@ TEST_CASE("Rays start in sub-patches that fill the patch") {
     scene.facets.push_back({{last, 0, 1, 1}, 0, 0, 0});
     const Model model(scene);
     const Allocator allocator(model);
-    allocator.strategy->begin_step(0);
+    allocator.hook().begin_step(0);
     for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i) {
         const Patch& patch = model.mesh.patches()[i];
         double area = 0;
         Vec3 centre(0.0);
         for (std::uint16_t piece = 0; piece < 4; ++piece) {
             const Polygon part =
-                allocator.strategy->private_cell(i, static_cast<std::uint16_t>(16 * piece))
-                    ->origins;
+                allocator.private_cell(i, static_cast<std::uint16_t>(16 * piece))->origins;
             CHECK(glm::dot(part.normal(), patch.normal) == Approx(1));
             area += part.area();
             centre += part.area() * part.centre();
@@ -180,11 +185,11 @@ TEST_CASE("Triangles are small where surfaces are many") {
     // Solid angle and density of surfaces, seen from the floor of a room with a block in it.
     const Model model(test::room_with_block());
     const Allocator allocator(model);
-    allocator.strategy->begin_step(1);
+    allocator.hook().begin_step(1);
     double smallest = 10, largest = 0;
     for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i)
         for (std::uint16_t cell = 0; cell < 256; ++cell) {
-            const auto own = allocator.strategy->private_cell(i, cell);
+            const auto own = allocator.private_cell(i, cell);
             smallest = std::min(smallest, own->shape.solid_angle());
             largest = std::max(largest, own->shape.solid_angle());
         }
@@ -251,7 +256,7 @@ TEST_CASE("As printed, rays that count carry energy in the step that finds them"
     for (const std::uint64_t step : {0u, 1u, 2u}) {
         const Allocation allocation = allocator.allocate(step);
         for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
-            const auto own = allocator.strategy->private_cell(5, allocation.cells[k]);
+            const auto own = allocator.private_cell(5, allocation.cells[k]);
             const std::uint32_t found = step == 0 ? 3 : step == 2 ? 0 : k % 4 == 3 ? 3 : 2;
             REQUIRE(own->given == found);
             // There are as many triangles as rays, or more: one ray by chance.
@@ -310,7 +315,7 @@ TEST_CASE("End to end, every private cell gets its equal number of rays", "[slow
                 std::size_t sum = 0;
                 double worst = 0;
                 for (const std::uint16_t cell : allocation.cells) {
-                    const auto own = allocator.strategy->private_cell(from.patch, cell);
+                    const auto own = allocator.private_cell(from.patch, cell);
                     const std::size_t rays = rays_into(from.rays, frame, *own);
                     worst = std::max(worst, std::abs(double(rays) - expected));
                     sum += rays;
@@ -340,7 +345,7 @@ TEST_CASE("End to end, as printed: rays by chance and rays that count") {
             const Frame frame = model.mesh.hemisphere_frame(from.patch);
             std::size_t expected = 0;
             for (const std::uint16_t cell : allocation.cells) {
-                const auto own = allocator.strategy->private_cell(from.patch, cell);
+                const auto own = allocator.private_cell(from.patch, cell);
                 expected += by_chance + own->given;
                 CHECK(rays_into(from.rays, frame, *own) >= by_chance);
                 for (std::uint32_t g = 0; g < own->given; ++g)
@@ -413,7 +418,7 @@ TEST_CASE("As printed, power goes by solid angle and every triangle gets a ray")
     double power = 0;
     for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
         CHECK(allocation.rays(k) * allocator.options.rays == Approx(1));
-        const auto own = allocator.strategy->private_cell(3, allocation.cells[k]);
+        const auto own = allocator.private_cell(3, allocation.cells[k]);
         power += own->power;
         CHECK(own->power == Approx(own->shape.solid_angle() / (2 * std::numbers::pi) *
                                    own->origins.area() / model.mesh.patches()[3].area)

@@ -282,14 +282,14 @@ TEST_CASE("A time limit sets its flag once the time is over, and clears it in th
     StopFlag flag;
     {
         const TimeLimit none(flag, std::nullopt), long_one(flag, 1e300);
-        CHECK_FALSE(flag);
+        CHECK_FALSE(bool(flag));
     }
     {
         const TimeLimit limit(flag, 0.0);
         while (!flag)
             std::this_thread::yield();
-        CHECK(flag.out_of_time());
-        CHECK_FALSE(flag.load());
+        CHECK(flag.is_out_of_time());
+        CHECK_FALSE(flag.is_wished());
     }
-    CHECK_FALSE(flag);
+    CHECK_FALSE(bool(flag));
 }

@@ -8,8 +8,8 @@
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/solving/left_out.h"
 #include "radiosity/paper/sampling/rng.h"
-#include "radiosity/research/guiding/guide.h"
 #include "support/catch.h"
+#include "support/guides.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -230,13 +230,13 @@ namespace {
 /// What a scene allows to be left out; where several do, the first of these decides.
 enum class Omission { black, convex, unlit, none, no_reflection };
 
-/// The table of docs/decisions.md, D35.
-bool keeps_every_byte(const std::string& method, Guide guide, Omission omission) {
+/// The table of docs/paper/decisions.md, D35.
+bool keeps_every_byte(const std::string& method, const Guide* guide, Omission omission) {
     if (omission == Omission::none || omission == Omission::no_reflection)
         return true;
-    if (guide == Guide::pyramid) // no patch counts in another's place
+    if (guide && guide->densities) // no patch counts in another's place
         return omission != Omission::convex;
-    if (method == "stored-transport" || guide != Guide::density)
+    if (method == "stored-transport" || guide)
         return false;
     if (method == "progressive")
         return omission == Omission::unlit;
@@ -310,22 +310,21 @@ TEST_CASE("What is left out keeps every byte where that is promised, else the re
                    })));
         for (const Method* method : methods())
             for (const bool literal : {false, true})
-                for (const Guide guide :
-                     {Guide::density, Guide::pyramid, Guide::visible, Guide::learned}) {
+                for (const Guide* const guide : test::all_guides()) {
                     if (literal && !method->has_literal)
                         continue;
-                    if (guide != Guide::density && (literal || method->name != "hemisphere"))
+                    if (guide && (literal || method->name != "hemisphere"))
                         continue;
                     const std::string name(method->name);
                     const bool bytes = keeps_every_byte(name, guide, c.omission);
                     SolveOptions options = with_rays(bytes ? 4 : 64, literal);
-                    options.own.of<Guide>() = guide;
+                    options.own.of<GuideChoice>().guide = guide;
                     const std::uint32_t steps = bytes ? 2 : 6;
                     const Solution with = solve_with(mesh, needs, *method, options, steps);
                     options.keep_all = true;
                     const Solution without =
                         solve_with(mesh, everything_of(mesh), *method, options, steps);
-                    CAPTURE(name, literal, int(guide), &c - cases.data());
+                    CAPTURE(name, literal, guide ? guide->name : "", &c - cases.data());
                     if (bytes)
                         check_same_bytes(with, without, c.omission);
                     else

@@ -4,8 +4,8 @@
 #include "radiosity/engine/linear/energy_ledger.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/paper/solution/solve_error.h"
-#include "radiosity/research/guiding/guide.h"
 #include "support/catch.h"
+#include "support/guides.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -92,13 +92,13 @@ TEST_CASE("changed states are refused, or go on to finite numbers", "[slow][stat
     for (const Method* const method : methods()) {
         if (!method->can_resume())
             continue;
-        for (const Guide guide : {Guide::density, Guide::learned}) {
-            if (guide == Guide::learned && method->name != "hemisphere")
+        for (const Guide* const guide : test::all_guides()) {
+            if (guide && (guide->name != "learned" || method->name != "hemisphere"))
                 continue;
             SolveOptions options;
             options.rays = 2;
             options.threads = 1;
-            options.own.of<Guide>() = guide;
+            options.own.of<GuideChoice>().guide = guide;
             Monitor monitor;
             const SolverInput input{model.mesh, model.bvh, options, monitor};
             StateWriter saved;

@@ -19,7 +19,8 @@ using namespace hemilux::test;
 
 namespace {
 
-/// N_tr / N_hemi by the paper's formula, with A the projected solid angle (D1, D4).
+/// N_tr / N_hemi by the paper's formula, with A the projected solid angle (docs/paper/decisions.md,
+/// D1, D4).
 std::map<std::uint16_t, double> shares_by_density(const Hemisphere& hemisphere,
                                                   const std::vector<DensityLeaf>& leaves) {
     const auto area = [&](std::uint16_t cell) {

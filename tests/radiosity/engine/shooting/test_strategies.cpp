@@ -1,6 +1,7 @@
 // What every strategy owes, whatever it guides its rays by: shares that sum to 1, Lambert's law,
 // and rays for every cell that carries power.
 #include "parallel/workers.h"
+#include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/engine/shooting/strategy.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "support/catch.h"
@@ -40,7 +41,8 @@ std::vector<Allocated> allocate(const Model& model, const Allocator& allocator,
     std::vector<Allocated> result;
     for (std::size_t k = 0; k < allocation.cells.size(); ++k) {
         const std::uint16_t cell = allocation.cells[k];
-        if (const auto own = allocator.strategy->private_cell(patch, cell))
+        const PrivateCells* const its = allocator.strategy->private_cells();
+        if (const auto own = its ? its->private_cell(patch, cell) : std::nullopt)
             result.push_back({own->power, allocation.rays(k),
                               own->shape.projected_solid_angle() / std::numbers::pi *
                                   own->origins.area() / model.mesh.patches()[patch].area});
@@ -71,7 +73,8 @@ void for_all_allocations(const Method& method, bool literal, const Test& test_ce
                 options.literal = literal;
                 const Allocator allocator(model, method, options);
                 for (const std::uint64_t step : {0u, 2u, 5u}) {
-                    allocator.strategy->begin_step(step);
+                    if (StepHook* const hook = allocator.strategy->step_hook())
+                        hook->begin_step(step);
                     for (std::uint32_t i = 0; i < model.mesh.patches().size(); i += 5)
                         test_cells(allocate(model, allocator, i));
                 }

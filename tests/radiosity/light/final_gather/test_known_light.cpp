@@ -61,7 +61,7 @@ TEST_CASE("Against the light itself a solution is off by its noise and by its di
 TEST_CASE("Light that was interrupted, or that nothing reflects, is not known") {
     const Model model(test::furnace_box(2, .5)), black(test::furnace_box(2, 0));
     StopFlag stopped;
-    stopped = true;
+    stopped.set_wished(true);
     const std::vector<Vec3> radiosity(model.mesh.patches().size(), Vec3(1));
     const KnownLight unknown(model.mesh, model.bvh, radiosity, points, 1, Workers(1), stopped);
     CHECK(std::isnan(unknown.error(radiosity)));

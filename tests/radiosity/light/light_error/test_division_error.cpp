@@ -277,7 +277,7 @@ TEST_CASE("an error of division is unknown where nothing is lit or the user has 
     const Solution solution =
         test::solve(model, *find_method("stored-transport"), {}, test::steps(1));
     StopFlag now;
-    now = true;
+    now.set_wished(true);
     CHECK(std::isnan(division_error(model.mesh, model.bvh, solution, {}, Workers(1), now).error));
 }
 

@@ -1,6 +1,5 @@
 // The pyramidal guide: which patches lie in a pyramid, what a tree of boxes finds of them, and that
 // nothing hides between three corners.
-#include "radiosity/research/guiding/guide.h"
 #include "radiosity/research/guiding/pyramids.h"
 
 #include "parallel/workers.h"
@@ -10,6 +9,7 @@
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
 #include "support/directions.h"
+#include "support/guides.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -23,7 +23,7 @@ namespace {
 
 SolveOptions by_pyramids(std::uint64_t seed = 3) {
     SolveOptions options;
-    options.own.of<Guide>() = Guide::pyramid;
+    options.own.of<GuideChoice>().guide = test::guide_named("pyramid");
     options.seed = seed;
     return options;
 }
@@ -183,9 +183,9 @@ TEST_CASE("What stands between three empty corners is found") {
     pyramids.leaves(0, leaves);
     CHECK(leaves.size() == 3 + 3 + 4);
 
-    const auto share_of_rays = [&](Guide guide) {
+    const auto share_of_rays = [&](const Guide* guide) {
         SolveOptions options = by_pyramids();
-        options.own.of<Guide>() = guide;
+        options.own.of<GuideChoice>().guide = guide;
         options.threshold = threshold;
         const SolverInput input{model.mesh, model.bvh, options, monitor};
         const auto strategy = find_method("hemisphere")->strategy(input, hemisphere, Workers(1));
@@ -196,7 +196,7 @@ TEST_CASE("What stands between three empty corners is found") {
                 return allocation.rays(k) / hemisphere.cells()[allocation.cells[k]].solid_angle;
         return 0.0;
     };
-    CHECK(share_of_rays(Guide::pyramid) > 3 * share_of_rays(Guide::density));
+    CHECK(share_of_rays(test::guide_named("pyramid")) > 3 * share_of_rays(nullptr));
 }
 
 TEST_CASE("By pyramids, shares sum to 1 and threads change nothing") {

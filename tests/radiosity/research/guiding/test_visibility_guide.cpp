@@ -1,18 +1,20 @@
 // The hemisphere guided by what is seen: unbiased, honest, and the same for any number of threads.
-#include "radiosity/research/guiding/guide.h"
 #include "radiosity/research/guiding/ray_densities.h"
 #include "radiosity/research/guiding/visibility_guide.h"
 
 #include "parallel/workers.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/engine/shooting/shooting.h"
+#include "radiosity/engine/shooting/step_hook.h"
 #include "radiosity/engine/shooting/strategy.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "support/catch.h"
+#include "support/guides.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 using namespace hemilux;
@@ -20,9 +22,11 @@ using test::Model;
 
 namespace {
 
-SolveOptions guided(Guide guide, std::uint64_t seed = 3) {
+constexpr std::array<const char*, 2> guides{"visible", "learned"};
+
+SolveOptions guided(const char* guide, std::uint64_t seed = 3) {
     SolveOptions options;
-    options.own.of<Guide>() = guide;
+    options.own.of<GuideChoice>().guide = test::guide_named(guide);
     options.seed = seed;
     return options;
 }
@@ -40,8 +44,13 @@ struct Guided {
         : options(wanted), hemisphere(wanted.depth) {
         const SolverInput input{model.mesh, model.bvh, options, monitor};
         strategy = hemisphere_method().strategy(input, hemisphere, Workers(1));
-        strategy->prepare(radiosity, 1e-3);
-        strategy->begin_step(0);
+        hook().prepare(radiosity, 1e-3);
+        hook().begin_step(0);
+    }
+    [[nodiscard]] StepHook& hook() const {
+        StepHook* const found = strategy->step_hook();
+        REQUIRE(found);
+        return *found;
     }
     /// Rays for the power of a cell, compared with the mean of all power.
     [[nodiscard]] std::vector<double> densities(std::uint32_t patch) const {
@@ -50,7 +59,7 @@ struct Guided {
         std::vector<double> result;
         for (std::size_t k = 0; k < allocation.cells.size(); ++k)
             result.push_back(
-                strategy->rays_for_power(patch) * allocation.rays(k) /
+                hook().rays_for_power(patch) * allocation.rays(k) /
                 power_share(hemisphere, allocation.cells[k], CellArea::projected_solid_angle));
         return result;
     }
@@ -75,13 +84,14 @@ Scene room_with_crowd() {
 }
 
 /// Any numbers of rays for the power of a patch.
-class Uneven final : public Strategy {
+class Uneven final : public Strategy, StepHook {
   public:
     Allocation allocate(std::uint32_t, AllocatedCells& memory) const override {
         memory.clear();
         memory.add(whole_hemisphere, 1);
         return memory.view();
     }
+    [[nodiscard]] StepHook* step_hook() override { return this; }
     [[nodiscard]] double rays_for_power(std::uint32_t patch) const override {
         return patch % 3 == 0 ? .3 : patch % 3 == 1 ? 1 : 4;
     }
@@ -100,7 +110,7 @@ bool is_finite(const Solution& solution) {
 } // namespace
 
 TEST_CASE("Guided by what is seen, no triangle starves and the shares sum to 1") {
-    for (const Guide guide : {Guide::visible, Guide::learned})
+    for (const char* const guide : guides)
         for (const Scene& scene : {test::room_with_block(), test::open_scene()})
             for (const int depth : {0, 2, 3}) {
                 const Model model(scene);
@@ -125,7 +135,7 @@ TEST_CASE("Guided by what is seen, no triangle starves and the shares sum to 1")
                     CHECK(power == Approx(1).epsilon(1e-12));
                     CHECK(rays == Approx(1).epsilon(1e-12));
                     power_of_all += model.mesh.patches()[i].area;
-                    rays_of_all += model.mesh.patches()[i].area * made.strategy->rays_for_power(i);
+                    rays_of_all += model.mesh.patches()[i].area * made.hook().rays_for_power(i);
                 }
                 CHECK(rays_of_all == Approx(power_of_all).epsilon(1e-6)); // as many as were asked
                 CHECK((depth == 0 || most > 1.3));                        // it does guide
@@ -134,9 +144,9 @@ TEST_CASE("Guided by what is seen, no triangle starves and the shares sum to 1")
 
 TEST_CASE("What hits tell moves rays of both patches, after the step") {
     const Model model(test::room_with_block());
-    const Guided made(model, guided(Guide::learned), even_light(model));
-    Strategy& strategy = *made.strategy;
-    REQUIRE(strategy.learns());
+    const Guided made(model, guided("learned"), even_light(model));
+    StepHook& hook = made.hook();
+    REQUIRE(hook.learns());
     std::uint32_t smallest = 0;
     const auto patches = model.mesh.patches();
     for (std::uint32_t i = 0; i < patches.size(); ++i)
@@ -145,20 +155,20 @@ TEST_CASE("What hits tell moves rays of both patches, after the step") {
     REQUIRE(smallest != 5);
     constexpr std::size_t t = 11, back = 20;
     AllocatedCells memory;
-    const Allocation allocation = strategy.allocate(5, memory);
+    const Allocation allocation = made.strategy->allocate(5, memory);
     const std::uint16_t cell = allocation.cells[t], arrival = allocation.cells[back];
     const auto before = made.densities(5), before_there = made.densities(smallest);
     StateWriter untaught, interrupted, taught;
-    strategy.save(untaught);
-    strategy.learn(5, cell, std::vector<std::uint32_t>(3000, smallest),
-                   std::vector<std::uint16_t>(3000, arrival));
+    hook.save(untaught);
+    hook.learn(5, cell, std::vector<std::uint32_t>(3000, smallest),
+               std::vector<std::uint16_t>(3000, arrival));
     CHECK(made.densities(5) == before);
-    strategy.save(interrupted);
+    hook.save(interrupted);
     CHECK(interrupted.bytes() == untaught.bytes()); // until the step is finished
-    strategy.end_step();
-    strategy.save(taught);
+    hook.end_step();
+    hook.save(taught);
     CHECK(taught.bytes() != untaught.bytes());
-    strategy.prepare(even_light(model), 1e-3);
+    hook.prepare(even_light(model), 1e-3);
     const auto after = made.densities(5), after_there = made.densities(smallest);
     CHECK(after[t] > 2 * before[t]);
     CHECK(after[t] > 2 * after[t + 1]);
@@ -167,7 +177,7 @@ TEST_CASE("What hits tell moves rays of both patches, after the step") {
 
 TEST_CASE("A crowd that no patch's own rays find tells of itself") {
     const Model model(room_with_crowd());
-    const Guided made(model, guided(Guide::visible), even_light(model));
+    const Guided made(model, guided("visible"), even_light(model));
     const auto patches = model.mesh.patches();
     const auto walls = static_cast<std::uint32_t>(patches.size() - patches_of_crowd);
     int found = 0;
@@ -194,7 +204,7 @@ TEST_CASE("Where light goes round for long, rays are nearly equal") {
         std::vector<Vec3> all = light;
         for (Vec3& b : all)
             b += Vec3(bounces / 6);
-        const Guided made(model, guided(Guide::visible), all);
+        const Guided made(model, guided("visible"), all);
         double most = 0;
         for (std::uint32_t i = 0; i < all.size(); ++i)
             most = std::max(most, std::ranges::max(made.densities(i)));
@@ -221,7 +231,7 @@ TEST_CASE("Patches may get more and weaker rays without a bias") {
 
 TEST_CASE("Guided by what is seen, threads change nothing") {
     const Model model(test::room_with_block());
-    for (const Guide guide : {Guide::visible, Guide::learned}) {
+    for (const char* const guide : guides) {
         SolveOptions options = guided(guide);
         options.threads = 1;
         const Solution one = test::solve(model, hemisphere_method(), options, test::steps(3));
@@ -245,7 +255,7 @@ TEST_CASE("Guided by what is seen where there is nothing to see") {
     Scene speck = room_with_crowd();
     test::add_cube(speck, Vec3(.5), 1e-9);
     for (const Scene& scene : {one_patch, black_room, dark, speck})
-        for (const Guide guide : {Guide::visible, Guide::learned}) {
+        for (const char* const guide : guides) {
             const Model model(scene);
             const Guided made(model, guided(guide), even_light(model));
             for (std::uint32_t i = 0; i < model.mesh.patches().size(); ++i)
@@ -258,7 +268,7 @@ TEST_CASE("Guided by what is seen where there is nothing to see") {
 
 TEST_CASE("What was learned goes on from a saved state") {
     const Model model(test::room_with_block());
-    for (const Guide guide : {Guide::visible, Guide::learned}) {
+    for (const char* const guide : guides) {
         const SolveOptions options = guided(guide);
         Monitor monitor;
         const SolverInput input{model.mesh, model.bvh, options, monitor};
@@ -291,7 +301,7 @@ TEST_CASE("Guided by what is seen, deviations from matrix are the standard error
         // Rays of unequal power to patches with thirty hits or so: their errors have long tails.
         const bool has_crowd = model.mesh.patches().size() == 54 + patches_of_crowd;
         const double margin = has_crowd ? .25 : .12;
-        for (const Guide guide : {Guide::visible, Guide::learned}) {
+        for (const char* const guide : guides) {
             double mean = 0, squares = 0;
             constexpr int runs = 6; // of some 100 patches whose channels go together
             for (int run = 0; run < runs; ++run) {

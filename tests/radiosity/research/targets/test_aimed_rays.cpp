@@ -31,7 +31,7 @@ namespace {
 std::vector<const Method*> shooting_methods() {
     std::vector<const Method*> result;
     for (const Method* const method : methods())
-        if (method->aims && (method->strategy || method->name == "monte-carlo"))
+        if (method->takes_target() && (method->strategy || method->name == "monte-carlo"))
             result.push_back(method);
     return result;
 }

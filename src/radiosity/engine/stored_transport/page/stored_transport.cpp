@@ -13,8 +13,10 @@
 // result is the solution of all rays together. The engine adds what makes it fast: sparse rows,
 // Sobol points, more rays where the error is, shadow rays to small emitters, conjugate gradients.
 
-#include "radiosity/engine/stored_transport/page/batches.h"
-#include "radiosity/paper/pages/pages.h"
+#include "radiosity/engine/stored_transport/page/stored_transport.h"
+
+#include "geometry/compensated_sum.h"
+#include "radiosity/paper/pages/batches.h"
 #include "radiosity/paper/rays/patch_start.h"
 #include "radiosity/paper/solution/solve_error.h"
 #include "radiosity/paper/solving/check_input.h"
@@ -59,7 +61,8 @@ class StoredTransport final : public Solver {
             B[s] = solve(counts_[s], s < batches ? N_ : all);
         if (input_.monitor.interrupted)
             return false;
-        combine_batches(input_.mesh, B, counts_[batches].escaped, all, solution_);
+        combine_batches(input_.mesh, B, solution_);
+        account(counts_[batches].escaped, all);
         ++solution_.steps;
         return true;
     }
@@ -138,6 +141,17 @@ class StoredTransport final : public Solver {
             }
         }
         return B;
+    }
+
+    /// Notes where the power goes: what has not left the scene is absorbed.
+    void account(const std::vector<double>& escaped, double rays) {
+        CompensatedSum<Vec3> power;
+        for (std::size_t i = 0; i < n_; ++i)
+            power += area(i) * escaped[i] / rays * solution_.radiosity[i];
+        EnergyBalance& energy = solution_.energy;
+        energy.escaped = input_.mesh.frame().area_to_world(1.0) * power.value();
+        energy.absorbed = energy.emitted - energy.escaped;
+        energy.unshot = Vec3(0.0);
     }
 
     SolverInput input_;

@@ -1,0 +1,20 @@
+#pragma once
+// Independent batches of rays give the errors of a solution (sections 2 and 3.1).
+
+#include "radiosity/paper/solution/solution.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace hemilux::plain {
+
+inline constexpr std::size_t batches = 4;
+
+/// Sets the radiosity of `solution` and its errors. B[s] is the radiosity by batch s, by patch; the
+/// last of B, that by all rays together, becomes the radiosity of `solution`. Its standard error,
+/// its variance and the degrees of freedom follow from how the batches spread.
+void combine_batches(const Mesh& mesh, std::span<const std::vector<Vec3>, batches + 1> B,
+                     Solution& solution);
+
+} // namespace hemilux::plain
