@@ -7,9 +7,10 @@
 #include "app/settings/extension.h"
 #include "app/settings/names.h"
 #include "app/settings/numbers.h"
-#include "radiosity/engine/solving/method_option.h"
 
+#include <algorithm>
 #include <concepts>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -72,6 +73,13 @@ Option add_seconds(Command command, const std::string& name, Target& target,
                       [&target](double value) { target = value; });
 }
 
+/// A value of an enumeration and the text that stands for it.
+template <class Choice>
+struct NamedChoice {
+    Choice value;
+    const char* name;
+};
+
 /// Adds an option whose values are those of an enumeration; `store` gets the one that is named.
 template <class Choice, class Store>
 requires std::invocable<Store, Choice>
@@ -82,10 +90,10 @@ requires std::invocable<Store, Choice>
     for (const NamedChoice<Choice>& choice : choices)
         names.emplace_back(choice.name);
     return command.add_value(name, joined(names, "|"), help, [=](const std::string& text) {
-        const NamedChoice<Choice>* const chosen = named_choice<Choice>(choices, text);
-        if (!chosen)
+        const auto chosen = std::ranges::find(names, text);
+        if (chosen == names.end())
             throw UsageError(name + ": " + unknown_name("choice", text, names));
-        store(chosen->value);
+        store(choices[static_cast<std::size_t>(chosen - names.begin())].value);
     });
 }
 

@@ -58,9 +58,12 @@ Chart chart_of(const Comparison& comparison, std::span<const MethodSummary> summ
     return chart;
 }
 
+LitScene lit_by(const Comparison& comparison, std::span<const Vec3> radiosity) {
+    return {comparison.mesh, comparison.tracer, radiosity, comparison.settings.options.threads};
+}
+
 Camera camera_of(const Comparison& comparison) {
-    return camera_of(comparison.settings.view, comparison.mesh, comparison.tracer,
-                     comparison.reference.radiosity, comparison.settings.options.threads);
+    return camera_of(comparison.settings.view, lit_by(comparison, comparison.reference.radiosity));
 }
 
 void write_pictures(const Comparison& comparison, std::span<const MethodRuns> results,
@@ -69,13 +72,13 @@ void write_pictures(const Comparison& comparison, std::span<const MethodRuns> re
     const Reference& reference = comparison.reference;
     const Camera camera = camera_of(comparison);
     const PictureTime time(comparison.monitor.interrupted.own().wished);
+    const RenderOptions options =
+        picture_options(view.size, comparison.settings.options.threads, time);
     const auto picture = [&](std::span<const Vec3> radiosity) {
-        return render_view(view, comparison.mesh, comparison.tracer, radiosity, camera,
-                           comparison.settings.options.threads, time);
+        return render_view(lit_by(comparison, radiosity), camera, options);
     };
     const Image truth = picture(reference.radiosity);
-    choose_exposure(view, truth, comparison.mesh, comparison.tracer, camera,
-                    comparison.settings.options.threads);
+    choose_exposure(view, truth, lit_by(comparison, reference.radiosity), camera);
     const Display display = display_of(view);
     const auto write = [&](const std::string& name, const Image& image, const Display& shown) {
         const std::string path = path_in(comparison, name);

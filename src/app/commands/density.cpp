@@ -132,17 +132,13 @@ void write_picture(const Preprocessed& made, const PatchDensities& densities,
     std::vector<Vec3> light; // for the choice of a camera: everything is lit
     for (const double mean : densities.mean)
         light.emplace_back(1 + mean);
-    const Camera camera =
-        camera_of(view, made.mesh, made.tracer, light, made.settings.options.threads);
+    const unsigned threads = made.settings.options.threads;
+    const Camera camera = camera_of(view, {made.mesh, made.tracer, light, threads});
     const PictureTime time(made.monitor.interrupted.own().wished);
-    const RenderOptions options{.width = view.size.width,
-                                .height = view.size.height,
-                                .threads = made.settings.options.threads,
-                                .give_up = [&time] { return time.is_over(); }};
     write_png(path,
               density_picture(made.mesh, made.tracer, densities.mean,
                               "mean density of patches, " + made.hemispheres.unit(), camera,
-                              options),
+                              picture_options(view.size, threads, time)),
               1);
 }
 

@@ -1,4 +1,4 @@
-// hemilux solve: read, divide, build, run, write.
+// hemilux solve: load, build, divide, take steps, write.
 
 #include "app/commands/commands.h"
 #include "app/commands/solve_end.h"
@@ -38,284 +38,290 @@ namespace hemilux {
 
 namespace {
 
-/// Returns the stop rule. `sampling` is the error that --divide auto leaves to the run, where that
-/// is known.
-StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
-                   std::optional<double> sampling = {}) {
-    StopRule stop = settings.stop;
-    if (settings.divide_auto && (stop.error || (!stop.steps && !stop.seconds)))
-        stop.error = sampling.value_or(share_of_sampling * whole_error(settings));
-    if (!stop.steps && !stop.seconds && !stop.error) {
-        stop = settings.method->default_stop;
-        stop.rays = settings.stop.rays;
-        if (settings.work().ends_by_itself)
-            stop.steps.reset();
-        else if (!stop.steps && !stop.seconds && !stop.error)
-            stop.steps = StopRule::default_steps;
-    }
-    if (!stop.steps && !stop.seconds && !stop.rays && settings.work().estimates_error)
-        stop.rays = default_max_rays(patches);
-    return stop;
-}
-
-/// A run of the program from its options to its last words, step by step.
-class SolveRun {
-  public:
-    explicit SolveRun(const SolveSettings& settings)
-        : settings_(settings), options_(with_memory(settings.options, settings.scene)) {}
-
-    void read_scene();
-    void build_tree();
-    void divide();
-    void read_the_reference();
-    void take_steps();
-    void estimate_errors();
-    /// Returns the exit code.
-    [[nodiscard]] int write();
-
-  private:
-    [[nodiscard]] const Mesh& mesh() const { return loaded_->mesh; }
-    [[nodiscard]] const Tracer& tracer() const { return *prepared_->made.tracer; }
-    [[nodiscard]] InputError as_input_error(const SolveError& error) const {
-        return hemilux::as_input_error(error, settings_.scene.path, loaded_->face_lines);
-    }
-    [[nodiscard]] bool has_pictures() const {
-        return std::ranges::any_of(settings_.outputs, is_picture, &Output::kind) ||
-               !settings_.error_map.empty();
-    }
-    [[nodiscard]] double bytes_of_outputs() const;
-    [[nodiscard]] std::unique_ptr<Solver> begin();
-    void mesh_changed();
-
-    SolveSettings settings_; ///< with the camera of the scene, where none was given
-    const Stopwatch started_;
-    Monitor monitor_;
-    std::optional<SharedStop> shared_stop_; ///< of the ranks
-    InterruptGuard guard_;
-    Statistics statistics_;
-    SolveOptions options_;
-    std::optional<Checkpoint> resumed_;
-    std::vector<NamedPoint> points_;
-    std::vector<TargetPoints> target_points_;
-    std::vector<double> target_; ///< SolverInput::target
-    std::optional<LoadedMesh> loaded_;
-    std::optional<Prepared> prepared_;
-    std::optional<SolverInput> input_;
-    Divided divided_;
-    std::optional<Reference> reference_;
-    std::unique_ptr<Solver> solver_;
-    std::vector<StepRow> rows_;
-    std::optional<RunNotes> notes_;
-    std::optional<Camera> camera_; ///< of pictures after steps, which the last one shares
-    WriteReport of_steps_;
-    std::optional<InputError> fault_; ///< in a step; those before it are written
-    bool completed_ = false;
-    double seconds_solver_ = 0;
-    std::optional<Solution> linear_;     ///< with slopes
-    const Solution* solution_ = nullptr; ///< that is written
+/// All that a run reads before it builds anything.
+struct Loaded {
+    SolveSettings settings; ///< with the camera of the scene, where none was given
+    std::optional<Checkpoint> resumed;
+    std::vector<NamedPoint> points;          ///< of --points
+    std::vector<TargetPoints> target_points; ///< of --for
+    LoadedMesh scene;
 };
 
-void SolveRun::read_scene() {
-    const RunFiles files = check_files(settings_);
-    const std::span methods(&settings_.method, 1);
-    check_own_options(settings_.options, methods);
-    check_plain(settings_);
-    check_target(settings_);
-    check_checkpoint_options(settings_);
-    warn_of_unused(settings_);
-    Workers(settings_.options.threads).start();
-    resumed_ = read_resumed(settings_);
-    if (!settings_.points.path.empty())
-        points_ = read_points(settings_.points.path);
-    target_points_ = points_of_target(settings_.target);
-    loaded_ = load_mesh(settings_.scene, files, settings_.options, methods, settings_.verbosity,
-                        bytes_of_outputs());
-    settings_.divide_auto |= divides_by_default(settings_, mesh().patches().size());
-    check_distances(settings_, points_, mesh());
-    settings_.view = view_of(settings_.view, loaded_->view,
-                             has_pictures() || !settings_.report.empty() ? settings_.verbosity
-                                                                         : Verbosity::quiet);
-    check_camera(settings_.view, mesh());
-    check_own_options(settings_.options, methods, mesh().patches().size());
-    check_plain(settings_, mesh().patches().size());
-    statistics_.seconds_read = loaded_->seconds_read;
-}
+/// What a solver refers to; it stays where it is while one lives.
+struct Problem {
+    Loaded loaded;
+    Monitor& monitor; ///< of the caller
+    Prepared prepared = {};
+    std::vector<double> target = {}; ///< SolverInput::target
+    SolveOptions options = {};       ///< with the rays of a step and the end of the run
 
-double SolveRun::bytes_of_outputs() const {
-    return (has_pictures() ? bytes_of_picture(settings_.view.size, settings_.gather_pictures) : 0) +
-           bytes_of_points(points_.size(), settings_.gather) +
-           bytes_of_lightmap(settings_.lightmap.value_or(0));
-}
-
-void SolveRun::build_tree() {
-    prepared_ = prepare(*loaded_, settings_.options, settings_.verbosity);
-    statistics_.seconds_bvh = prepared_->seconds;
-    log_line(settings_.verbosity, Verbosity::verbose,
-             tracer_text(prepared_->made.tree, statistics_.seconds_bvh));
-    target_ = target_weights(settings_, target_points_, mesh(), tracer());
-    input_.emplace(SolverInput{mesh(), tracer(), options_, monitor_, prepared_->needs, target_});
-    shared_stop_.emplace(monitor_.interrupted, *settings_.ranks);
-    guard_.watch(monitor_.interrupted.own().wished);
-}
-
-/// Begins a solver for the mesh as it is then.
-std::unique_ptr<Solver> SolveRun::begin() {
-    const std::size_t patches = mesh().patches().size();
-    const StopRule stop = stop_rule(settings_, patches);
-    options_.rays =
-        rays_of_step(settings_.options.rays, settings_.stop.seconds, *settings_.method, patches);
-    options_.stop = stop;
-    try {
-        const Method& method = *settings_.method;
-        return settings_.plain ? method.plain(*input_) : method.make(*input_);
-    } catch (const SolveError& error) {
-        throw as_input_error(error);
+    [[nodiscard]] const SolveSettings& settings() const { return loaded.settings; }
+    [[nodiscard]] const Mesh& mesh() const { return loaded.scene.mesh; }
+    [[nodiscard]] const Tracer& tracer() const { return *prepared.made.tracer; }
+    [[nodiscard]] SolverInput input() const {
+        return {mesh(), tracer(), options, monitor, prepared.needs, target};
     }
+};
+
+/// A run whose steps are done.
+struct Run {
+    std::unique_ptr<Solver> solver;
+    std::vector<StepRow> rows;
+    RunNotes notes;
+    std::optional<InputError> fault = {}; ///< in a step; those before it are written
+    bool completed = false;
+    double seconds = 0;                ///< of the solver
+    WriteReport written = {};          ///< after steps
+    std::optional<Camera> camera = {}; ///< of pictures after steps, which the last one shares
+};
+
+InputError as_input_error(const SolveError& error, const Problem& problem) {
+    return as_input_error(error, problem.settings().scene.path, problem.loaded.scene.face_lines);
 }
 
-void SolveRun::mesh_changed() {
-    if (!settings_.options.keep_all)
-        prepared_->needs = find_needs(mesh());
-    target_ = target_weights(settings_, target_points_, mesh(), tracer());
-    input_->target = target_;
+bool has_pictures(const SolveSettings& settings) {
+    return std::ranges::any_of(settings.outputs, is_picture, &Output::kind) ||
+           !settings.error_map.empty();
 }
 
-/// Divides the mesh where --divide auto asks for it.
-void SolveRun::divide() {
-    try {
-        divided_ = divide_as_asked(
-            settings_, loaded_->mesh, *input_, [&] { return begin(); }, [&] { mesh_changed(); },
-            statistics_);
-    } catch (const SolveError& error) {
-        throw as_input_error(error);
-    }
+double bytes_of_outputs(const SolveSettings& settings, std::size_t points) {
+    return (has_pictures(settings) ? bytes_of_picture(settings.view.size, settings.gather_pictures)
+                                   : 0) +
+           bytes_of_points(points, settings.gather) +
+           bytes_of_lightmap(settings.lightmap.value_or(0));
+}
+
+/// Reads the files of the run; checks its options first, and then what they are for this scene.
+Loaded load(SolveSettings settings) {
+    const RunFiles files = check_files(settings);
+    const std::span methods(&settings.method, 1);
+    check_own_options(settings.options, methods);
+    check_plain(settings);
+    check_target(settings);
+    check_checkpoint_options(settings);
+    warn_of_unused(settings);
+    Workers(settings.options.threads).start();
+    std::optional<Checkpoint> resumed = read_resumed(settings);
+    std::vector<NamedPoint> points;
+    if (!settings.points.path.empty())
+        points = read_points(settings.points.path);
+    std::vector<TargetPoints> target_points = points_of_target(settings.target);
+    LoadedMesh scene = load_mesh(settings.scene, files, settings.options, methods,
+                                 settings.verbosity, bytes_of_outputs(settings, points.size()));
+    const Mesh& mesh = scene.mesh;
+    settings.divide_auto |= divides_by_default(settings, mesh.patches().size());
+    check_distances(settings.points.path, points, mesh);
+    settings.view = view_of(settings.view, scene.view,
+                            has_pictures(settings) || !settings.report.empty() ? settings.verbosity
+                                                                               : Verbosity::quiet);
+    check_camera(settings.view, mesh);
+    check_own_options(settings.options, methods, mesh.patches().size());
+    check_plain(settings, mesh.patches().size());
+    return {std::move(settings), std::move(resumed), std::move(points), std::move(target_points),
+            std::move(scene)};
+}
+
+/// Finds what belongs to the patches as they are then.
+std::vector<double> target_of(const Problem& problem) {
+    return target_weights(problem.settings(), problem.loaded.target_points, problem.mesh(),
+                          problem.tracer());
+}
+
+/// Builds what solving needs besides the patches.
+Problem build(Loaded loaded, Monitor& monitor) {
+    Problem problem{.loaded = std::move(loaded), .monitor = monitor};
+    const SolveSettings& settings = problem.settings();
+    problem.prepared = prepare(problem.loaded.scene, settings.options, settings.verbosity);
+    problem.options = with_memory(settings.options, settings.scene);
+    log_line(settings.verbosity, Verbosity::verbose,
+             tracer_text(problem.prepared.made.tree, problem.prepared.seconds));
+    problem.target = target_of(problem);
+    return problem;
+}
+
+/// Begins a solver for the patches as they are then.
+std::unique_ptr<Solver> begin(Problem& problem) {
+    const SolveSettings& settings = problem.settings();
+    const Method& method = *settings.method;
+    const std::size_t patches = problem.mesh().patches().size();
+    problem.options.rays =
+        rays_of_step(settings.options.rays, settings.stop.seconds, method, patches);
+    problem.options.stop = stop_rule(settings, patches);
+    return settings.plain ? method.plain(problem.input()) : method.make(problem.input());
+}
+
+/// Divides the patches where --divide auto asks for it.
+Divided divide(Problem& problem, Statistics& statistics) {
+    SolverInput input = problem.input();
+    const auto mesh_changed = [&] {
+        if (!problem.settings().options.keep_all)
+            problem.prepared.needs = find_needs(problem.mesh());
+        problem.target = target_of(problem);
+        input.target = problem.target;
+    };
+    return divide_as_asked(
+        problem.settings(), problem.loaded.scene.mesh, input, [&] { return begin(problem); },
+        mesh_changed, statistics);
 }
 
 /// Reads the reference, which is of the patches as they are divided. A signal ends the program
 /// while the file is read.
-void SolveRun::read_the_reference() {
-    std::vector<bool> detail = detail_mask(mesh(), settings_.detail);
-    if (settings_.reference.empty() || monitor_.interrupted)
-        return;
-    guard_.unwatch();
-    reference_ = read_reference(settings_.reference, mesh(), std::move(detail));
-    guard_.watch(monitor_.interrupted.own().wished);
+std::optional<Reference> load_reference(const Problem& problem, InterruptGuard& guard) {
+    const std::string& path = problem.settings().reference;
+    std::vector<bool> detail = detail_mask(problem.mesh(), problem.settings().detail);
+    if (path.empty() || problem.monitor.interrupted)
+        return std::nullopt;
+    guard.unwatch();
+    Reference reference = read_reference(path, problem.mesh(), std::move(detail));
+    guard.watch(problem.monitor.interrupted.own().wished);
+    return reference;
 }
 
-void SolveRun::take_steps() {
-    const StopRule stop = stop_rule(settings_, mesh().patches().size(), divided_.sampling);
-    Progress progress(monitor_, share_of(stop, *settings_.method),
-                      settings_.verbosity != Verbosity::quiet && stderr_is_terminal());
+/// Takes the steps. Goes on with the run by which the patches were divided, where there is one.
+Run take_steps(Problem& problem, Divided& divided, const std::optional<Reference>& reference,
+               double seconds_divide) {
+    const SolveSettings& settings = problem.settings();
+    const std::optional<Checkpoint>& resumed = problem.loaded.resumed;
+    const Mesh& mesh = problem.mesh();
+    Monitor& monitor = problem.monitor;
+    const StopRule stop = stop_rule(settings, mesh.patches().size(), divided.sampling);
+    Progress progress(monitor, share_of(stop, *settings.method),
+                      settings.verbosity != Verbosity::quiet && stderr_is_terminal());
     const Stopwatch solving;
-    const bool is_begun = divided_.begun && !resumed_;
-    solver_ = is_begun ? std::move(divided_.begun) : begin();
-    log_rays_of_step(settings_.verbosity, settings_.options.rays, options_.rays);
-    Before before = divided_.before();
-    before.seconds += statistics_.seconds_divide; // a time limit is of both
-    if (resumed_) {
-        before = resume(*resumed_, settings_, mesh(), *solver_);
-        rows_ = resumed_->rows;
+    const bool is_begun = divided.begun && !resumed;
+    Run done{.solver = is_begun ? std::move(divided.begun) : begin(problem),
+             .rows = {},
+             .notes = RunNotes(stop, settings.work().estimates_error)};
+    log_rays_of_step(settings.verbosity, settings.options.rays, problem.options.rays);
+    Before before = divided.before();
+    before.seconds += seconds_divide; // a time limit is of both
+    if (resumed) {
+        before = resume(*resumed, settings, mesh, *done.solver);
+        done.rows = resumed->rows;
     }
-    Checkpointer checkpointer(settings_, mesh(), *solver_);
-    StepPictures step_pictures(settings_, mesh(), tracer(), monitor_.interrupted.own().wished);
-    notes_.emplace(stop, settings_.work().estimates_error);
+    Checkpointer checkpointer(settings, mesh, *done.solver);
+    StepPictures step_pictures(settings, mesh, problem.tracer(), monitor.interrupted.own().wished);
     const auto add_row = [&](const StepRecord& record) {
-        notes_->step_done(record);
-        rows_.push_back({std::string(settings_.method->name), 0, record, std::nullopt});
+        done.notes.step_done(record);
+        done.rows.push_back({std::string(settings.method->name), 0, record, std::nullopt});
         progress.step_done(record);
     };
     const auto show_last_row = [&](const Solution& solution) {
-        if (reference_)
-            rows_.back().error = reference_->error(mesh(), solution.radiosity);
-        if (settings_.every_step)
-            step_pictures.write(solution.radiosity, solution.steps);
-        if (settings_.verbosity == Verbosity::verbose)
-            progress.log(step_text(rows_.back()));
+        if (reference)
+            done.rows.back().error = reference->error(mesh, solution.radiosity);
+        step_pictures.write(solution.radiosity, solution.steps);
+        if (settings.verbosity == Verbosity::verbose)
+            progress.log(step_text(done.rows.back()));
     };
     const auto after_step = [&](const StepRecord& record, const Solution& solution) {
         add_row(record);
         show_last_row(solution);
-        checkpointer.step_done(rows_, record.seconds);
+        checkpointer.step_done(done.rows, record.seconds);
     };
-    if (is_begun && !divided_.steps.empty()) {
-        for (StepRecord record : divided_.steps) {
-            record.seconds += statistics_.seconds_divide;
+    if (is_begun && !divided.steps.empty()) {
+        for (StepRecord record : divided.steps) {
+            record.seconds += seconds_divide;
             add_row(record);
         }
-        show_last_row(solver_->solution());
+        show_last_row(done.solver->solution());
     }
     try {
-        completed_ = run(*solver_, *input_, stop, after_step, before);
+        done.completed = run(*done.solver, problem.input(), stop, after_step, before);
     } catch (const SolveError& error) {
-        fault_ = as_input_error(error);
-        if (solver_->solution().steps == 0)
-            throw *fault_;
+        if (done.solver->solution().steps == 0)
+            throw;
+        done.fault = as_input_error(error, problem);
     }
-    seconds_solver_ =
-        solving.seconds() + (resumed_ ? resumed_->seconds : divided_.before().seconds);
+    done.seconds = solving.seconds() + (resumed ? resumed->seconds : divided.before().seconds);
     progress.close();
-    checkpointer.finish(rows_, seconds_solver_);
-    of_steps_ = step_pictures.report();
-    of_steps_.add(checkpointer.report());
-    camera_ = step_pictures.camera();
+    checkpointer.finish(done.rows, done.seconds);
+    done.written = step_pictures.report();
+    done.written.add(checkpointer.report());
+    done.camera = step_pictures.camera();
+    return done;
 }
 
-void SolveRun::estimate_errors() {
-    // Where a signal or the time left no step, the light by which patches were divided is used.
-    const bool has_step = solver_->solution().steps > 0 || divided_.rough.steps == 0;
-    solution_ = has_step ? &solver_->solution() : &divided_.rough;
-    if (divided_.linear) {
-        linear_ = *solution_;
-        linear_->slope = divided_.slope;
-        solution_ = &*linear_;
-    }
-    fill(statistics_, settings_, mesh(), *solution_, seconds_solver_);
+/// Adds what is known of a solution, and how far off it is.
+void add_errors(Statistics& statistics, const Problem& problem, const Divided& divided,
+                const Solution& solution, double seconds_solver) {
+    const SolveSettings& settings = problem.settings();
+    fill(statistics, settings, problem.mesh(), solution, seconds_solver);
     // Without an estimate of sampling, the error of the division would be taken for the whole.
-    if (!settings_.work().estimates_error || !shows_statistics(settings_))
-        statistics_.error_sampling = statistics_.estimated_error;
+    if (!settings.work().estimates_error || !shows_statistics(settings))
+        statistics.error_sampling = statistics.estimated_error;
     else
-        add_division_error(statistics_, settings_, mesh(), tracer(), *solution_, divided_,
-                           monitor_.interrupted);
-    if (!settings_.plain) // which leaves out nothing
-        statistics_.left_out = left_out(prepared_->needs, settings_.work(), *solution_);
-    statistics_.bytes_peak = peak_memory_bytes();
-    if (settings_.ranks->are_several())
-        statistics_.ranks =
-            settings_.ranks->of_each(RankFigures{settings_.ranks->work(), statistics_.bytes_peak});
+        add_division_error(statistics, settings, problem.mesh(), problem.tracer(), solution,
+                           divided, problem.monitor.interrupted);
+    if (!settings.plain) // which leaves out nothing
+        statistics.left_out = left_out(problem.prepared.needs, settings.work(), solution);
+    statistics.bytes_peak = peak_memory_bytes();
+    if (settings.ranks->are_several())
+        statistics.ranks =
+            settings.ranks->of_each(RankFigures{settings.ranks->work(), statistics.bytes_peak});
 }
 
-int SolveRun::write() {
-    if (!settings_.ranks->is_first()) // whose result is the first one's
+/// Writes the outputs; returns the exit code.
+int write(const Problem& problem, const Run& done, const Solution& solution, Statistics& statistics,
+          const std::optional<Reference>& reference, const Stopwatch& started) {
+    const Loaded& loaded = problem.loaded;
+    SolveSettings settings = loaded.settings;
+    if (!settings.ranks->is_first()) // whose result is the first one's
         return exit_done;
-    const OnThisRank works_alone(monitor_.interrupted);
-    const bool interrupted = !completed_ && !fault_;
-    SolveSettings shown = settings_;
-    shown.view.camera = camera_;
-    const int code = finish(
-        shown,
-        {mesh(), tracer(), *solution_, statistics_, rows_, points_, loaded_->warnings, monitor_},
-        of_steps_, reference_, *notes_, interrupted, started_, resumed_ ? resumed_->seconds : 0);
-    if (interrupted && !settings_.ranks->are_several())
+    const OnThisRank works_alone(problem.monitor.interrupted);
+    const bool interrupted = !done.completed && !done.fault;
+    settings.view.camera = done.camera;
+    const int code =
+        finish(settings,
+               {problem.mesh(), problem.tracer(), solution, settings.options, statistics, done.rows,
+                loaded.points, loaded.scene.warnings, problem.monitor},
+               done.written, reference, done.notes, interrupted, started,
+               loaded.resumed ? loaded.resumed->seconds : 0);
+    if (interrupted && !settings.ranks->are_several())
         end_at_once(code);
-    if (!fault_ || code != exit_done)
+    if (!done.fault || code != exit_done)
         return code;
-    log_line(settings_.verbosity, Verbosity::quiet,
-             std::string("hemilux: ") + fault_->what() + "\nthe outputs hold " +
-                 counted(solver_->solution().steps, "step", "steps") + " before that");
+    log_line(settings.verbosity, Verbosity::quiet,
+             std::string("hemilux: ") + done.fault->what() + "\nthe outputs hold " +
+                 counted(done.solver->solution().steps, "step", "steps") + " before that");
     return exit_input;
+}
+
+/// Solves the problem and writes the outputs; returns the exit code.
+int solve(Problem& problem, InterruptGuard& guard, const Stopwatch& started) {
+    Statistics statistics;
+    statistics.seconds_read = problem.loaded.scene.seconds_read;
+    statistics.seconds_bvh = problem.prepared.seconds;
+    Divided divided = divide(problem, statistics);
+    const std::optional<Reference> reference = load_reference(problem, guard);
+    const Run done = take_steps(problem, divided, reference, statistics.seconds_divide);
+    // Where a signal or the time left no step, the light by which patches were divided is used.
+    const Solution* solution = &done.solver->solution();
+    if (solution->steps == 0 && divided.rough.steps > 0)
+        solution = &divided.rough;
+    std::optional<Solution> linear; // with slopes
+    if (divided.linear) {
+        linear = *solution;
+        linear->slope = divided.slope;
+        solution = &*linear;
+    }
+    add_errors(statistics, problem, divided, *solution, done.seconds);
+    return write(problem, done, *solution, statistics, reference, started);
 }
 
 } // namespace
 
 int solve(const SolveSettings& settings) {
-    SolveRun run(settings);
-    run.read_scene();
-    run.build_tree();
-    run.divide();
-    run.read_the_reference();
-    run.take_steps();
-    run.estimate_errors();
-    return run.write();
+    const Stopwatch started;
+    Monitor monitor;
+    InterruptGuard guard;
+    Problem problem = build(load(settings), monitor);
+    const SharedStop shared_stop(monitor.interrupted, *settings.ranks);
+    guard.watch(monitor.interrupted.own().wished);
+    try {
+        return solve(problem, guard, started);
+    } catch (const SolveError& error) {
+        throw as_input_error(error, problem);
+    }
 }
 
 } // namespace hemilux

@@ -47,6 +47,24 @@ bool divides_by_default(const SolveSettings& settings, std::size_t patches) {
            settings.checkpoint.path.empty() && settings.checkpoint.resumed.empty();
 }
 
+StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
+                   std::optional<double> sampling) {
+    StopRule stop = settings.stop;
+    if (settings.divide_auto && (stop.error || (!stop.steps && !stop.seconds)))
+        stop.error = sampling.value_or(share_of_sampling * whole_error(settings));
+    if (!stop.steps && !stop.seconds && !stop.error) {
+        stop = settings.method->default_stop;
+        stop.rays = settings.stop.rays;
+        if (settings.work().ends_by_itself)
+            stop.steps.reset();
+        else if (!stop.steps && !stop.seconds && !stop.error)
+            stop.steps = StopRule::default_steps;
+    }
+    if (!stop.steps && !stop.seconds && !stop.rays && settings.work().estimates_error)
+        stop.rays = default_max_rays(patches);
+    return stop;
+}
+
 std::uint64_t default_max_rays(std::size_t patches) {
     constexpr std::uint64_t least = 100'000'000, each = 1000;
     return least + each * patches;

@@ -1,12 +1,12 @@
 #pragma once
-// What a run does where nothing was said: whether it divides patches, how far, and how many rays it
-// takes at the most.
+// What a run does where nothing was said: whether it divides patches, how far, and when it ends.
 
 #include "app/settings/settings.h"
 #include "radiosity/light/division/adaptive_division.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace hemilux {
 
@@ -30,5 +30,10 @@ inline constexpr double error_of_large_models = .05;
 /// Returns the number of rays at which a run to an error ends at the latest, if nothing else ends
 /// it.
 [[nodiscard]] std::uint64_t default_max_rays(std::size_t patches);
+
+/// Returns when the run ends. `sampling` is the error that --divide auto leaves to the run, where
+/// that is known.
+[[nodiscard]] StopRule stop_rule(const SolveSettings& settings, std::size_t patches,
+                                 std::optional<double> sampling = {});
 
 } // namespace hemilux

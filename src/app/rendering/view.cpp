@@ -4,7 +4,6 @@
 #include "app/settings/text.h"
 #include "io/meshes/baked_light.h"
 #include "io/pictures/exr.h"
-#include "io/rendering/render.h"
 #include "radiosity/paper/scene/mesh.h"
 
 #include <cmath>
@@ -30,12 +29,12 @@ std::string camera_text(const Camera& camera) {
     return up == Camera().up ? text : text + formatted(",%g,%g,%g", up.x, up.y, up.z);
 }
 
-Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
-                 std::span<const Vec3> radiosity, unsigned threads) {
+Camera camera_of(const ViewSettings& view, const LitScene& scene) {
     const auto [width, height] = view.size;
-    return view.camera ? *view.camera
-                       : automatic_camera(mesh, tracer, radiosity,
-                                          static_cast<double>(width) / height, view.up, threads);
+    return view.camera
+               ? *view.camera
+               : automatic_camera(scene.mesh, scene.tracer, scene.radiosity,
+                                  static_cast<double>(width) / height, view.up, scene.threads);
 }
 
 bool PictureTime::is_over() const {
@@ -43,20 +42,15 @@ bool PictureTime::is_over() const {
     return interrupted_ && std::chrono::steady_clock::now() - start_ > moment;
 }
 
-Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
-                  std::span<const Vec3> radiosity, const Camera& camera, unsigned threads,
-                  const PictureTime& time, const CornerClasses* classes, unsigned gather,
-                  std::span<const Slope> slope) {
-    const auto [width, height] = view.size;
-    return render(mesh, tracer, radiosity, camera,
-                  {.width = width,
-                   .height = height,
-                   .textures = true,
-                   .gather = gather,
-                   .threads = threads,
-                   .classes = classes,
-                   .slope = slope,
-                   .give_up = [&time] { return time.is_over(); }});
+RenderOptions picture_options(PixelSize size, unsigned threads, const PictureTime& time) {
+    return {.width = size.width, .height = size.height, .threads = threads, .give_up = [&time] {
+                return time.is_over();
+            }};
+}
+
+Image render_view(const LitScene& scene, const Camera& camera, RenderOptions options) {
+    options.textures = true;
+    return render(scene.mesh, scene.tracer, scene.radiosity, camera, options);
 }
 
 void write_picture(const Output& output, const Image& image, const ViewSettings& view,
@@ -71,10 +65,10 @@ void write_picture(const Output& output, const Image& image, const ViewSettings&
     write_png(output.path, image, display_of(view), from);
 }
 
-void choose_exposure(ViewSettings& view, const Image& picture, const Mesh& mesh,
-                     const Tracer& tracer, const Camera& camera, unsigned threads) {
+void choose_exposure(ViewSettings& view, const Image& picture, const LitScene& scene,
+                     const Camera& camera) {
     if (!view.exposure)
-        view.exposure = exposure_of(picture, mesh, tracer, camera, threads);
+        view.exposure = exposure_of(picture, scene.mesh, scene.tracer, camera, scene.threads);
 }
 
 Display display_of(const ViewSettings& view) {

@@ -3,6 +3,7 @@
 
 #include "app/settings/settings.h"
 #include "io/pictures/image.h"
+#include "io/rendering/render.h"
 #include "io/results/smooth.h"
 
 #include <atomic>
@@ -18,10 +19,6 @@ void check_camera(const ViewSettings& view, const Mesh& mesh);
 /// Returns the option that asks for this camera: "--camera 1,2,3,4,5,6,45".
 [[nodiscard]] std::string camera_text(const Camera& camera);
 
-/// Returns the camera given, or one chosen for the scene.
-[[nodiscard]] Camera camera_of(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
-                               std::span<const Vec3> radiosity, unsigned threads);
-
 /// The time that pictures may still take once the user has asked the program to end: until two
 /// seconds after this was made, so that small ones are written. It refers to the argument.
 class PictureTime {
@@ -34,14 +31,25 @@ class PictureTime {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Renders linear radiosity in the size asked for: that of the patches, or gathered with `gather`
-/// rays at a point. `classes` are the mesh's classes of corners, where they are known. `slope` is
-/// as in smooth(). Throws Interrupted when the time is over.
-[[nodiscard]] Image render_view(const ViewSettings& view, const Mesh& mesh, const Tracer& tracer,
-                                std::span<const Vec3> radiosity, const Camera& camera,
-                                unsigned threads, const PictureTime& time,
-                                const CornerClasses* classes = nullptr, unsigned gather = 0,
-                                std::span<const Slope> slope = {});
+/// A scene with its light, and the number of threads that look at it; it refers to what lives in
+/// the caller.
+struct LitScene {
+    const Mesh& mesh;
+    const Tracer& tracer;
+    std::span<const Vec3> radiosity; ///< linear, by patch [W/m2]
+    unsigned threads = 0;            ///< 0: one per core
+};
+
+/// Returns the camera given, or one chosen for the scene.
+[[nodiscard]] Camera camera_of(const ViewSettings& view, const LitScene& scene);
+
+/// Returns the options of a picture in the size asked for, which ends with Interrupted when the
+/// time is over. They refer to `time`.
+[[nodiscard]] RenderOptions picture_options(PixelSize size, unsigned threads,
+                                            const PictureTime& time);
+
+/// Renders the scene as the camera sees it, with the textures of its surfaces.
+[[nodiscard]] Image render_view(const LitScene& scene, const Camera& camera, RenderOptions options);
 
 /// Writes a .png file, by the exposure of the view, or the light alone in an .hdr or .exr file.
 /// Throws OutputError.
@@ -49,8 +57,8 @@ void write_picture(const Output& output, const Image& image, const ViewSettings&
                    const Provenance& from);
 
 /// Chooses the exposure for what render_view() made, where none was given.
-void choose_exposure(ViewSettings& view, const Image& picture, const Mesh& mesh,
-                     const Tracer& tracer, const Camera& camera, unsigned threads);
+void choose_exposure(ViewSettings& view, const Image& picture, const LitScene& scene,
+                     const Camera& camera);
 /// Returns how pictures are shown, once their exposure is known.
 [[nodiscard]] Display display_of(const ViewSettings& view);
 /// Returns the same for the light of a mesh's vertices, by class of corners.

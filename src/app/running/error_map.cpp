@@ -28,27 +28,23 @@ void limit_to_most(std::vector<double>& errors) {
 
 } // namespace
 
-void write_error_map(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] = results;
+void write_error_map(const std::string& path, const ViewSettings& view, const Results& results) {
+    const auto& [mesh, tracer, solution, options, statistics, steps, points, warnings, monitor] =
+        results;
     const PictureTime time(monitor.interrupted.own().wished);
-    const Camera camera =
-        camera_of(settings.view, mesh, tracer, solution.radiosity, settings.options.threads);
+    const Camera camera = camera_of(view, results.lit());
     std::vector<double> errors =
-        patch_error_levels(mesh, tracer, solution, hash_words({settings.options.seed, 3}),
-                           Workers(settings.options.threads), monitor.interrupted);
+        patch_error_levels(mesh, tracer, solution, hash_words({options.seed, 3}),
+                           Workers(options.threads), monitor.interrupted);
     if (errors.empty())
         throw Interrupted();
     limit_to_most(errors);
     for (double& error : errors)
         error *= 100;
-    const RenderOptions options{.width = settings.view.size.width,
-                                .height = settings.view.size.height,
-                                .threads = settings.options.threads,
-                                .give_up = [&time] { return time.is_over(); }};
-    write_png(settings.error_map,
+    write_png(path,
               density_picture(mesh, tracer, errors,
                               "error of patches, % of the mean light (root mean square)", camera,
-                              options),
+                              picture_options(view.size, options.threads, time)),
               1);
 }
 

@@ -7,6 +7,6 @@ namespace hemilux {
 
 /// Gathers the error of each patch and writes the picture. Throws OutputError, and Interrupted
 /// after a signal.
-void write_error_map(const SolveSettings& settings, const Results& results);
+void write_error_map(const std::string& path, const ViewSettings& view, const Results& results);
 
 } // namespace hemilux

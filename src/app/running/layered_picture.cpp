@@ -36,10 +36,10 @@ std::vector<std::uint32_t> patches_in(const Results& results, const Camera& came
 
 /// Returns by patch the mean density of its hemisphere, weighted by Lambert's law [surfaces per
 /// ray]. Empty when interrupted.
-std::vector<double> mean_densities(const SolveSettings& settings, const Results& results) {
-    const Hemisphere hemisphere(settings.options.depth);
-    const DensityMap map(results.mesh, results.tracer, hemisphere, settings.options.threshold,
-                         Workers(settings.options.threads), results.monitor);
+std::vector<double> mean_densities(const Results& results) {
+    const Hemisphere hemisphere(results.options.depth);
+    const DensityMap map(results.mesh, results.tracer, hemisphere, results.options.threshold,
+                         Workers(results.options.threads), results.monitor);
     if (results.monitor.interrupted)
         return {};
     std::vector<double> means;
@@ -66,18 +66,15 @@ Image picture_of(const Image& light, const std::vector<std::uint32_t>& patches, 
 
 } // namespace
 
-std::vector<ExrChannel> picture_layers(const SolveSettings& settings, const Results& results,
-                                       const Image& light, const Camera& camera) {
+std::vector<ExrChannel> picture_layers(const Results& results, const Image& light,
+                                       const Camera& camera) {
     const Solution& solution = results.solution;
     const PictureTime time(results.monitor.interrupted.own().wished);
-    const std::vector<std::uint32_t> patches =
-        patches_in(results, camera,
-                   {.width = light.width,
-                    .height = light.height,
-                    .samples = 1,
-                    .smooth = false,
-                    .threads = settings.options.threads,
-                    .give_up = [&time] { return time.is_over(); }});
+    RenderOptions options =
+        picture_options({light.width, light.height}, results.options.threads, time);
+    options.samples = 1;
+    options.smooth = false;
+    const std::vector<std::uint32_t> patches = patches_in(results, camera, options);
     if (time.is_over())
         throw Interrupted();
     std::vector<ExrChannel> channels;
@@ -89,7 +86,7 @@ std::vector<ExrChannel> picture_layers(const SolveSettings& settings, const Resu
                          return solution.standard_error.empty() ? Vec3(0.0)
                                                                 : solution.standard_error[i];
                      }));
-    const std::vector<double> means = mean_densities(settings, results);
+    const std::vector<double> means = mean_densities(results);
     if (!means.empty()) {
         ExrChannel density{"density", ExrChannel::Kind::number, {}};
         for (const std::uint32_t i : patches)

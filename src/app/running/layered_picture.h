@@ -12,8 +12,7 @@ namespace hemilux {
 /// and so on (standard errors), density (mean of a patch's hemisphere, surfaces per ray), patch.
 /// All but the first are those of the patch that the middle of a pixel shows, 0 where there is
 /// none. `patch` is 4294967295 there. Throws Interrupted.
-[[nodiscard]] std::vector<ExrChannel> picture_layers(const SolveSettings& settings,
-                                                     const Results& results, const Image& light,
+[[nodiscard]] std::vector<ExrChannel> picture_layers(const Results& results, const Image& light,
                                                      const Camera& camera);
 
 } // namespace hemilux

@@ -10,20 +10,21 @@
 
 namespace hemilux {
 
-void check_distances(const SolveSettings& settings, std::span<const NamedPoint> points,
+void check_distances(const std::string& path, std::span<const NamedPoint> points,
                      const Mesh& mesh) {
     constexpr double most = 1e6; // half the size of the scene is 1
     for (const NamedPoint& point : points) {
         const Vec3 local = glm::abs(mesh.frame().to_local(point.position));
         if (!(std::max({local.x, local.y, local.z}) <= most))
-            throw InputError(settings.points.path, point.line,
+            throw InputError(path, point.line,
                              "expected a point near the scene, this one is more than half a "
                              "million times its size away");
     }
 }
 
-void write_points(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] = results;
+void write_points(const std::string& path, unsigned gather, const Results& results) {
+    const auto& [mesh, tracer, solution, options, statistics, steps, points, warnings, monitor] =
+        results;
     std::vector<Sensor> sensors;
     for (const NamedPoint& point : points)
         sensors.push_back(
@@ -31,13 +32,13 @@ void write_points(const SolveSettings& settings, const Results& results) {
     const PictureTime time(monitor.interrupted.own().wished);
     const std::vector<PointLight> lights =
         light_at(sensors, mesh, tracer, solution,
-                 {.rays = PointSettings::rays_per_gather_ray * settings.gather,
-                  .seed = hash_words({settings.options.seed, 2}),
+                 {.rays = PointSettings::rays_per_gather_ray * gather,
+                  .seed = hash_words({options.seed, 2}),
                   .give_up = [&time] { return time.is_over(); }},
-                 Workers(settings.options.threads));
+                 Workers(options.threads));
     if (lights.size() < sensors.size())
         throw Interrupted();
-    write_points_table(settings.points.output, mesh, points, sensors, lights);
+    write_points_table(path, mesh, points, sensors, lights);
 }
 
 } // namespace hemilux

@@ -7,13 +7,13 @@
 
 namespace hemilux {
 
-/// Throws InputError for a point so far from the scene that its coordinates could not tell rays to
-/// it apart.
-void check_distances(const SolveSettings& settings, std::span<const NamedPoint> points,
-                     const Mesh& mesh);
+/// Throws InputError for a point of the file so far from the scene that its coordinates could not
+/// tell rays to it apart.
+void check_distances(const std::string& path, std::span<const NamedPoint> points, const Mesh& mesh);
 
 /// Gathers the light and writes the table. Throws OutputError, and Interrupted some seconds after a
 /// signal.
-void write_points(const SolveSettings& settings, const Results& results);
+/// `gather` is the number of rays of --gather.
+void write_points(const std::string& path, unsigned gather, const Results& results);
 
 } // namespace hemilux

@@ -49,48 +49,49 @@ class SharedClasses {
 /// The picture of the light. It is rendered when the first picture is asked for, and once only.
 class Picture {
   public:
-    Picture(const SolveSettings& settings, const Results& results, SharedClasses& classes)
-        : settings_(settings), view_(settings.view),
-          gather_(settings.gather_pictures ? settings.gather : 0), results_(results),
-          classes_(classes), time_(results.monitor.interrupted.own().wished) {}
+    /// `gather` is the number of rays at a point; with 0 the picture interpolates.
+    Picture(const ViewSettings& view, unsigned gather, const Results& results,
+            SharedClasses& classes)
+        : view_(view), gather_(gather), results_(results), classes_(classes),
+          time_(results.monitor.interrupted.own().wished) {}
 
     /// Returns the time of rendering [s], where the light is gathered.
     [[nodiscard]] double seconds_gather() const { return seconds_gather_; }
 
-    void write(const Output& output) {
+    void write(const Output& output, const Provenance& from, Verbosity verbosity) {
         if (!image_)
-            image_ = render();
+            image_ = render(verbosity);
         if (time_.is_over())
             throw Interrupted();
         if (output.kind == OutputKind::exr)
             write_exr(output.path, image_->width, image_->height,
-                      picture_layers(settings_, results_, *image_, camera_), settings_.from);
+                      picture_layers(results_, *image_, camera_), from);
         else
-            write_picture(output, *image_, view_, settings_.from);
+            write_picture(output, *image_, view_, from);
     }
 
   private:
-    [[nodiscard]] Image render() {
-        const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] =
-            results_;
-        camera_ = camera_of(view_, mesh, tracer, solution.radiosity, statistics.threads);
+    [[nodiscard]] Image render(Verbosity verbosity) {
+        const LitScene scene = results_.lit();
+        camera_ = camera_of(view_, scene);
         if (!view_.camera)
-            log_line(settings_.verbosity, Verbosity::normal,
+            log_line(verbosity, Verbosity::normal,
                      "pictures are seen by " + camera_text(camera_) +
                          (!view_.up && camera_.up.z == 1 ? "; --up y takes y as upwards" : ""));
         const Stopwatch watch;
-        Image image =
-            render_view(view_, mesh, tracer, solution.radiosity, camera_, statistics.threads, time_,
-                        gather_ > 0 ? nullptr : &classes_.get(), gather_, solution.slope);
+        RenderOptions options = picture_options(view_.size, scene.threads, time_);
+        options.gather = gather_;
+        options.classes = gather_ > 0 ? nullptr : &classes_.get();
+        options.slope = results_.solution.slope;
+        Image image = render_view(scene, camera_, options);
         if (gather_ > 0)
             seconds_gather_ = watch.seconds();
-        choose_exposure(view_, image, mesh, tracer, camera_, statistics.threads);
+        choose_exposure(view_, image, scene, camera_);
         return image;
     }
 
-    const SolveSettings& settings_;
     ViewSettings view_;
-    unsigned gather_; ///< rays at a point; 0: pictures interpolate
+    unsigned gather_;
     const Results& results_;
     SharedClasses& classes_;
     PictureTime time_;
@@ -99,11 +100,11 @@ class Picture {
     Camera camera_; ///< of the image
 };
 
-std::vector<Vec3> indirect_light(const SolveSettings& settings, const Results& results) {
-    const unsigned rays = SolveSettings::bake_rays_per_gather_ray * settings.gather;
+std::vector<Vec3> indirect_light(unsigned gather, const Results& results) {
+    const unsigned rays = SolveSettings::bake_rays_per_gather_ray * gather;
     return indirect_irradiance(results.mesh, results.tracer, results.solution.radiosity, rays,
-                               hash_words({settings.options.seed, 4}),
-                               Workers(settings.options.threads));
+                               hash_words({results.options.seed, 4}),
+                               Workers(results.options.threads));
 }
 
 /// Returns the axis that is upwards; reported where z was guessed.
@@ -144,7 +145,7 @@ void write_lightmapped(const SolveSettings& settings, const std::string& path, c
 void write_mesh(const SolveSettings& settings, const Output& output, const Results& results,
                 const CornerClasses& classes, WriteReport& report) {
     VertexLight light{settings.bake == Bake::indirect
-                          ? smooth(results.mesh, classes, indirect_light(settings, results))
+                          ? smooth(results.mesh, classes, indirect_light(settings.gather, results))
                           : baked_light(results.mesh, classes, results.solution, settings.bake),
                       settings.bake};
     light.display = display_of(settings.view, results.mesh, classes, light.of_class);
@@ -164,7 +165,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
     case OutputKind::png:
     case OutputKind::hdr:
     case OutputKind::exr:
-        return picture.write(output);
+        return picture.write(output, settings.from, settings.verbosity);
     case OutputKind::ply:
     case OutputKind::glb:
         return write_mesh(settings, output, results, classes.get(), report);
@@ -172,7 +173,7 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
         return write_vtu(output.path, results.mesh, classes.get(), solution, settings.from);
     case OutputKind::csv:
         return write_patch_table(output.path, results.mesh, solution.radiosity,
-                                 solution.standard_error, Workers(results.statistics.threads),
+                                 solution.standard_error, Workers(results.options.threads),
                                  solution.slope, solution.weight);
     case OutputKind::json:
         return write_atomically(output.path, to_json(results.statistics));
@@ -180,26 +181,26 @@ void write_output(const SolveSettings& settings, const Output& output, const Res
 }
 
 void write_report(const SolveSettings& settings, const Results& results) {
-    const auto& [mesh, tracer, solution, statistics, steps, points, warnings, monitor] = results;
-    ReportContent content{
-        mesh,
-        solution,
-        statistics,
-        steps,
-        warnings,
-        settings.scene.path,
-        settings.from.command,
-        camera_of(settings.view, mesh, tracer, solution.radiosity, statistics.threads),
-        settings.view.exposure};
-    const bool by_densities = settings.method == &method_of(Role::paper) &&
-                              !guide_of(settings.options) && !settings.plain;
+    const auto& [mesh, tracer, solution, options, statistics, steps, points, warnings, monitor] =
+        results;
+    ReportContent content{mesh,
+                          solution,
+                          statistics,
+                          steps,
+                          warnings,
+                          settings.scene.path,
+                          settings.from.command,
+                          camera_of(settings.view, results.lit()),
+                          settings.view.exposure};
+    const bool by_densities =
+        settings.method == &method_of(Role::paper) && !guide_of(options) && !settings.plain;
     if (!by_densities)
         return write_report_page(settings.report, content);
     // The densities are counted again, as the method does not keep all.
-    const Hemisphere hemisphere(settings.options.depth);
-    const double threshold = settings.options.threshold;
-    const DensityMap map(mesh, tracer, hemisphere, threshold, Workers(statistics.threads), monitor);
-    const ReportDensities densities{hemisphere, map, threshold};
+    const Hemisphere hemisphere(options.depth);
+    const DensityMap map(mesh, tracer, hemisphere, options.threshold, Workers(options.threads),
+                         monitor);
+    const ReportDensities densities{hemisphere, map, options.threshold};
     if (!monitor.interrupted)
         content.densities = &densities;
     write_report_page(settings.report, content);
@@ -221,10 +222,12 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     statistics.settings = settings.given;
     const Stopwatch writing;
     SharedClasses classes(results.mesh);
-    Picture picture(settings, results, classes);
+    Picture picture(settings.view, settings.gather_pictures ? settings.gather : 0, results,
+                    classes);
     WriteReport report;
     if (!settings.points.output.empty())
-        report.attempt(settings.points.output, [&] { write_points(settings, results); });
+        report.attempt(settings.points.output,
+                       [&] { write_points(settings.points.output, settings.gather, results); });
     const double seconds_points = writing.seconds();
     std::vector<WriteReport> reports(settings.outputs.size());
     const auto write = [&](std::size_t k) {
@@ -253,7 +256,8 @@ WriteReport write_results(const SolveSettings& settings, const Results& results,
     double seconds_map = 0;
     if (!settings.error_map.empty()) {
         const Stopwatch watch;
-        report.attempt(settings.error_map, [&] { write_error_map(settings, results); });
+        report.attempt(settings.error_map,
+                       [&] { write_error_map(settings.error_map, settings.view, results); });
         seconds_map = watch.seconds();
     }
     // What is done side by side shares the time.

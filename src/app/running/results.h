@@ -1,6 +1,7 @@
 #pragma once
 // The files that a run leaves behind, as they were asked for.
 
+#include "app/rendering/view.h"
 #include "app/running/write_report.h"
 #include "app/settings/settings.h"
 #include "app/terminal/stopwatch.h"
@@ -20,11 +21,16 @@ struct Results {
     const Mesh& mesh;
     const Tracer& tracer;
     const Solution& solution;
-    Statistics& statistics; ///< all but the seconds of outputs
+    const SolveOptions& options; ///< of the run: seed, threads, how hemispheres are divided
+    Statistics& statistics;      ///< all but the seconds of outputs
     std::span<const StepRow> steps;
     std::span<const NamedPoint> points;
     std::span<const std::string> warnings; ///< of reading and of the run
     Monitor& monitor; ///< once it is interrupted, densities and what takes long are left out
+
+    [[nodiscard]] LitScene lit() const {
+        return {mesh, tracer, solution.radiosity, options.threads};
+    }
 };
 
 /// Returns whether anything that is written or said holds the statistics of the run.

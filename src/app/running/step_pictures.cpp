@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 namespace hemilux {
@@ -20,23 +21,31 @@ std::string step_path(const std::string& path, std::uint32_t step) {
 
 } // namespace
 
+StepPictures::StepPictures(const SolveSettings& settings, const Mesh& mesh, const Tracer& tracer,
+                           const std::atomic<bool>& interrupted)
+    : mesh_(mesh), tracer_(tracer), interrupted_(interrupted), view_(settings.view),
+      from_(settings.from), threads_(settings.options.threads) {
+    if (settings.every_step)
+        std::ranges::copy_if(settings.outputs, std::back_inserter(pictures_), is_picture,
+                             &Output::kind);
+}
+
 void StepPictures::write(std::span<const Vec3> radiosity, std::uint32_t step) {
     const PictureTime time(interrupted_);
+    const LitScene scene{mesh_, tracer_, radiosity, threads_};
     std::optional<Image> image;
-    for (const Output& output : settings_.outputs) {
-        if (!is_picture(output.kind) || !report_.failed.empty() || !report_.left_out.empty())
+    for (const Output& output : pictures_) {
+        if (!report_.failed.empty() || !report_.left_out.empty())
             continue;
         const std::string path = step_path(output.path, step);
         report_.attempt(path, [&] {
             if (!view_.camera)
-                view_.camera =
-                    camera_of(view_, mesh_, tracer_, radiosity, settings_.options.threads);
+                view_.camera = camera_of(view_, scene);
             if (!image)
-                image = render_view(view_, mesh_, tracer_, radiosity, *view_.camera,
-                                    settings_.options.threads, time);
-            choose_exposure(view_, *image, mesh_, tracer_, *view_.camera,
-                            settings_.options.threads);
-            write_picture({path, output.kind}, *image, view_, settings_.from);
+                image =
+                    render_view(scene, *view_.camera, picture_options(view_.size, threads_, time));
+            choose_exposure(view_, *image, scene, *view_.camera);
+            write_picture({path, output.kind}, *image, view_, from_);
         });
     }
 }

@@ -18,7 +18,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -96,50 +95,6 @@ template <class Own>
                 [member](const SolveOptions& options) {
                     return std::to_string(options.own.of<Own>().*member);
                 }};
-}
-
-/// A value of an enumeration and the text that stands for it.
-template <class Choice>
-struct NamedChoice {
-    Choice value;
-    const char* name;
-};
-
-/// Returns the choice of this name; none: nullptr.
-template <class Choice>
-[[nodiscard]] const NamedChoice<Choice>* named_choice(std::span<const NamedChoice<Choice>> choices,
-                                                      std::string_view name) {
-    for (const NamedChoice<Choice>& choice : choices)
-        if (choice.name == name)
-            return &choice;
-    return nullptr;
-}
-
-/// Makes an option with one of these values of an enumeration. It is held as it is:
-/// own.of<Choice>().
-template <class Choice>
-[[nodiscard]] MethodOption choice_option(const std::string& name, const std::string& help,
-                                         const std::vector<NamedChoice<Choice>>& choices) {
-    std::vector<std::string> names;
-    for (const NamedChoice<Choice>& choice : choices)
-        names.emplace_back(choice.name);
-    return {.name = name,
-            .help = help,
-            .values = names,
-            .set =
-                [choices](SolveOptions& options, std::string_view text) {
-                    const NamedChoice<Choice>* const chosen = named_choice<Choice>(choices, text);
-                    if (chosen)
-                        options.own.of<Choice>() = chosen->value;
-                    return chosen != nullptr;
-                },
-            .get = [choices](const SolveOptions& options) -> std::string {
-                const auto found = std::ranges::find(choices, options.own.of<Choice>(),
-                                                     &NamedChoice<Choice>::value);
-                if (found == choices.end())
-                    throw std::logic_error("an option has a value without a name");
-                return found->name;
-            }};
 }
 
 } // namespace hemilux
