@@ -1,6 +1,6 @@
 # Installs the library from build folder BUILD, then configures, builds and runs the consumer beside
 # this file against what was installed, as a user would, by find_package and by pkg-config; then the
-# same with the program that docs/use/library.md prints. Nothing but BUILD/package_test is written.
+# same with the programs that docs/use/library.md prints. Nothing but BUILD/package_test is written.
 cmake_minimum_required(VERSION 3.22)
 set(work ${BUILD}/package_test)
 file(REMOVE_RECURSE ${work})
@@ -42,13 +42,17 @@ if(pkg_config)
   step(${work}/by_pkg_config)
 endif()
 
+# Each block of cmake in the page has the program's block of cpp behind it.
 file(READ ${CMAKE_CURRENT_LIST_DIR}/../../docs/use/library.md page)
-foreach(block "cmake;CMakeLists.txt" "cpp;first.cpp")
-  list(GET block 0 language)
-  list(GET block 1 name)
-  if(NOT page MATCHES "```${language}\n([^`]+)```")
-    message(FATAL_ERROR "docs/use/library.md has no block of ${language}")
-  endif()
-  file(WRITE ${work}/page/${name} "${CMAKE_MATCH_1}")
+foreach(program first pages)
+  foreach(block "cmake;CMakeLists.txt" "cpp;${program}.cpp")
+    list(GET block 0 language)
+    list(GET block 1 name)
+    if(NOT page MATCHES "```${language}\n([^`]+)```(.*)")
+      message(FATAL_ERROR "docs/use/library.md has no block of ${language} for ${program}")
+    endif()
+    file(WRITE ${work}/${program}/${name} "${CMAKE_MATCH_1}")
+    set(page "${CMAKE_MATCH_2}")
+  endforeach()
+  build_and_run(${work}/${program} ${work}/${program}/build ${program})
 endforeach()
-build_and_run(${work}/page ${work}/page/build first)

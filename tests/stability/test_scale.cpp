@@ -1,16 +1,11 @@
 // One room in any unit and anywhere: the same solution, as long as doubles tell its corners apart.
 #include "bvh/wide/wide_bvh.h"
-#include "io/files/error.h"
-#include "io/scene_files/obj.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "support/catch.h"
 #include "support/scenes.h"
 #include "support/solve.h"
-#include "support/temporary_folder.h"
 
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 using namespace hemilux;
 
@@ -76,37 +71,6 @@ constexpr double room_size = 4.7; ///< the diagonal
 /// rounding error can decide about other rays.
 bool same_rays_everywhere(const Method& method) { return method.name != "progressive"; }
 
-/// The program's result without the folder's name.
-std::string rounding_warning(const std::string& obj, std::size_t* facets = nullptr) {
-    const test::TemporaryFolder folder;
-    const std::string path = folder.write("s.obj", obj);
-    try {
-        const ReadResult read = read_obj(path);
-        if (facets)
-            *facets = read.scene.facets.size();
-        std::string all;
-        for (const std::string& warning : read.warnings)
-            all += warning.substr(warning.find("s.obj")) + "\n";
-        return all;
-    } catch (const InputError& error) {
-        return "error: " + std::string(error.what());
-    }
-}
-
-std::string obj_of(const Scene& scene) {
-    std::ostringstream text;
-    text << std::setprecision(17);
-    for (const Vec3& v : scene.vertices)
-        text << "v " << v.x << ' ' << v.y << ' ' << v.z << '\n';
-    for (const Facet& facet : scene.facets) {
-        text << 'f';
-        for (const std::uint32_t v : facet.vertex)
-            text << ' ' << v + 1;
-        text << '\n';
-    }
-    return text.str();
-}
-
 } // namespace
 
 TEST_CASE("The unit of length changes no radiosity", "[slow]") {
@@ -158,27 +122,4 @@ TEST_CASE("Far away and in other units the methods of other rays are right withi
             CHECK(error_in_its_own_measure(s, here) < 1.5);
         }
     }
-}
-
-TEST_CASE("Where doubles no longer tell places apart it is said") {
-    const Scene room = oblique_room();
-    const auto at = [&](double sizes) {
-        return obj_of(placed(room, 1, sizes * room_size * Vec3(.7, -1, .4)));
-    };
-    std::size_t facets = 0;
-    CHECK(rounding_warning(at(1e8), &facets).empty());
-    CHECK(facets == room.facets.size());
-    // Distinct still, but no longer where they were.
-    CHECK(rounding_warning(at(1e11)) ==
-          "s.obj: all lies near 4.7e+11, where numbers are rounded to 0.0001, and "
-          "is 4.5 wide; move it nearer to the origin\n");
-    // Some have collapsed: how many is said too.
-    const std::string some = rounding_warning(at(1e13), &facets);
-    CHECK(some.find("move it nearer to the origin") != std::string::npos);
-    CHECK(some.find("8 faces without area are left out") != std::string::npos);
-    CHECK(facets > 0);
-    const std::string all = rounding_warning(at(1e17));
-    CHECK(all.starts_with("error: "));
-    CHECK(all.find("none of the faces has an area: all lies near 4.7e+17, where numbers are "
-                   "rounded to 1e+02") != std::string::npos);
 }

@@ -1,10 +1,10 @@
 #pragma once
 // Targets of scenes, and the true error of what is found for them.
 
-#include "io/scene_files/obj.h"
 #include "radiosity/engine/target/target.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solution.h"
+#include "support/example_scenes.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -44,10 +44,7 @@ namespace hemilux::test {
     return true_error(mesh, solution.radiosity, exact.radiosity, counts).detail;
 }
 
-[[nodiscard]] inline Model example(const std::string& name) {
-    return Model(
-        read_obj(std::string(HEMILUX_SOURCE_DIR) + "/examples/scenes/" + name + ".obj").scene);
-}
+[[nodiscard]] inline Model example(const std::string& name) { return Model(example_scene(name)); }
 
 /// Two rooms without a door: the first 96 patches and the others. The second one shines less.
 [[nodiscard]] inline Scene two_rooms() {

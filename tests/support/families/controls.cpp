@@ -1,10 +1,10 @@
 // Ordinary scenes, on which a method that is careful with the others must not do worse than before.
 // Their references are means of several runs of the method `matrix`, whose spread is their error.
 
-#include "io/scene_files/obj.h"
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"
+#include "support/example_scenes.h"
 #include "support/families/builders.h"
 #include "support/families/families.h"
 #include "support/scenes.h"
@@ -47,12 +47,7 @@ HardScene with_long_runs(Scene scene, double error) {
 
 /// With .002 the reference is finer than the default stop of `matrix` too.
 HardSceneEntry example(const char* name, double error = .002) {
-    return {
-        "control", name, [name, error] {
-            return with_long_runs(
-                read_obj(HEMILUX_SOURCE_DIR "/examples/scenes/" + std::string(name) + ".obj").scene,
-                error);
-        }};
+    return {"control", name, [name, error] { return with_long_runs(example_scene(name), error); }};
 }
 
 } // namespace

@@ -154,6 +154,43 @@ TEST_CASE("Direct light is unbiased where emitters are drawn by clusters", "[slo
         CHECK(of_many[c] == Approx(of_one[c]).epsilon(.01));
 }
 
+namespace {
+
+/// A floor, and far above it 40 x 40 lamps; every other one emits nine times as much.
+Scene many_lamps() {
+    Scene scene;
+    scene.materials = {
+        {"floor", Vec3(.5), Vec3(0.0)}, {"dim", Vec3(.1), Vec3(1.0)}, {"lit", Vec3(.1), Vec3(9.0)}};
+    scene.groups = {"all"};
+    test::add_quad(scene, {-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, 1, 1, 0);
+    const std::size_t before = scene.facets.size();
+    test::add_quad(scene, {-1, 9, -1}, {1, 9, -1}, {1, 9, 1}, {-1, 9, 1}, 40, 40, 1);
+    for (std::size_t f = before; f < scene.facets.size(); ++f)
+        scene.facets[f].material = 1 + (f + f / 40) % 2;
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("Within a cluster each emitter has the chance that is stated, and by its power") {
+    const Mesh mesh(many_lamps());
+    const std::vector<Patch> emitters(mesh.patches().begin() + 1, mesh.patches().end());
+    REQUIRE(emitters.size() == 1600);
+    const EmitterChoice choice(mesh, emitters);
+    EmitterChoice::Cut cut;
+    choice.weigh(0, cut);
+    REQUIRE(cut.clusters.size() < emitters.size() / 8); // some a dozen to a cluster
+    const auto [stated, met] = Sweep(choice, cut, emitters.size());
+    double all = 0, lit = 0;
+    for (std::size_t e = 0; e < emitters.size(); ++e) {
+        CHECK(met[e] == Approx(stated[e]).margin(2.0 / Sweep::steps));
+        all += stated[e];
+        lit += mesh.material(emitters[e]).emission.x > 1 ? stated[e] : 0;
+    }
+    CHECK(all == Approx(1).epsilon(.01));
+    CHECK(lit == Approx(.9).epsilon(.02)); // nine of ten parts of the power
+}
+
 TEST_CASE("Shadow rays do not pay where many emitters touch a surface") {
     const Model lamp(test::room_with_block());
     for (const std::uint32_t strips : {12u, 40u}) { // 144 are weighed one by one, 1600 by clusters

@@ -1,7 +1,7 @@
 // Proof of the estimators: every unbiased method against the reference, patch by patch, on scenes
 // with occlusion, within the standard errors that both report.
-#include "io/scene_files/obj.h"
 #include "support/catch.h"
+#include "support/example_scenes.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -12,13 +12,10 @@
 #include <vector>
 
 using namespace hemilux;
+using test::example_scene;
 using test::Model;
 
 namespace {
-
-Scene example(const std::string& name) {
-    return read_obj(std::string(HEMILUX_SOURCE_DIR) + "/examples/scenes/" + name + ".obj").scene;
-}
 
 /// How far runs of a method, with different seeds, are off from the reference, beside the standard
 /// errors that they report. A squared deviation is divided by the mean over the runs of the squared
@@ -112,7 +109,7 @@ TEST_CASE("Deviations from matrix are those of the reported errors", "[slow]") {
     constexpr int runs = 16;
     for (const std::string scene :
          {"cornell_box", "room_1002", "open_scene", "wall_before_crowd"}) {
-        const Model model(example(scene));
+        const Model model(example_scene(scene));
         const Solution exact = test::reference(model, .002);
         for (const Method* method : methods()) {
             const bool gathers = method->name == "stored-transport";

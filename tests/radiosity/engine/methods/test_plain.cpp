@@ -1,9 +1,9 @@
 // The engine against the pages of src/radiosity/paper/pages: the same bits where the random numbers
 // are the same, within standard errors for stored-transport.
-#include "io/scene_files/obj.h"
 #include "radiosity/engine/densities/subdivision_1997.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "support/catch.h"
+#include "support/example_scenes.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 #include "support/statistics.h"
@@ -14,13 +14,10 @@
 #include <utility>
 
 using namespace hemilux;
+using test::example_scene;
 using test::Model;
 
 namespace {
-
-Scene example(const std::string& name) {
-    return read_obj(std::string(HEMILUX_SOURCE_DIR) + "/examples/scenes/" + name + ".obj").scene;
-}
 
 Solution solve_plainly(const Model& model, const Method& method, const SolveOptions& options,
                        const StopRule& stop) {
@@ -70,8 +67,8 @@ const Method& method(const char* name) { return *find_method(name); }
 TEST_CASE("Section 5 on one page has the engine's bits") {
     for (const bool literal : {false, true}) {
         const SolveOptions options = with_rays(6, literal);
-        check_same(Model(example("room_1002")), method("hemisphere"), options, 2);
-        check_same(Model(example("cornell_box")), method("hemisphere"), options, 2);
+        check_same(Model(example_scene("room_1002")), method("hemisphere"), options, 2);
+        check_same(Model(example_scene("cornell_box")), method("hemisphere"), options, 2);
         check_same(Model(test::open_scene()), method("hemisphere"), with_rays(50, literal), 3);
         check_same(Model(test::furnace_box(3, .5)), method("hemisphere"), with_rays(20, literal),
                    3);
@@ -91,7 +88,7 @@ TEST_CASE("Section 5 on one page: depths and thresholds") {
 
 TEST_CASE("Sections 3.2, 3.3 and 4 on a page have the engine's bits") {
     for (const char* name : {"monte-carlo", "progressive-monte-carlo"}) {
-        check_same(Model(example("room_1002")), method(name), with_rays(3), 2);
+        check_same(Model(example_scene("room_1002")), method(name), with_rays(3), 2);
         check_same(Model(test::open_scene()), method(name), with_rays(50), 4);
         check_same(Model(test::furnace_box(3, .5)), method(name), with_rays(20), 3);
     }
@@ -115,7 +112,7 @@ TEST_CASE("Section 4 on a page has the engine's bits for other numbers of parts 
             check_same(Model(test::furnace_l_shape(.5)), of_1997, options, 4);
         }
     check_same(Model(test::sphere(1, 1, .5, 1)), of_1997, with_rays(300), 4);
-    check_same(Model(example("room_1002")), of_1997, with_rays(6), 4);
+    check_same(Model(example_scene("room_1002")), of_1997, with_rays(6), 4);
 }
 
 TEST_CASE("Every page ends a run at once where nothing reflects") {
@@ -205,7 +202,7 @@ TEST_CASE("Stored transport on one page agrees with its engine", "[slow]") {
 }
 
 TEST_CASE("Pages have the engine's bits on 3576 patches", "[slow]") {
-    const Model model(example("office_3576"));
+    const Model model(example_scene("office_3576"));
     for (const Method* const one : methods())
         if (one->plain && one != &method("stored-transport")) {
             check_same(model, *one, with_rays(16), 3);

@@ -1,8 +1,8 @@
 // How well an estimated error is known: parts of an error, and what follows from few of them.
 #include "radiosity/paper/solution/error_spread.h"
 #include "support/catch.h"
+#include "support/paper_solve.h"
 #include "support/scenes.h"
-#include "support/solve.h"
 
 #include <optional>
 #include <random>
@@ -53,39 +53,17 @@ TEST_CASE("An error of many parts is well known, one of few is not") {
     CHECK(many.bound() < 1.05);
     CHECK(few.bound() > 2);
     CHECK(sure.bound() == 1);
-    const test::Model model(test::room_with_block());
+    const test::PaperModel model(test::room_with_block());
     Solution nothing;
     nothing.steps = 1;
     CHECK(std::isnan(error_spread(model.mesh, nothing).bound()));
-    for (const char* name : {"stored-transport", "hemisphere", "matrix"}) {
-        const Solution s = test::solve(model, *find_method(name), {}, test::steps(3));
+    for (const test::Page& page : test::pages_of_steps) {
+        const Solution s = test::solve_page(model, page, {}, 3);
         const ErrorSpread spread = error_spread(model.mesh, s);
-        CAPTURE(name, spread.freedom);
+        CAPTURE(page.name, spread.freedom);
         CHECK(spread.freedom > 1);
         CHECK(spread.uncertainty() > 0);
         CHECK(spread.uncertainty() < .5);
-    }
-}
-
-TEST_CASE("Reported errors differ between seeds about as much as they say", "[slow]") {
-    const test::Model model(test::room_with_block());
-    for (const char* name : {"stored-transport", "hemisphere", "monte-carlo", "matrix"}) {
-        double mean = 0, squares = 0, reported = 0;
-        constexpr int seeds = 16;
-        for (int seed = 1; seed <= seeds; ++seed) {
-            SolveOptions options;
-            options.seed = static_cast<std::uint64_t>(seed);
-            options.rays = 32;
-            const Solution s = test::solve(model, *find_method(name), options, test::steps(3));
-            const double error = estimated_error(model.mesh, s);
-            mean += error / seeds;
-            squares += error * error / seeds;
-            reported += error * error_spread(model.mesh, s).uncertainty() / seeds;
-        }
-        const double spread = std::sqrt((squares - mean * mean) * seeds / (seeds - 1));
-        CAPTURE(name, mean, spread, reported);
-        CHECK(reported > spread / 2.5);
-        CHECK(reported < spread * 2.5);
     }
 }
 
@@ -96,8 +74,8 @@ TEST_CASE("A step that happens to show many parts of an error does not undo what
 }
 
 TEST_CASE("What all patches err by together counts more where few steps have shown it") {
-    const test::Model model(test::room_with_block());
-    Solution s = test::solve(model, *find_method("hemisphere"), {}, test::steps(4));
+    const test::PaperModel model(test::room_with_block());
+    Solution s = test::solve_page(model, test::pages_of_steps[3], {}, 4);
     CHECK(s.level_freedom == 3);
     CHECK(s.variance_of_level < *s.variance);
     const auto error = [&](double share, double freedom) {

@@ -5,8 +5,8 @@
 #include "radiosity/paper/solution/solve_error.h"
 #include "radiosity/paper/solving/mean_of_steps.h"
 #include "support/catch.h"
+#include "support/paper_solve.h"
 #include "support/scenes.h"
-#include "support/solve.h"
 
 #include <cmath>
 #include <limits>
@@ -16,7 +16,7 @@ using namespace hemilux;
 namespace {
 
 struct Fixture {
-    test::Model model{test::room_with_block()};
+    test::PaperModel model{test::room_with_block()};
     SolveOptions options;
     Monitor monitor;
     SolverInput input{model.mesh, model.bvh, options, monitor};
