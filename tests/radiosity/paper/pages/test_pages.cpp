@@ -1,7 +1,5 @@
 // The pages in rooms whose light is known, and the rules that each of them must keep.
 #include "bvh/brute_force.h"
-#include "geometry/frame.h"
-#include "radiosity/paper/rays/shot.h"
 #include "support/catch.h"
 #include "support/closed_forms.h"
 #include "support/guided_rays.h"
@@ -9,7 +7,6 @@
 #include "support/scenes.h"
 
 #include <cmath>
-#include <cstring>
 
 using namespace hemilux;
 using test::Page;
@@ -36,7 +33,7 @@ Mean mean_of(const Mesh& mesh, const Solution& s, int channel) {
     return {sum / area, std::sqrt(variance) / area};
 }
 
-/// The patch that shares its plane and corners with nothing else: one rectangle over another.
+/// A grey square, and over it a lamp of its size.
 Scene opposed_squares() {
     Scene scene;
     scene.materials = {{"floor", Vec3(.5), Vec3(0.0)}, {"lamp", Vec3(0.0), Vec3(1.0)}};
@@ -49,11 +46,11 @@ Scene opposed_squares() {
 } // namespace
 
 TEST_CASE("Every page finds E / (1 - rho) in a furnace, on each patch") {
-    for (const Scene& scene : {test::furnace_box(3, .5), test::furnace_l_shape(.5)}) {
+    for (const Scene& scene : {test::furnace_box(2, .5), test::furnace_l_shape(.5)}) {
         const PaperModel model(scene);
         for (const Page& page : pages_of_steps) {
             CAPTURE(page.name);
-            const Solution s = solve_page(model, page, {.rays = 64}, 24);
+            const Solution s = solve_page(model, page, {.rays = 32}, 24);
             double squares = 0;
             for (std::size_t i = 0; i < s.radiosity.size(); ++i) {
                 const double z = (s.radiosity[i].x - 2) / s.standard_error[i].x;
@@ -62,7 +59,8 @@ TEST_CASE("Every page finds E / (1 - rho) in a furnace, on each patch") {
             }
             CHECK(squares > .5);
             CHECK(squares < 2); // standard errors are what they say
-            CHECK(s.energy.imbalance() < .01);
+            CHECK(s.energy.escaped == Vec3(0.0));
+            CHECK(s.energy.absorbed.x == Approx(s.energy.emitted.x).epsilon(.01));
             CHECK(s.steps == 24);
         }
     }
@@ -82,14 +80,14 @@ TEST_CASE("Every page finds the form factor of opposed squares") {
 
 TEST_CASE("Pages agree with each other where things stand in each other's way") {
     const PaperModel model(test::room_with_block());
-    const Solution first = solve_page(model, pages_of_steps[0], {.rays = 64}, 16);
+    const Solution first = solve_page(model, pages_of_steps[0], {.rays = 32}, 16);
     for (const Page& page : {pages_of_steps[1], pages_of_steps[2], pages_of_steps[3]}) {
-        const Solution s = solve_page(model, page, {.rays = 64, .seed = 5}, 16);
+        const Solution s = solve_page(model, page, {.rays = 32, .seed = 5}, 16);
         double squares = 0, count = 0;
         for (std::size_t i = 0; i < s.radiosity.size(); ++i)
             for (int c = 0; c < 3; ++c) {
                 const double sigma = std::hypot(s.standard_error[i][c], first.standard_error[i][c]);
-                if (!(sigma > 0) || s.hits[i] < 200)
+                if (!(sigma > 0) || s.hits[i] < 100)
                     continue;
                 squares += std::pow((s.radiosity[i][c] - first.radiosity[i][c]) / sigma, 2);
                 ++count;
@@ -105,21 +103,18 @@ TEST_CASE("Pages agree with each other where things stand in each other's way") 
 }
 
 TEST_CASE("The printed rules break the cosine law, the corrected ones do not") {
-    const PaperModel model(test::furnace_box(2, .5));
+    const PaperModel model(opposed_squares());
+    const double exact = .5 * test::opposed_rectangles(1, 1);
     for (const Page& page : pages_of_steps) {
         if (!page.has_literal)
             continue;
-        const auto largest = [&](bool literal) {
-            const Solution s =
-                solve_page(model, page, {.rays = 256, .depth = 2, .literal = literal}, 8);
-            double off = 0;
-            for (const Vec3& b : s.radiosity)
-                off = std::max(off, std::abs(b.x / 2 - 1));
-            return off;
+        const auto off = [&](bool literal) {
+            const Solution s = solve_page(model, page, {.rays = 8000, .literal = literal}, 4);
+            return std::abs(s.radiosity[0].x / exact - 1);
         };
         CAPTURE(page.name);
-        CHECK(largest(false) < .03);
-        CHECK(largest(true) > .05);
+        CHECK(off(false) < .02);
+        CHECK(off(true) > .1);
     }
 }
 
@@ -154,5 +149,5 @@ TEST_CASE("A page shoots about as many rays as were asked for") {
 TEST_CASE("No ray of section 5 carries more than five times the mean") {
     const double share = test::share_away_from_crowd(plain::hemisphere);
     CHECK(share > .5 / 5);
-    CHECK(share < .5 / 3);
+    CHECK(share < .25);
 }
