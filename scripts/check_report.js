@@ -93,7 +93,9 @@
   const dots = document.querySelectorAll("#chart circle").length;
   const errors = run.steps.filter((step) => step.estimated_error > 0).length +
     run.steps.filter((step) => step.true_error > 0).length;
-  check("the chart has a dot for each error", dots === errors || (errors > 100 && dots > 50));
+  check("both panels of the chart have a dot for each error", dots === 2 * errors || (errors > 100 && dots > 100));
+  check("a dot has the numbers of its step", errors === 0 || [...document.querySelectorAll("#chart title")].some((title) =>
+    title.textContent.includes(`step ${run.steps.at(-1).step}: `)));
   check("the table has a row for each step", document.querySelectorAll("#steps tbody tr").length === run.steps.length);
   document.getElementById("number").value = run.patches - 1;
   document.getElementById("choose").requestSubmit();

@@ -85,6 +85,11 @@ TEST_CASE("the page of a comparison has the numbers of its CSV, and light after 
         CHECK((pairs[i / 2] >> (16 * (i % 2)) & 0xffff) ==
               hemilux::half_of(reference.radiosity[i / 3][static_cast<int>(i % 3)] / unit));
     CHECK(run["summary"][1][0] == "stratified");
+    REQUIRE(run["charts"].size() >= 2);
+    CHECK(run["charts"][0]["name"] == "true error");
+    CHECK(run["charts"][1]["name"] == "estimated error");
+    CHECK_THAT(run["charts"][0]["svg"].get<std::string>(),
+               Contains(">stored-transport, step 1: ") && Contains("class=\"curve0 step2\""));
     CHECK_THAT(run["warnings"].dump(), Contains("the reference's own error"));
 }
 

@@ -85,6 +85,8 @@ TEST_CASE("a report has the numbers of the tables") {
     CHECK(run["camera"]["eye"] == Json({1, 2, 3}));
     CHECK(run["camera"]["fov"] == 70);
     CHECK(run["steps"].size() == 3);
+    CHECK_THAT(run["charts"][0]["svg"].get<std::string>(),
+               Contains(">estimated error, step 3: ") && !Contains("true error"));
     const Json statistics = Json::parse(place.read("a.json"));
     CHECK(run["statistics"]["estimated_error"] == statistics["estimated_error"]);
     CHECK(run["steps"][2]["rays"] == statistics["rays_energy"]);

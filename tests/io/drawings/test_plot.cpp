@@ -109,6 +109,17 @@ TEST_CASE("a chart has curves, bands, a guide, a legend and labels") {
     CHECK_THAT(svg, !Contains("nan") && !Contains("inf"));
 }
 
+TEST_CASE("dots of a chart lie on their curves, and have their texts and classes") {
+    Chart chart = two_methods();
+    CHECK_THAT(chart_svg(chart), !Contains("<circle") && Contains("class=\"curve1\""));
+    const MeanCurve& curve = chart.panels[0].curves[1];
+    chart.panels[0].dots = {{}, {{curve.x.back(), curve.mean.back(), "1 < 2", "step7"}}};
+    const std::string svg = chart_svg(chart);
+    CHECK(count(svg, "<circle") == 1);
+    CHECK_THAT(svg, Contains("<circle class=\"curve1 step7\"") &&
+                        Contains("<title>1 &lt; 2</title></circle>"));
+}
+
 TEST_CASE("a chart without curves can be drawn") {
     Chart chart = two_methods();
     for (Panel& panel : chart.panels)
