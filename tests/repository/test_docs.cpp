@@ -468,7 +468,7 @@ TEST_CASE("programs and tests that pages of results run are there") {
             if (folder == "bench")
                 CHECK(bench.find("add_executable(" + name + ' ') != std::string::npos);
             else if (folder == "tests")
-                CHECK(tests.find("folders_of_" + name.substr(name.find('_') + 1) + ' ') !=
+                CHECK(tests.find("hemilux_test_program(" + name.substr(name.find('_') + 1) + ' ') !=
                       std::string::npos);
             else if (folder == "examples" || folder == "fuzz")
                 CHECK(fs::exists(root / fs::path(folder == "fuzz" ? "tests/fuzz" : folder) /

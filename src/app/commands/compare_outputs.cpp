@@ -2,10 +2,10 @@
 
 #include "app/rendering/view.h"
 #include "app/report/comparison_page.h"
+#include "app/report/error_charts.h"
 #include "app/settings/names.h"
 #include "app/settings/text.h"
 #include "io/drawings/false_colour.h"
-#include "io/drawings/plot.h"
 #include "io/files/atomic_file.h"
 #include "io/files/error.h"
 #include "io/files/input_file.h"
@@ -33,29 +33,37 @@ std::vector<StepRow> all_rows(std::span<const MethodRuns> results) {
     return rows;
 }
 
-MeanCurve in_per_cent(MeanCurve curve) {
-    for (std::vector<double>* const errors : {&curve.mean, &curve.low, &curve.high})
-        for (double& error : *errors)
-            error *= 100;
-    return curve;
+/// Returns the runs of each method as curves of one kind of error.
+std::vector<ChartedRuns> charted(std::span<const MethodRuns> results,
+                                 std::span<const MethodSummary> summaries, const ErrorKind& kind) {
+    std::vector<ChartedRuns> curves;
+    for (std::size_t m = 0; m < results.size(); ++m) {
+        ChartedRuns& curve = curves.emplace_back(ChartedRuns{summaries[m].label, {}, &kind});
+        for (const MethodRun* const run : runs_that_count(results[m]))
+            curve.runs.emplace_back(run->rows);
+    }
+    return curves;
 }
 
-Chart chart_of(const Comparison& comparison, std::span<const MethodSummary> summaries) {
+Chart chart_of(const Comparison& comparison, std::span<const MethodRuns> results,
+               std::span<const MethodSummary> summaries) {
     const CompareSettings& settings = comparison.settings;
-    Chart chart;
-    chart.title = fs::path(settings.scene.path).filename().string() + ": " +
-                  counted(comparison.mesh.patches().size(), "patch", "patches") + ", mean of " +
-                  counted(settings.runs, "run", "runs");
-    chart.y_label = settings.total ? "relative error of the light itself, %" : "relative error, %";
-    Panel by_seconds{"seconds, preprocessing included", {}};
-    Panel by_rays{"rays, density rays included", {}};
-    for (const MethodSummary& summary : summaries) {
-        chart.names.push_back(summary.label);
-        by_seconds.curves.push_back(in_per_cent(summary.by_seconds));
-        by_rays.curves.push_back(in_per_cent(summary.by_rays));
-    }
-    chart.panels = {by_seconds, by_rays};
-    return chart;
+    return error_chart(
+        fs::path(settings.scene.path).filename().string() + ": " +
+            counted(comparison.mesh.patches().size(), "patch", "patches") + ", mean of " +
+            counted(settings.runs, "run", "runs"),
+        settings.total ? "relative error of the light itself, %" : "relative error, %",
+        charted(results, summaries, error_kinds()[settings.total ? total_kind : true_kind]));
+}
+
+std::vector<PageChart> page_charts(std::span<const MethodRuns> results,
+                                   std::span<const MethodSummary> summaries) {
+    std::vector<PageChart> charts;
+    for (const ErrorKind& kind : error_kinds())
+        if (PageChart chart = page_chart(kind.name, charted(results, summaries, kind));
+            !chart.svg.empty())
+            charts.push_back(std::move(chart));
+    return charts;
 }
 
 LitScene lit_by(const Comparison& comparison, std::span<const Vec3> radiosity) {
@@ -122,9 +130,9 @@ void write_page(const Comparison& comparison, std::span<const MethodRuns> result
             {results[m].variant.name, summaries[m].label, results[m].runs.front().lights});
     write_comparison_page(settings.report,
                           {comparison.mesh, comparison.reference.radiosity, comparison.unit,
-                           methods, rows, summary_rows(summaries), facts_of(comparison), warnings,
-                           settings.scene.path, settings.from.command, camera_of(comparison),
-                           settings.view.exposure});
+                           methods, rows, page_charts(results, summaries), summary_rows(summaries),
+                           facts_of(comparison), warnings, settings.scene.path,
+                           settings.from.command, camera_of(comparison), settings.view.exposure});
 }
 
 } // namespace
@@ -177,8 +185,9 @@ WriteReport write_comparison(const Comparison& comparison, std::span<const Metho
     report.attempt(log, [&] { write_steps_log(log, rows); });
     if (const std::string& page = comparison.settings.report; !page.empty())
         report.attempt(page, [&] { write_page(comparison, results, summaries, rows, warnings); });
-    report.attempt(chart,
-                   [&] { write_atomically(chart, chart_svg(chart_of(comparison, summaries))); });
+    report.attempt(chart, [&] {
+        write_atomically(chart, chart_svg(chart_of(comparison, results, summaries)));
+    });
     try {
         write_pictures(comparison, results, report);
     } catch (const Interrupted&) {

@@ -8,13 +8,6 @@
 
 namespace hemilux {
 
-namespace {
-
-using Figure = double (*)(const StepRow&);
-
-double rays_of(const StepRow& row) { return static_cast<double>(row.record.rays); }
-double seconds_of(const StepRow& row) { return row.record.seconds; }
-
 std::vector<const MethodRun*> runs_that_count(const MethodRuns& runs) {
     std::vector<const MethodRun*> complete, begun;
     for (const MethodRun& run : runs.runs) {
@@ -25,6 +18,13 @@ std::vector<const MethodRun*> runs_that_count(const MethodRuns& runs) {
     }
     return complete.empty() ? begun : complete;
 }
+
+namespace {
+
+using Figure = double (*)(const StepRow&);
+
+double rays_of(const StepRow& row) { return static_cast<double>(row.record.rays); }
+double seconds_of(const StepRow& row) { return row.record.seconds; }
 
 double mean(const std::vector<const MethodRun*>& runs, Figure figure) {
     double sum = 0;
@@ -68,8 +68,6 @@ MethodSummary summarise(const MethodRuns& result, bool literal) {
     summary.runs = runs.size();
     summary.runs_by_seconds = curves_of(runs, seconds_of);
     summary.runs_by_rays = curves_of(runs, rays_of);
-    summary.by_seconds = mean_curve(summary.runs_by_seconds);
-    summary.by_rays = mean_curve(summary.runs_by_rays);
     for (const MethodRun* const run : runs)
         summary.bytes_density = std::max(summary.bytes_density, run->bytes_density);
     return summary;

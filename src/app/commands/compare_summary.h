@@ -26,13 +26,14 @@ struct MethodSummary {
     double estimated_error = 0;        ///< relative [-]
     std::uint64_t bytes_density = 0;
     std::vector<ErrorCurve> runs_by_seconds, runs_by_rays; ///< true error, or total
-    MeanCurve by_seconds, by_rays;                         ///< mean of these
     std::size_t runs = 0;                                  ///< that count
     std::optional<Gain> gain_seconds, gain_rays;
 };
 
-/// Summarises each method, in the order of the results. Runs that were interrupted count only if a
-/// method has no other.
+/// Returns the runs that count: those that were interrupted only if there is no other.
+[[nodiscard]] std::vector<const MethodRun*> runs_that_count(const MethodRuns& runs);
+
+/// Summarises each method, in the order of the results, by the runs that count.
 [[nodiscard]] std::vector<MethodSummary> summarise(std::span<const MethodRuns> results,
                                                    bool literal);
 

@@ -6,6 +6,7 @@
 #include "app/terminal/log.h"
 #include "app/terminal/summary.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/stored_transport/transport_figures.h"
 #include "radiosity/light/sides/light_paths.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/scene/mesh.h"
@@ -88,8 +89,8 @@ void fill(Statistics& statistics, const SolveSettings& settings, const Mesh& mes
     statistics.rays_per_second =
         static_cast<double>(solution.rays_energy + solution.rays_density) / seconds_solver;
     statistics.bytes_density = solution.bytes_density;
-    statistics.bytes_transport = solution.bytes_transport;
-    statistics.links = solution.links;
+    statistics.bytes_transport = solution.figures.value(transport_figures::bytes);
+    statistics.links = solution.figures.value("links"); // of `hierarchical`
     if (solution.bytes_density > 0)
         statistics.bytes_density_paper =
             statistics.patches * Hemisphere::cells_up_to(settings.options.depth);

@@ -4,6 +4,7 @@
 #include "io/files/text_words.h"
 #include "radiosity/paper/scene/mesh.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace hemilux {
@@ -40,6 +41,14 @@ Json steps_json(std::span<const StepRow> rows) {
                         {"estimated_error", record.estimated_error},
                         {"true_error", row.error ? Json(row.error->all) : Json()}});
     }
+    return list;
+}
+
+Json charts_json(std::span<const PageChart> charts) {
+    Json list = Json::array();
+    for (const PageChart& chart : charts)
+        if (!chart.svg.empty())
+            list.push_back({{"name", chart.name}, {"svg", chart.svg}});
     return list;
 }
 
@@ -90,9 +99,20 @@ Json row_json(const StepRow& row) {
 } // namespace
 
 std::string run_json(const ReportContent& content) {
+    const auto curve = [&](std::size_t kind) {
+        return ChartedRuns{error_kinds()[kind].name, {content.steps}, &error_kinds()[kind]};
+    };
+    const bool is_compared = std::ranges::any_of(
+        content.steps, [](const StepRow& row) { return row.error.has_value(); });
+    std::vector<ChartedRuns> curves{curve(estimated_kind)};
+    if (is_compared)
+        curves.push_back(curve(true_kind));
+    const PageChart chart = page_chart("error", curves);
+
     Json run = common_json(content);
     run["statistics"] = Json::parse(to_json(content.statistics));
     run["steps"] = steps_json(content.steps);
+    run["charts"] = charts_json({&chart, 1});
     if (content.densities)
         run["threshold"] = content.densities->threshold;
     return text_of(run);
@@ -108,6 +128,7 @@ std::string comparison_json(const ComparisonContent& content) {
     run["rows"] = Json::array();
     for (const StepRow& row : content.rows)
         run["rows"].push_back(row_json(row));
+    run["charts"] = charts_json(content.charts);
     return text_of(run);
 }
 

@@ -2,6 +2,7 @@
 // What a report says of a run, or of several, besides the patches, as JSON. What is not UTF-8 is
 // replaced; NaN is null.
 
+#include "app/report/error_charts.h"
 #include "app/report/half_light.h"
 #include "io/pictures/camera.h"
 #include "io/results/statistics.h"
@@ -39,8 +40,8 @@ struct ReportContent {
 };
 
 /// Returns the JSON. The keys are scene, command, version, machine, centre, materials, groups,
-/// camera, exposure, warnings, statistics (as of to_json), steps and, where there are densities,
-/// threshold.
+/// camera, exposure, warnings, statistics (as of to_json), steps, charts (name and svg) and, where
+/// there are densities, threshold.
 [[nodiscard]] std::string run_json(const ReportContent& content);
 
 /// The light that a method had found after some step.
@@ -62,6 +63,7 @@ struct ComparisonContent {
     double unit;                     ///< of LightOfStep [W/m2]
     std::vector<ComparedMethod> methods;
     std::span<const StepRow> rows;                 ///< of all runs, as the CSV has them
+    std::vector<PageChart> charts;                 ///< of the errors that are known
     std::vector<std::vector<std::string>> summary; ///< table with a row of headings
     std::vector<std::pair<std::string, std::string>>
         facts; ///< name and text of what it all rests on
@@ -72,8 +74,8 @@ struct ComparisonContent {
 };
 
 /// Returns the JSON. It has the keys scene to warnings of run_json(), and unit, methods, summary,
-/// facts, columns and rows. A method has name, label and steps, the numbers of those with a light.
-/// Columns and rows are those of the CSV, where an empty field is null.
+/// facts, columns, rows and charts. A method has name, label and steps, the numbers of those with a
+/// light. Columns and rows are those of the CSV, where an empty field is null.
 [[nodiscard]] std::string comparison_json(const ComparisonContent& content);
 
 } // namespace hemilux

@@ -42,6 +42,10 @@ class Canvas {
     virtual void line(std::span<const Vec2> points, const Stroke& stroke) = 0;
     /// Draws one line of text; `at` is on its base line.
     virtual void text(const Vec2& at, std::string_view text, const TextStyle& style) = 0;
+    /// Draws a small circle that shows a text under the pointer.
+    virtual void dot(const Vec2& /*at*/, Colour /*colour*/, std::string_view /*text*/) {}
+    /// Gives what is drawn from now on a class, by which a page finds it; empty: none.
+    virtual void begin_class(std::string_view /*name*/) {}
 };
 
 class SvgCanvas final : public Canvas {
@@ -50,11 +54,13 @@ class SvgCanvas final : public Canvas {
     void polygon(std::span<const Vec2> corners, Colour fill, double opacity) override;
     void line(std::span<const Vec2> points, const Stroke& stroke) override;
     void text(const Vec2& at, std::string_view text, const TextStyle& style) override;
+    void dot(const Vec2& at, Colour colour, std::string_view text) override;
+    void begin_class(std::string_view name) override;
     /// Returns the text of the whole file.
     [[nodiscard]] std::string document() const { return body_ + "</svg>\n"; }
 
   private:
-    std::string body_;
+    std::string body_, class_; ///< class_: the attribute of each element
 };
 
 /// Fills a rectangle whose sides lie along the axes.

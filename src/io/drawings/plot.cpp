@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace hemilux {
 
@@ -137,13 +138,29 @@ void draw_curve(const MeanCurve& curve, const Frame2& frame, Colour colour, Canv
     fill_box(canvas, points.back() - dot, points.back() + dot, colour);
 }
 
+std::string class_of_curve(std::size_t index) { return "curve" + std::to_string(index); }
+
+void draw_dots(std::span<const Dot> dots, std::size_t curve, const Frame2& frame, Canvas& canvas) {
+    for (const Dot& dot : dots) {
+        canvas.begin_class(class_of_curve(curve) + (dot.name.empty() ? "" : " " + dot.name));
+        canvas.dot(frame.place(dot.x, dot.y), curve_colour(curve), dot.text);
+    }
+}
+
 void draw_panel(const Chart& chart, const Panel& panel, const Frame2& frame, Canvas& canvas) {
     draw_grid(frame, canvas);
     draw_guide(panel, frame, canvas);
-    for (std::size_t i = 0; i < panel.curves.size(); ++i)
+    for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+        canvas.begin_class(class_of_curve(i));
         draw_band(panel.curves[i], frame, curve_colour(i), canvas);
-    for (std::size_t i = 0; i < panel.curves.size(); ++i)
+    }
+    for (std::size_t i = 0; i < panel.curves.size(); ++i) {
+        canvas.begin_class(class_of_curve(i));
         draw_curve(panel.curves[i], frame, curve_colour(i), canvas);
+        if (i < panel.dots.size())
+            draw_dots(panel.dots[i], i, frame, canvas);
+    }
+    canvas.begin_class("");
     const Vec2 low = frame.low, high = frame.high;
     canvas.line(std::array{low, Vec2(low.x, high.y), high}, {.colour = ink});
     canvas.text({(low.x + high.x) / 2, high.y + 44}, panel.x_label,
@@ -154,9 +171,11 @@ void draw_panel(const Chart& chart, const Panel& panel, const Frame2& frame, Can
 void draw_legend(const Chart& chart, const Vec2& corner, Canvas& canvas) {
     for (std::size_t i = 0; i < chart.names.size(); ++i) {
         const Vec2 at = corner + Vec2(0, 24.0 * double(i) + 10);
+        canvas.begin_class(class_of_curve(i));
         canvas.line(std::array{at, at + Vec2(24, 0)}, {.colour = curve_colour(i), .width = 3});
         canvas.text(at + Vec2(32, 4), chart.names[i], {.size = small_text, .colour = ink});
     }
+    canvas.begin_class("");
 }
 
 double panel_left(std::size_t index) {

@@ -63,7 +63,7 @@ SvgCanvas::SvgCanvas(int width, int height) {
 }
 
 void SvgCanvas::polygon(std::span<const Vec2> corners, Colour fill, double opacity) {
-    body_ += "<polygon" + attribute("points", point_list(corners)) +
+    body_ += "<polygon" + class_ + attribute("points", point_list(corners)) +
              attribute("fill", hexadecimal(fill)) + attribute("fill-rule", "evenodd");
     if (opacity < 1)
         body_ += attribute("fill-opacity", number(opacity));
@@ -71,8 +71,8 @@ void SvgCanvas::polygon(std::span<const Vec2> corners, Colour fill, double opaci
 }
 
 void SvgCanvas::line(std::span<const Vec2> points, const Stroke& stroke) {
-    body_ += "<polyline" + attribute("points", point_list(points)) + attribute("fill", "none") +
-             attribute("stroke", hexadecimal(stroke.colour)) +
+    body_ += "<polyline" + class_ + attribute("points", point_list(points)) +
+             attribute("fill", "none") + attribute("stroke", hexadecimal(stroke.colour)) +
              attribute("stroke-width", number(stroke.width)) +
              attribute("stroke-linejoin", "round");
     if (stroke.dash > 0)
@@ -84,9 +84,20 @@ void SvgCanvas::text(const Vec2& at, std::string_view text, const TextStyle& sty
     const char* const anchor = style.anchor == Anchor::start    ? "start"
                                : style.anchor == Anchor::middle ? "middle"
                                                                 : "end";
-    body_ += "<text" + attribute("x", number(at.x)) + attribute("y", number(at.y)) +
+    body_ += "<text" + class_ + attribute("x", number(at.x)) + attribute("y", number(at.y)) +
              attribute("font-size", number(style.size)) + attribute("text-anchor", anchor) +
              attribute("fill", hexadecimal(style.colour)) + ">" + escaped(text) + "</text>\n";
+}
+
+void SvgCanvas::dot(const Vec2& at, Colour colour, std::string_view text) {
+    body_ += "<circle" + class_ + attribute("cx", number(at.x)) + attribute("cy", number(at.y)) +
+             attribute("r", "3.5") + attribute("fill", "#ffffff") +
+             attribute("stroke", hexadecimal(colour)) + attribute("stroke-width", "1.4") +
+             "><title>" + escaped(text) + "</title></circle>\n";
+}
+
+void SvgCanvas::begin_class(std::string_view name) {
+    class_ = name.empty() ? "" : attribute("class", name);
 }
 
 void fill_box(Canvas& canvas, const Vec2& low, const Vec2& high, Colour fill, double opacity) {

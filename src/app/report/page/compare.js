@@ -119,44 +119,27 @@ function describePatch(run, i, step, brightness) {
     fillTable(element("table"), ["method", "W/m²", "off, of the mean light"], rows));
 }
 
-const hues = [212, 18, 145, 285, 45, 180, 335, 95];
-const curveStyle = (m) =>
-  `color: hsl(${hues[m % hues.length]} 75% var(--curve-lightness)); --dashes: ${["none", "7 3", "2 3"][m % 3]}`;
-
-/** The chart of all runs with its choices; `showStep` may be null. */
+/** The charts of errors with their choices; `showStep` may be null. */
 function showErrors(run, showStep) {
-  const has = (key) => run.rows.some((row) => known(row[key]));
-  const shown = Object.keys(measures).filter(has);
-  shown.forEach((key, k) => at("measure").append(element("label", {},
-    element("input", { type: "radio", name: "measure", value: key, ...(k === 0 ? { checked: "" } : {}) }), " " + measures[key])));
-  run.methods.forEach(({ label }, m) => at("curves").append(element("label", { style: curveStyle(m) },
-    element("input", { type: "checkbox", value: m, checked: "" }),
-    svgElement("svg", { width: 26, height: 8, class: "chart", "aria-hidden": "true" },
-      svgElement("g", { class: "run" }, svgElement("path", { class: "curve", d: "M0 4h26" }))), element("span", { text: label }))));
-  const draw = () => {
-    const axis = document.querySelector("#axis input:checked").value;
-    const measure = document.querySelector("#measure input:checked")?.value;
-    const chosen = [...document.querySelectorAll("#curves input:checked")].map((box) => Number(box.value));
-    const curves = chosen.flatMap((m) => curvesOf(run, m, axis, measure, showStep));
-    const chart = errorChart(curves, axis, Math.max(300, at("chart").clientWidth));
-    at("chart").replaceChildren(chart ?? element("p", { class: "hint", text: "No method chosen has such an error." }));
+  const shown = Object.keys(measures).filter((key) => run.rows.some((row) => known(row[key])));
+  run.charts.forEach(({ name }, k) => at("measure").append(element("label", {},
+    element("input", { type: "radio", name: "measure", value: k, ...(k === 0 ? { checked: "" } : {}) }), " " + name)));
+  run.methods.forEach(({ label }, m) => at("curves").append(element("label", {},
+    element("input", { type: "checkbox", value: m, checked: "" }), element("span", { text: label }))));
+  const hide = () => {
+    for (const { value, checked } of document.querySelectorAll("#curves input"))
+      for (const part of at("chart").querySelectorAll(".curve" + value)) part.style.display = checked ? "" : "none";
   };
-  for (const id of ["axis", "measure", "curves"]) at(id).addEventListener("change", draw);
-  addEventListener("resize", draw);
+  const draw = () => {
+    showChart(run.charts[document.querySelector("#measure input:checked")?.value], showStep);
+    hide();
+  };
+  at("measure").addEventListener("change", draw);
+  at("curves").addEventListener("change", hide);
   draw();
   fillTable(at("steps"), ["method", "run", "step", "rays", "seconds", ...shown.map((key) => measures[key])],
     run.rows.map((row) => [row.method, row.run, row.step, row.rays, Number(row.seconds.toPrecision(4)),
       ...shown.map((key) => percent(row[key]))]));
-}
-
-/** A curve for each run of a method. */
-function curvesOf(run, m, axis, measure, showStep) {
-  const { name, label } = run.methods[m];
-  const rows = run.rows.filter((row) => row.method === name && known(row[measure]));
-  return [...new Set(rows.map((row) => row.run))].map((number) => ({ kind: "run", style: curveStyle(m),
-    points: rows.filter((row) => row.run === number).map((row) => ({ x: row[axis], y: row[measure],
-      text: `${label}, run ${number + 1}, step ${row.step}: ${percent(row[measure])} after ${costOf(row)}`,
-      choose: number === 0 && showStep ? () => showStep(m, row.step) : null })) }));
 }
 
 function showComparison(run) {

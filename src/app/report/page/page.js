@@ -73,24 +73,12 @@ function showFigures({ statistics }) {
     at("figures").append(element("div", {}, element("dt", { text: name }), element("dd", { text: value })));
 }
 
-function showSteps({ steps }) {
+function showSteps({ steps, charts }) {
   const withTruth = steps.some((step) => known(step.true_error));
   fillTable(at("steps"), ["step", "rays", "seconds", "estimated error", ...(withTruth ? ["true error"] : [])],
     steps.map((step) => [step.step, step.rays, Number(step.seconds.toPrecision(4)), percent(step.estimated_error),
       ...(withTruth ? [percent(step.true_error)] : [])]));
-  const draw = () => {
-    const axis = document.querySelector("#axis input:checked").value;
-    const curve = (name, kind, key) => ({ name, kind, points: steps.filter((step) => known(step[key])).map((step) => ({
-      x: step[axis], y: step[key],
-      text: `step ${step.step}: ${percent(step[key])} after ${shortCount(step.rays)} ${step.rays === 1 ? "ray" : "rays"}, ${number(step.seconds, 3)} s` })) });
-    const width = Math.max(300, at("chart").clientWidth);
-    const chart = errorChart([curve("estimated error", "estimated", "estimated_error"),
-      ...(withTruth ? [curve("true error", "true", "true_error")] : [])], axis, width);
-    at("chart").replaceChildren(chart ?? element("p", { class: "hint", text: "No step has a known error." }));
-  };
-  at("axis").addEventListener("change", draw);
-  addEventListener("resize", draw);
-  draw();
+  showChart(charts[0]);
 }
 
 /** Statistics as rows of name and value; objects within become names with a dot. */

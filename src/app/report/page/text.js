@@ -47,3 +47,21 @@ function lightText(light, brightness) {
   text.prepend(swatch);
   return text;
 }
+
+function svgElement(name, attributes, ...children) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  element.append(...children);
+  return element;
+}
+
+/** Shows the chart that the program drew; `choose` gets the number of a curve and of the step whose dot was clicked. */
+function showChart(chart, choose) {
+  if (!chart) return at("chart").replaceChildren(element("p", { class: "hint", text: "No step has a known error." }));
+  at("chart").innerHTML = chart.svg; // the program escapes all names in it
+  if (!choose) return;
+  for (const dot of at("chart").querySelectorAll("circle")) {
+    const [curve, step] = [...dot.classList].map((name) => Number(name.replace(/\D+/, "")));
+    dot.addEventListener("click", () => choose(curve, step));
+  }
+}

@@ -12,8 +12,8 @@
 // The matrix stores S before it is scaled, so that the S of several batches is their mean.
 
 #include "parallel/ranks.h"
+#include "radiosity/engine/form_factors/escape_fraction.h"
 #include "radiosity/engine/form_factors/ray_counts.h"
-#include "radiosity/engine/form_factors/sampled_form_factors.h"
 #include "radiosity/engine/form_factors/sparse_rows.h"
 #include "radiosity/engine/sampling/sampling_kernels.h"
 

@@ -17,14 +17,17 @@
 // pixels do not run along the edges of a regular mesh. Nothing depends on a random number.
 
 #include "bvh/tracer.h"
-#include "radiosity/engine/form_factors/sampled_form_factors.h"
+#include "radiosity/engine/form_factors/escape_fraction.h"
+#include "radiosity/engine/form_factors/sparse_matrix.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace hemilux {
 
+class Mesh;
 class StopFlag;
+struct Monitor;
 
 class Hemicube {
   public:

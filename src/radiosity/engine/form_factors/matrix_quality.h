@@ -1,12 +1,15 @@
 #pragma once
 // Measures how well a matrix of form factors obeys what all form factors obey.
 
-#include "radiosity/engine/form_factors/sampled_form_factors.h"
+#include "radiosity/engine/form_factors/escape_fraction.h"
+#include "radiosity/engine/form_factors/sparse_matrix.h"
 
 #include <cstdint>
 #include <span>
 
 namespace hemilux {
+
+class Mesh;
 
 /// Factors and what follows from them have no unit [-].
 struct MatrixQuality {

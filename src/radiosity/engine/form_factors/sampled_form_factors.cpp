@@ -16,18 +16,6 @@ constexpr std::size_t rows_per_chunk = 16;
 
 } // namespace
 
-void SparseMatrix::multiply(std::span<const double> x, std::span<double> y,
-                            const Workers& workers) const {
-    workers.for_chunks(rows(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            double sum = 0;
-            for (std::size_t k = row_begin[i]; k < row_begin[i + 1]; ++k)
-                sum += value[k] * x[column[k]];
-            y[i] = sum;
-        }
-    });
-}
-
 SampledFormFactors::SampledFormFactors(const Mesh& mesh, const Tracer& tracer,
                                        std::vector<std::uint32_t> emitters, std::uint64_t seed,
                                        const Needs& needs)

@@ -12,7 +12,9 @@
 
 #include "bvh/tracer.h"
 #include "parallel/workers.h"
+#include "radiosity/engine/form_factors/escape_fraction.h"
 #include "radiosity/engine/form_factors/ray_counts.h"
+#include "radiosity/engine/form_factors/sparse_matrix.h"
 #include "radiosity/paper/scene/needs.h"
 
 #include <atomic>
@@ -25,28 +27,6 @@ namespace hemilux {
 
 class Mesh;
 struct Monitor;
-
-/// A sparse matrix by rows; the entries of a row are in any order, each column once [-]. The
-/// reference is solved to a residual of 1e-12 and written to files. So its values are doubles, and
-/// what two patches saw of each other is merged. Stored transport has rows of floats without
-/// merging (sparse_rows.h): its rays err more than floats round.
-struct SparseMatrix {
-    std::vector<std::size_t> row_begin; ///< one more than rows
-    std::vector<std::uint32_t> column;
-    std::vector<double> value; ///< F [-]
-
-    [[nodiscard]] std::size_t rows() const { return row_begin.size() - 1; }
-    /// Computes y = M x.
-    void multiply(std::span<const double> x, std::span<double> y, const Workers& workers) const;
-};
-
-/// The shares of a patch's rays [-] that met no patch.
-struct EscapeFraction {
-    double escaped = 0;  ///< left the scene
-    double absorbed = 0; ///< fell on the back of a one-sided face
-
-    [[nodiscard]] double sum() const { return escaped + absorbed; }
-};
 
 class SampledFormFactors {
   public:

@@ -153,7 +153,8 @@ class ProgressiveSolver final : public Solver {
             solution_.standard_error.assign(estimate.radiosity.size(), Vec3(unknown));
             return;
         }
-        solution_.standard_error = pooled_over_neighbours(input_.mesh, estimate.variance);
+        const std::vector<Vec3> pooled = pooled_over_neighbours(input_.mesh, estimate.variance);
+        solution_.standard_error.resize(pooled.size());
         std::vector<double> of_patch;
         double missing = 0;
         for (std::uint32_t i = 0; i < estimate.radiosity.size(); ++i) {
@@ -161,9 +162,8 @@ class ProgressiveSolver final : public Solver {
             const Vec3& light = estimate.missing[i];
             of_patch.push_back(area * glm::dot(estimate.variance[i], Vec3(1.0)));
             missing += area * glm::dot(light, light);
-            const Vec3 seen = solution_.standard_error[i];
             solution_.standard_error[i] =
-                glm::sqrt(glm::max(seen, estimate.left_to_chance[i]) + light * light);
+                glm::sqrt(glm::max(pooled[i], estimate.left_to_chance[i]) + light * light);
         }
         const double variance = std::accumulate(of_patch.begin(), of_patch.end(), 0.0);
         solution_.variance = variance;

@@ -30,6 +30,7 @@
 #include "radiosity/engine/stored_transport/step_errors.h"
 #include "radiosity/engine/stored_transport/stored_rays.h"
 #include "radiosity/engine/stored_transport/transport_errors.h"
+#include "radiosity/engine/stored_transport/transport_figures.h"
 #include "radiosity/engine/stored_transport/transport_system.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/solve_error.h"
@@ -93,7 +94,7 @@ class StoredTransportSolver final : public Solver {
         plan_.load(state);
         rays_.load(state);
         load_solution(solution_, state);
-        solution_.unneeded = aim_.unneeded();
+        solution_.figures.set(transport_figures::unneeded, aim_.unneeded());
         if (!plan_.has_begun() && (planned_ || solution_.steps > 0))
             throw StateError("steps were done without a plan");
     }
@@ -195,13 +196,14 @@ class StoredTransportSolver final : public Solver {
         report(errors, spread, input_.needs, solution_);
         if (aim_.has_target()) {
             aim_.step_done(errors.part, errors.lit);
-            solution_.unneeded = aim_.unneeded();
+            solution_.figures.set(transport_figures::unneeded, aim_.unneeded());
             plan_.aim(aim_.importance());
         }
         plan_.weigh(rows.variance, errors.needs_rays);
         plan_.weigh_emitters(spread.direct_variances, errors.lit);
         account();
-        solution_.bytes_transport = all.bytes() + rays_.direct().bytes() + rays_.bytes_of_counts();
+        solution_.figures.set(transport_figures::bytes,
+                              all.bytes() + rays_.direct().bytes() + rays_.bytes_of_counts());
         ++solution_.steps;
     }
 

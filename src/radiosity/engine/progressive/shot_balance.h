@@ -7,11 +7,15 @@
 // made between patches, which in bright rooms would be made again in each bounce. Where much
 // depends on pairs that are looked at by chance, factors are left as they are, right on average.
 
-#include "radiosity/engine/form_factors/sampled_form_factors.h"
+#include "radiosity/engine/form_factors/escape_fraction.h"
 
 #include <cstdint>
 
 namespace hemilux {
+
+class Mesh;
+class Tracer;
+struct Needs;
 
 /// The numbers of rays from the shooter, and of those that met no patch that was looked from.
 struct ShotRays {

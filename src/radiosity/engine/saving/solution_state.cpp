@@ -1,6 +1,7 @@
 #include "radiosity/engine/saving/solution_state.h"
 
 #include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/stored_transport/transport_figures.h"
 #include "radiosity/paper/solution/solve_error.h"
 
 #include <algorithm>
@@ -46,14 +47,14 @@ void load_energy(EnergyBalance& energy, StateReader& state) {
 void save_solution(const Solution& solution, StateWriter& state) {
     state.add(solution.steps);
     state.add(solution.rays_energy);
-    state.add(solution.bytes_transport);
+    state.add(solution.figures.value(transport_figures::bytes));
     state.add(solution.error_batches);
     state.add(solution.effective_freedom.value_or(0));
     state.add(solution.variance.value_or(-1));
     state.add(solution.variance_of_level);
     state.add(solution.reflected_share.value_or(-1));
     state.add(solution.missed);
-    state.add(std::uint64_t{solution.unlit});
+    state.add(solution.figures.value(transport_figures::unlit));
     save_energy(solution.energy, state);
     state.add(std::span<const Vec3>(solution.radiosity));
     state.add(std::span<const Vec3>(solution.standard_error));
@@ -63,7 +64,9 @@ void save_solution(const Solution& solution, StateWriter& state) {
 void load_solution(Solution& solution, StateReader& state) {
     state.get(solution.steps);
     state.get(solution.rays_energy);
-    state.get(solution.bytes_transport);
+    std::uint64_t bytes = 0;
+    state.get(bytes);
+    solution.figures.set(transport_figures::bytes, bytes);
     state.get(solution.error_batches, bounds::non_negative);
     const double parts = state.number({0, std::numeric_limits<double>::infinity()});
     solution.effective_freedom = parts > 0 ? std::optional(parts) : std::nullopt;
@@ -71,7 +74,7 @@ void load_solution(Solution& solution, StateReader& state) {
     state.get(solution.variance_of_level, bounds::non_negative);
     solution.reflected_share = number_or_nothing(state);
     state.get(solution.missed, bounds::non_negative);
-    solution.unlit = state.whole_up_to(solution.radiosity.size());
+    solution.figures.set(transport_figures::unlit, state.whole_up_to(solution.radiosity.size()));
     load_energy(solution.energy, state);
     load_light(solution.radiosity, 2 * largest_radiosity, state);
     state.get(std::span(solution.standard_error), bounds::non_negative);

@@ -2,6 +2,7 @@
 
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/method.h"
+#include "radiosity/engine/stored_transport/transport_figures.h"
 
 namespace hemilux {
 namespace {
@@ -56,12 +57,14 @@ std::vector<LeftOut> left_out(const Needs& needs) {
 std::vector<LeftOut> left_out(const Needs& needs, const MethodWork& work,
                               const Solution& solution) {
     std::vector<LeftOut> list = left_out_of(needs, work);
-    if (solution.unlit > 0 && solution.unlit < solution.radiosity.size())
-        list.push_back({"rays of " + patches(solution.unlit) + " after the first step",
+    const std::uint64_t unlit = solution.figures.value(transport_figures::unlit);
+    if (unlit > 0 && unlit < solution.radiosity.size())
+        list.push_back({"rays of " + patches(unlit) + " after the first step",
                         "no path to them from an emitter was found",
                         "their rays at random, and most of their shadow rays"});
-    if (solution.unneeded > 0)
-        list.push_back({"rays of " + patches(solution.unneeded) + " after the first step",
+    const std::uint64_t unneeded = solution.figures.value(transport_figures::unneeded);
+    if (unneeded > 0)
+        list.push_back({"rays of " + patches(unneeded) + " after the first step",
                         "no path from them to what --for names was found",
                         "their rays at random and their shadow rays"});
     if (solution.rays_density_spared > 0)

@@ -5,6 +5,7 @@
 #include "radiosity/engine/stored_transport/batch_light.h"
 #include "radiosity/engine/stored_transport/importance.h"
 #include "radiosity/engine/stored_transport/stored_rays.h"
+#include "radiosity/engine/stored_transport/transport_figures.h"
 #include "radiosity/engine/stored_transport/transport_system.h"
 #include "radiosity/paper/scene/needs.h"
 #include "radiosity/paper/solution/error_spread.h"
@@ -130,9 +131,10 @@ void report(const TransportErrors& errors, const BatchSpread& spread, const Need
     solution.error_batches = batches;
     solution.effective_freedom = believed_freedom(solution.effective_freedom, spread.freedom);
     solution.reflected_share = spread.reflected_share;
-    solution.unlit = 0;
+    std::uint64_t unlit = 0;
     for (std::uint32_t i = 0; i < errors.needs_rays.size(); ++i)
-        solution.unlit += !errors.needs_rays[i] && needs.power(i);
+        unlit += !errors.needs_rays[i] && needs.power(i);
+    solution.figures.set(transport_figures::unlit, unlit);
 }
 
 } // namespace hemilux

@@ -21,50 +21,71 @@
 namespace hemilux {
 namespace {
 
-constexpr unsigned most_rounds = 20;
+/// The numbers that were tuned by runs over many scenes: what each buys, and what it costs.
+namespace tuned {
 
-/// A round makes at most `most_growth` times as many patches, as what varies is only known roughly.
-/// It makes at least `least_growth` times as many, as it costs as much as the patches that it would
-/// spare.
-constexpr double most_growth = 4, least_growth = 1.1;
-constexpr std::size_t least_room = 256;
+// Rounds of measuring and cutting.
 
-/// The rows of points on large patches: when they are new, and in further rounds.
+/// The rounds of a division [-]. A scene takes about five; more only end what does not converge.
+constexpr unsigned max_rounds = 20;
+/// How many times as many patches a round makes, at most and at least [-]. Less growth wastes fewer
+/// patches, as what varies is only known roughly; more takes fewer rounds. A round costs as much as
+/// the patches that it would spare if it made fewer than the least.
+constexpr double max_growth = 4, min_growth = 1.1;
+/// The number of patches that a round may add whatever the growth: it spares small scenes rounds.
+constexpr std::size_t min_room = 256;
+
+// Points where the light is measured.
+
+/// The rows of points on a large patch, when it is new and in further rounds [-]. Points grow with
+/// their square; more find what is small.
 constexpr unsigned rows_at_first = 6, rows_again = 3;
-
-/// One in so many of the other patches is measured again in each round.
+/// One in so many of the other patches is measured again in each round [-]. Fewer save rays; more
+/// make the estimate of what is left surer.
 constexpr std::uint64_t one_again_in = 4;
-
-/// The light is solved anew when there are so many times more patches than were solved.
-constexpr double solved_at_growth = 6;
-
-/// The limits on the rough solution's error: most of it is gone once the light is reflected.
-constexpr double least_rough_error = .02, most_rough_error = .05;
-
-/// Returns the rays of an estimate: noise that is large beside what is allowed would divide patches
-/// for nothing.
-unsigned rays_of_estimate(double error) {
-    constexpr double at_error_of_one = .11, least = 4, most = 16;
-    return static_cast<unsigned>(std::clamp(std::round(at_error_of_one / error), least, most));
-}
-
+/// The rays of a point, times the error that is asked for [-], and their limits. Noise that is
+/// large beside what is allowed would divide patches for nothing; rays cost time.
+constexpr double rays_at_error_of_one = 0.11, min_rays = 4, max_rays = 16;
 /// Patches that hold very little light are not measured. If it varied by as much as it is, all that
-/// they leave would be this share of what is allowed.
-constexpr double negligible_share = .05;
+/// they leave would be this share of what is allowed [-]. More saves points and risks that error.
+constexpr double negligible_share = 0.05;
+/// A division is done when so many standard errors above what was measured are allowed [-]: few
+/// points may miss what few patches hold. More is surer and takes more patches.
+constexpr double sure_by = 0.5;
 
-/// The share of what is allowed that the noise of slopes may be; and the most rounds of rays for
-/// it.
-constexpr double share_of_noise = .2;
-constexpr double most_rounds_of_slopes = 8;
+// Rough solutions, which say where the light is.
+
+/// The light is solved anew when there are so many times more patches than were solved [-]. Less
+/// follows fine shadows sooner, for a solution each time.
+constexpr double solved_at_growth = 6;
+/// The limits on a rough solution's relative error [-]: most of it is gone once the light is
+/// reflected, and a smaller one takes more rays.
+constexpr double min_rough_error = 0.02, max_rough_error = 0.05;
+/// The rays after which a rough solution ends whatever its error, in all and for each patch [rays].
+constexpr std::uint64_t rough_rays = 4'000'000, rough_rays_of_patch = 4096;
+
+// Slopes of the light on the patches that remain.
+
+/// The share of the allowed squared error that the noise of slopes may be [-]. Less noise takes
+/// more rays.
+constexpr double share_of_noise = 0.2;
+/// The rounds of rays for less of it [-].
+constexpr double max_rounds_of_slopes = 8;
+
+} // namespace tuned
+
+unsigned rays_of_estimate(double error) {
+    return static_cast<unsigned>(std::clamp(std::round(tuned::rays_at_error_of_one / error),
+                                            tuned::min_rays, tuned::max_rays));
+}
 
 } // namespace
 
 StopRule rough_stop(const AdaptiveDivision& options, std::size_t patches) {
-    constexpr std::uint64_t rays_of_patch = 4096, least_rays = 4'000'000;
     return {.steps = {},
             .seconds = {},
-            .error = std::clamp(options.error, least_rough_error, most_rough_error),
-            .rays = least_rays + rays_of_patch * patches};
+            .error = std::clamp(options.error, tuned::min_rough_error, tuned::max_rough_error),
+            .rays = tuned::rough_rays + tuned::rough_rays_of_patch * patches};
 }
 
 Solution rough_solution(const Mesh& mesh, const Tracer& tracer, const AdaptiveDivision& options,
@@ -91,7 +112,7 @@ Division::Division(Mesh& mesh, const Tracer& tracer, const AdaptiveDivision& opt
 bool Division::divide(Solution& light, double error,
                       const std::function<void(const DivisionRound&)>& after_round) {
     const std::size_t patches = mesh_.patches().size();
-    for (unsigned round = 0; round < most_rounds && light.steps > 0; ++round) {
+    for (unsigned round = 0; round < tuned::max_rounds && light.steps > 0; ++round) {
         rays_ = 0;
         if (!solve_if_due(light))
             break;
@@ -115,7 +136,7 @@ bool Division::divide(Solution& light, double error,
 /// Solves the light anew if that is due. Returns false if no solution was found.
 bool Division::solve_if_due(Solution& light) {
     const std::size_t patches = mesh_.patches().size();
-    if (double(patches) < solved_at_growth * double(solved_))
+    if (double(patches) < tuned::solved_at_growth * double(solved_))
         return true;
     Solution solution = rough_solution(mesh_, tracer_, options_, monitor_, light.weight);
     if (solution.steps == 0)
@@ -145,23 +166,24 @@ void Division::measure(const Solution& light, double goal) {
             due.push_back(i);
     std::ranges::sort(due, {}, [&](std::uint32_t i) { return std::pair(most(i), i); });
     double left_out = 0;
-    const auto first = std::ranges::find_if(
-        due, [&](std::uint32_t i) { return (left_out += most(i)) > negligible_share * goal; });
+    const auto first = std::ranges::find_if(due, [&](std::uint32_t i) {
+        return (left_out += most(i)) > tuned::negligible_share * goal;
+    });
     due.erase(due.begin(), first);
     std::erase_if(due, [&](std::uint32_t i) { return !(counts(i) > 0); });
     std::ranges::sort(due);
     const auto known = std::stable_partition(due.begin(), due.end(),
                                              [&](std::uint32_t i) { return times_[i] == 0; });
     fresh_ = fresh_squares_ = 0;
-    measure(light, {due.begin(), known}, 1, rows_at_first);
-    measure(light, {known, due.end()}, 1, rows_again);
+    measure(light, {due.begin(), known}, 1, tuned::rows_at_first);
+    measure(light, {known, due.end()}, 1, tuned::rows_again);
     // Patches that were chosen for what was measured there are not a fair sample of all; these are.
     std::vector<std::uint32_t> some;
     for (std::uint32_t i = 0; i < is_due_.size(); ++i)
         if (counts(i) > 0 && times_[i] > 0 && measured_at_[i] < round_ &&
-            hash_words({options_.seed, measured_, i}) % one_again_in == 0)
+            hash_words({options_.seed, measured_, i}) % tuned::one_again_in == 0)
             some.push_back(i);
-    measure(light, some, 1, rows_again, one_again_in);
+    measure(light, some, 1, tuned::rows_again, tuned::one_again_in);
 }
 
 /// Measures some patches, by new points each time.
@@ -195,11 +217,9 @@ void Division::measure(const Solution& light, std::span<const std::uint32_t> som
     }
 }
 
-/// Returns whether the division is done, and that is known: few points may miss what few patches
-/// hold, whose squares then scatter.
+/// Returns whether the division is done, and that is known from how the squares scatter.
 bool Division::is_done(double goal) const {
-    constexpr double doubt = .5;
-    return fresh_ + doubt * std::sqrt(fresh_squares_) <= goal;
+    return fresh_ + tuned::sure_by * std::sqrt(fresh_squares_) <= goal;
 }
 
 /// Divides patches. Returns false if nothing can be divided.
@@ -212,10 +232,10 @@ bool Division::cut(Solution& light, double goal) {
     for (std::size_t i = 0; i < before; ++i)
         that_count.push_back(counts(i) * square_[i]);
     const std::vector<std::uint8_t> levels = levels_of_division(
-        that_count,
-        {.goal = goal,
-         .least_pieces = times(least_growth),
-         .most_pieces = std::min(options_.most_patches, times(most_growth) + least_room)});
+        that_count, {.goal = goal,
+                     .least_pieces = times(tuned::min_growth),
+                     .most_pieces = std::min(options_.most_patches,
+                                             times(tuned::max_growth) + tuned::min_room)});
     if (std::ranges::none_of(levels, [](std::uint8_t level) { return level > 0; }))
         return false;
     std::vector<Vec3> emission; // of a texture, which differs from piece to piece
@@ -246,7 +266,7 @@ std::uint64_t Division::add_slopes(Solution& light, double error) {
     rays_ = 0;
     weigh(light);
     const auto patches = mesh_.patches();
-    const double allowed = share_of_noise * error * error * reflected_square(mesh_, light);
+    const double allowed = tuned::share_of_noise * error * error * reflected_square(mesh_, light);
     double noise = 0;
     std::vector<std::uint32_t> noisy;
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
@@ -256,9 +276,9 @@ std::uint64_t Division::add_slopes(Solution& light, double error) {
             noisy.push_back(i);
     }
     if (noise > allowed && !monitor_.interrupted) {
-        const auto rounds =
-            static_cast<unsigned>(std::min(std::round(noise / allowed), most_rounds_of_slopes));
-        measure(light, noisy, rounds, rows_again);
+        const auto rounds = static_cast<unsigned>(
+            std::min(std::round(noise / allowed), tuned::max_rounds_of_slopes));
+        measure(light, noisy, rounds, tuned::rows_again);
     }
     light.slope = slopes();
     return rays_;

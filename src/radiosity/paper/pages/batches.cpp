@@ -34,4 +34,14 @@ void combine_batches(const Mesh& mesh, std::span<const std::vector<Vec3>, batche
         believed_freedom(solution.effective_freedom, effective_freedom(products, batches));
 }
 
+void add_missing(const Mesh& mesh, const Vec3& arriving, Solution& solution) {
+    solution.missed = 0;
+    for (std::uint32_t i = 0; i < mesh.patches().size(); ++i) {
+        const Vec3 missing = mesh.material(i).reflectance * arriving;
+        Vec3& sigma = solution.standard_error[i];
+        sigma = glm::sqrt(sigma * sigma + missing * missing);
+        solution.missed += mesh.patches()[i].area * glm::dot(missing, missing);
+    }
+}
+
 } // namespace hemilux::plain

@@ -17,4 +17,8 @@ inline constexpr std::size_t batches = 4;
 void combine_batches(const Mesh& mesh, std::span<const std::vector<Vec3>, batches + 1> B,
                      Solution& solution);
 
+/// Adds to the errors of `solution` what is missing of its light where this much of the light that
+/// arrives at each patch is not known [W/m2].
+void add_missing(const Mesh& mesh, const Vec3& arriving, Solution& solution);
+
 } // namespace hemilux::plain

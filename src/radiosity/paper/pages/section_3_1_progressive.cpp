@@ -1,20 +1,18 @@
 // Progressive radiosity on one page (paper section 3.1; Cohen, Chen, Wallace and Greenberg 1988).
 //
-// The patch with the largest unshot power shoots it to all others, by form factors that are found
+// The patch s with the largest unshot power shoots it to all others, by form factors that are found
 // on the fly and then forgotten:
 //
-//     B_i and dB_i grow by rho_i dB_s F_si A_s / A_i,   dB_s becomes 0,   s the shooter.
+//     B_i and dB_i grow by rho_i F_si A_s dB_s / A_i,   dB_s becomes 0.
 //
-// dB is the unshot part of B. An image may be shown after each shot, so a step is one shot. With
-// --ambient the image includes a guess of what is still unshot: that it spreads evenly. The run
-// ends when all but a little is shot.
-//
+// dB is the unshot part of B. An image may be shown after each shot, so a step is one shot; with
+// --ambient the image includes a guess of what is unshot. The run ends when nearly all is shot.
 // F_si is the share of cosine-distributed rays from s that hit i. Cohen et al. drew what s sees on
-// the pixels of a hemicube; the paper's reference 12, and the engine, look from i to s instead.
+// the pixels of a hemicube; reference 12 of the paper, and the engine, look from i to s instead.
 //
 // The parameter is --rays: each shot traces so many for each patch of the scene. They are of four
-// independent batches, which share the shooter and nothing else. The result is their mean, and
-// their spread its standard error, to which comes what is unshot.
+// independent batches, which have the shooters in common and nothing else. The result is their
+// mean. Its standard error comes from their spread, and from what is unshot.
 //
 // The method is good for a first picture after few shots, and needs no memory for pairs. It is bad
 // for many patches that reflect much, as each shoots many times.
@@ -28,7 +26,6 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace hemilux::plain {
 namespace {
@@ -42,27 +39,22 @@ struct FormFactors {
     double escaped = 0, absorbed = 0;
 };
 
-/// The light that a batch has found: radiosity, and its unshot part, by patch.
-struct Light {
-    std::vector<Vec3> B, dB;
-};
-
 class Progressive final : public Solver {
   public:
     explicit Progressive(const SolverInput& input)
         : input_(input), patches_(input.mesh.patches()), solution_(solution_before_steps(input)) {
-        light_.fill({solution_.radiosity, solution_.radiosity}); // the emission, all unshot
+        B_.fill(solution_.radiosity); // the emission, all of which is unshot
+        dB_.fill(solution_.radiosity);
     }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
     [[nodiscard]] bool finished() const override {
-        const EnergyBalance& energy = solution_.energy;
-        const bool all_shot =
-            !(mean_of_channels(energy.unshot) > rest * mean_of_channels(energy.emitted));
+        const EnergyBalance& of = solution_.energy;
+        const bool all_shot = mean_of_channels(of.unshot) <= rest * mean_of_channels(of.emitted);
         return solution_.steps > 0 && (all_shot || !input_.needs.bounces);
     }
 
     bool step() override {
-        std::uint32_t s = 0; // the shooter
+        std::uint32_t s = 0;
         for (std::uint32_t i = 0; i < patches_.size(); ++i)
             if (mean_of_channels(unshot(i)) > mean_of_channels(unshot(s)))
                 s = i;
@@ -72,7 +64,7 @@ class Progressive final : public Solver {
         if (input_.monitor.interrupted)
             return false;
         for (std::size_t b = 0; b < batches; ++b)
-            shoot(s, F[b], light_[b]);
+            shoot(s, F[b], b);
         show();
         ++solution_.steps;
         return true;
@@ -80,18 +72,15 @@ class Progressive final : public Solver {
 
   private:
     /// Returns the unshot power of a patch, A_i dB_i, in the mean of the batches.
-    [[nodiscard]] Vec3 unshot(std::size_t i) const {
-        Vec3 dB(0.0);
-        for (const Light& light : light_)
-            dB += light.dB[i] / double(batches);
-        return patches_[i].area * dB;
+    [[nodiscard]] Vec3 unshot(std::uint32_t i) const {
+        return patches_[i].area * (dB_[0][i] + dB_[1][i] + dB_[2][i] + dB_[3][i]) / double(batches);
     }
 
     /// Returns the form factors from patch s to all others.
     [[nodiscard]] FormFactors find_factors(std::uint32_t s, std::size_t batch) {
         FormFactors F{.to = std::vector<double>(patches_.size())};
-        const double rays =
-            std::ceil(input_.options.rays * double(patches_.size()) / double(batches));
+        const double of_shot = input_.options.rays * double(patches_.size());
+        const double rays = std::ceil(of_shot / double(batches));
         const auto start = PatchStart::in_any_axes(input_.mesh, s);
         Rng random(hash_words({input_.options.seed, batch, solution_.steps}));
         for (double ray = 0; ray < rays && !input_.monitor.interrupted; ++ray) {
@@ -105,60 +94,51 @@ class Progressive final : public Solver {
         return F;
     }
 
-    void shoot(std::uint32_t s, const FormFactors& F, Light& light) {
-        const Vec3 Phi = patches_[s].area * std::exchange(light.dB[s], Vec3(0.0));
-        escaped_ += F.escaped * Phi;
-        absorbed_ += F.absorbed * Phi;
+    void shoot(std::uint32_t s, const FormFactors& F, std::size_t batch) {
+        const Vec3 Phi = patches_[s].area * dB_[batch][s];
+        dB_[batch][s] = Vec3(0.0);
+        escaped_ += F.escaped * Phi / double(batches);
+        absorbed_ += F.absorbed * Phi / double(batches);
         for (std::uint32_t i = 0; i < patches_.size(); ++i) {
             if (F.to[i] == 0)
                 continue;
-            const Vec3& rho = input_.mesh.material(i).reflectance;
-            const Vec3 reflected = rho * (F.to[i] / patches_[i].area) * Phi;
-            light.B[i] += reflected;
-            light.dB[i] += reflected;
-            absorbed_ += (1.0 - rho) * F.to[i] * Phi;
+            const Vec3 rho = input_.mesh.material(i).reflectance;
+            const Vec3 reflected = rho * F.to[i] * Phi / patches_[i].area;
+            B_[batch][i] += reflected;
+            dB_[batch][i] += reflected;
+            absorbed_ += (1.0 - rho) * F.to[i] * Phi / double(batches);
         }
     }
 
     /// Shows the mean of the batches. What is unshot will come to each patch as the ambient term of
-    /// Cohen et al.: spread evenly and reflected again and again by the mean reflectance.
+    /// Cohen et al. has it: spread evenly, and reflected again and again by the mean reflectance.
     void show() {
-        std::array<std::vector<Vec3>, batches + 1> B; // of each batch, then their mean
-        B[batches].assign(patches_.size(), Vec3(0.0));
-        Vec3 power(0.0), reflectance(0.0); // unshot, and the mean times the area
+        Vec3 power(0.0), reflecting(0.0);
         double area = 0;
-        for (std::size_t b = 0; b < batches; ++b)
-            B[b] = light_[b].B;
         for (std::uint32_t i = 0; i < patches_.size(); ++i) {
-            for (const Light& light : light_)
-                B[batches][i] += light.B[i] / double(batches);
+            B_[batches][i] = (B_[0][i] + B_[1][i] + B_[2][i] + B_[3][i]) / double(batches);
             power += unshot(i);
-            reflectance += patches_[i].area * input_.mesh.material(i).reflectance;
+            reflecting += patches_[i].area * input_.mesh.material(i).reflectance;
             area += patches_[i].area;
         }
-        solution_.effective_freedom.reset(); // of other errors, before this shot
-        combine_batches(input_.mesh, B, solution_);
-        const Vec3 ambient = power / area / (1.0 - glm::min(reflectance / area, Vec3(.999)));
-        solution_.missed = 0;
-        for (std::uint32_t i = 0; i < patches_.size(); ++i) {
-            const Vec3 missing = input_.mesh.material(i).reflectance * ambient;
-            Vec3& sigma = solution_.standard_error[i];
-            sigma = glm::sqrt(sigma * sigma + missing * missing);
-            solution_.missed += patches_[i].area * glm::dot(missing, missing);
+        const Vec3 ambient = power / area / (1.0 - glm::min(reflecting / area, Vec3(.999)));
+        solution_.effective_freedom.reset(); // that of the errors before this shot
+        combine_batches(input_.mesh, B_, solution_);
+        add_missing(input_.mesh, ambient, solution_);
+        for (std::uint32_t i = 0; i < patches_.size(); ++i)
             if (input_.options.own.of<ProgressiveOptions>().ambient)
-                solution_.radiosity[i] += missing;
-        }
-        const double to_world = input_.mesh.frame().area_to_world(1 / double(batches));
-        solution_.energy.absorbed = to_world * absorbed_.value();
-        solution_.energy.escaped = to_world * escaped_.value();
-        solution_.energy.unshot = input_.mesh.frame().area_to_world(1.0) * power;
+                solution_.radiosity[i] += input_.mesh.material(i).reflectance * ambient;
+        const double to_world = input_.mesh.frame().area_to_world(1.0);
+        solution_.energy = {solution_.energy.emitted, to_world * absorbed_.value(),
+                            to_world * escaped_.value(), to_world * power};
     }
 
     SolverInput input_;
     std::span<const Patch> patches_;
-    std::array<Light, batches> light_;
-    CompensatedSum<Vec3> absorbed_, escaped_; ///< power, over all batches
-    Solution solution_;                       ///< shown after the last shot
+    Solution solution_;                            ///< shown after the last shot
+    std::array<std::vector<Vec3>, batches + 1> B_; ///< by batch and patch; then the mean
+    std::array<std::vector<Vec3>, batches> dB_;    ///< the part of it that is unshot
+    CompensatedSum<Vec3> absorbed_, escaped_;      ///< power, in the mean of the batches
 };
 
 } // namespace

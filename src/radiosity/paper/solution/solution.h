@@ -2,6 +2,7 @@
 // Holds what every method finds: the radiosity of each patch and its error.
 
 #include "geometry/vector.h"
+#include "radiosity/paper/solution/method_figures.h"
 
 #include <cstdint>
 #include <limits>
@@ -72,20 +73,13 @@ struct Solution {
     /// averages.
     std::optional<double> reflected_share;
     EnergyBalance energy;
-    /// The number of patches from which `stored-transport` traces no more random rays. None of the
-    /// rays that were traced has found a path to them from an emitter.
-    std::size_t unlit = 0;
-    /// The number of lit patches from which it traces no more, as no path leads from them to one
-    /// that has weight.
-    std::size_t unneeded = 0;
-    std::size_t links = 0; ///< that `hierarchical` gathers over
     std::uint32_t steps = 0;
     std::uint64_t rays_energy = 0;
     std::uint64_t rays_density = 0;
     std::uint64_t rays_density_spared = 0; ///< below triangles that were not divided
     std::uint64_t bytes_density = 0;       ///< of the density store; 0 where a method keeps none
-    std::uint64_t bytes_transport = 0;     ///< of the rays that `stored-transport` keeps
     double seconds_density = 0;            ///< spent before the first step
+    MethodFigures figures = {};            ///< what only its method finds
 };
 
 /// Errors relative to the reflected radiosity [-], as root mean squares over area and channels: of

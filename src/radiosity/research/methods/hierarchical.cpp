@@ -146,7 +146,7 @@ class HierarchicalSolver final : public Solver {
             return solved;
         combine(points, factors);
         solution_.rays_energy = traced_;
-        solution_.links = links_.all().size();
+        solution_.figures.set("links", links_.all().size());
         ++solution_.steps;
         rays_ *= 2;
         tolerance_ *= finer_tolerance;

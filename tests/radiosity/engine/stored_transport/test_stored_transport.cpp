@@ -276,9 +276,9 @@ TEST_CASE("With little memory stored transport goes on, and its rays take no mor
     const Solution many = test::solve(model, stored_transport(), options, test::steps(40));
     options.memory = 0;
     const Solution free = test::solve(model, stored_transport(), options, test::steps(10));
-    CHECK(many.bytes_transport <= 300'000);
-    CHECK(many.bytes_transport > few.bytes_transport / 2);
-    CHECK(free.bytes_transport > 2 * many.bytes_transport);
+    CHECK(many.figures.value("bytes_transport") <= 300'000);
+    CHECK(many.figures.value("bytes_transport") > few.figures.value("bytes_transport") / 2);
+    CHECK(free.figures.value("bytes_transport") > 2 * many.figures.value("bytes_transport"));
     const auto off = [&](const Solution& s) {
         return true_error(model.mesh, s.radiosity, exact.radiosity).all;
     };
