@@ -82,7 +82,7 @@ TEST_CASE("a resumed run ends with the bytes of one that was not interrupted", "
                                         "hemisphere --guide learned", "hemisphere-1997",
                                         "hemisphere-1997 --literal --stored-steps 3 --parts 1",
                                         "monte-carlo", "progressive-monte-carlo", "stratified");
-    if (method.find("--guide") != std::string::npos && !test::has_research())
+    if (method.find("--guide") != std::string::npos && !hemilux::test::has_research())
         return;
     CAPTURE(method);
     const std::string run = "solve room.obj --rays 20 --method " + method;
@@ -164,7 +164,7 @@ TEST_CASE("checkpoints of other runs are refused") {
         "solve room.obj --rays 20 --max-edge .3 --steps 8 --resume saved --method";
     std::vector<std::string> options{"--seed 2", "--depth 1", "--threshold 3", "--literal",
                                      "--keep-all"};
-    if (test::has_research())
+    if (hemilux::test::has_research())
         options.emplace_back("--guide learned");
     for (const std::string& option : options)
         check_refused(place, same + " hemisphere " + option,
