@@ -91,6 +91,7 @@ if [ "${1-}" = --check ]; then
 fi
 
 asked=" $* "
+cores=$(nproc 2>/dev/null || echo 2)
 work=${WORK:-$(mktemp -d)}
 [ -n "${WORK-}" ] || trap 'rm -rf "$work"' EXIT
 mkdir -p "$work/tree"
@@ -107,7 +108,7 @@ try() {
     cp "$work/tree/src/$3" "$work/as_it_was"
     cp "$work/changed" "$work/tree/src/$3"
     result=
-    if ! cmake --build "$work/build" --parallel --target "test_$2" >"$work/log" 2>&1; then
+    if ! cmake --build "$work/build" --parallel "$cores" --target "test_$2" >"$work/log" 2>&1; then
         result="no build"
     elif (cd "$work/build" && timeout 300 "tests/test_$2" '~[slow]' --abort >"$work/log" 2>&1); then
         result=SURVIVED

@@ -137,11 +137,9 @@ SparseMatrix ExactFormFactors::matrix(const SampledFormFactors& samples) const {
             result.column.push_back(entry.patch);
             result.value.push_back(factor);
         }
-        const EscapeFraction& lost = samples.lost()[i];
-        const double left = 1 - lost.escaped - lost.absorbed - exact;
-        if (left > 0 && drawn > 0)
-            for (const std::size_t place : open)
-                result.value[place] *= left / drawn;
+        const double rest = std::max(1 - exact, 0.0), rays = drawn + samples.lost()[i].sum();
+        for (const std::size_t place : open)
+            result.value[place] *= rest / rays;
         result.row_begin.push_back(result.value.size());
     }
     return result;

@@ -23,8 +23,9 @@ class ExactFormFactors {
     /// The mesh outlives this.
     ExactFormFactors(const Mesh& mesh, const Workers& workers, const Monitor& monitor);
 
-    /// Returns the matrix, with the sampled factors for the other pairs. These are scaled so that
-    /// rows are closed; they must have been made without emitters.
+    /// Returns the matrix, with the sampled factors for the other pairs; they must have been made
+    /// without emitters. What the exact factors of a row leave of 1 is known. So the sampled ones,
+    /// and the rays that were lost, share in it as they were drawn, and rows are closed.
     [[nodiscard]] SparseMatrix matrix(const SampledFormFactors& sampled) const;
 
     /// Returns F_ij [-] where it is known without sampling; 0 where the two do not face each other.

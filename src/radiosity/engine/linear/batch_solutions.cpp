@@ -1,6 +1,7 @@
 #include "radiosity/engine/linear/batch_solutions.h"
 
 #include "geometry/compensated_sum.h"
+#include "radiosity/engine/linear/unsolved_light.h"
 #include "radiosity/paper/scene/alike_neighbours.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "radiosity/paper/solution/error_spread.h"
@@ -8,14 +9,13 @@
 
 namespace hemilux {
 
-EnergyBalance solve_closed(const FormFactorProduct& multiply, const Transport& transport,
-                           const SolverInput& input, std::vector<Vec3>& radiosity) {
-    std::vector<Vec3> incident =
-        arriving_light(multiply, input.mesh, radiosity, input.needs.colours);
-    const EnergyBalance energy = close_energy(transport, incident);
+SolvedBatch solve_closed(const FormFactorProduct& multiply, const Transport& transport,
+                         const SolverInput& input, std::vector<Vec3>& radiosity) {
+    ArrivingLight light = arriving_light(multiply, input.mesh, radiosity, input.needs.colours);
+    const EnergyBalance energy = close_energy(transport, light.incident);
     for (std::size_t i = 0; i < radiosity.size(); ++i)
-        radiosity[i] = transport.emission[i] + transport.reflectance[i] * incident[i];
-    return energy;
+        radiosity[i] = transport.emission[i] + transport.reflectance[i] * light.incident[i];
+    return {energy, light.unsolved};
 }
 
 BatchSolutions::BatchSolutions(const SolverInput& input, std::size_t batches,
@@ -26,9 +26,12 @@ std::optional<bool> BatchSolutions::solve(const SearchForWayOut& search, const S
                                           const SolveBatch& solve_batch) {
     input_.monitor.phase = "solving";
     CompensatedSum<Vec3> absorbed, escaped;
+    double unsolved = 0;
     bool drained = true;
     for (std::size_t r = 0; r < radiosity_.size(); ++r) {
-        const EnergyBalance energy = solve_batch(r, radiosity_[r]);
+        const SolvedBatch batch = solve_batch(r, radiosity_[r]);
+        const EnergyBalance& energy = batch.energy;
+        unsolved += batch.unsolved / double(radiosity_.size());
         absorbed += energy.absorbed;
         escaped += energy.escaped;
         drained = drained && search.is_drained(energy);
@@ -41,9 +44,15 @@ std::optional<bool> BatchSolutions::solve(const SearchForWayOut& search, const S
     }
     for (const std::vector<Vec3>& of_batch : radiosity_)
         check_finite(input_.mesh, of_batch, "the radiosity", last.steps + 1);
+    check_bounded(unsolved);
     absorbed_ = absorbed.value() / double(radiosity_.size());
     escaped_ = escaped.value() / double(radiosity_.size());
+    unsolved_ = unsolved;
     return true;
+}
+
+void BatchSolutions::add_unsolved_to(Solution& solution) const {
+    add_unsolved(unsolved_, input_.mesh, solution);
 }
 
 std::vector<Vec3> BatchSolutions::combine(Solution& solution) const {

@@ -14,19 +14,25 @@
 
 namespace hemilux {
 
+/// What solving one batch has found out besides its light.
+struct SolvedBatch {
+    EnergyBalance energy;
+    double unsolved = 0; ///< ArrivingLight::unsolved
+};
+
 /// Solves B = E + rho F B from `radiosity` on, which is then the solution with its energy closed
 /// (close_energy).
-EnergyBalance solve_closed(const FormFactorProduct& multiply, const Transport& transport,
-                           const SolverInput& input, std::vector<Vec3>& radiosity);
+[[nodiscard]] SolvedBatch solve_closed(const FormFactorProduct& multiply,
+                                       const Transport& transport, const SolverInput& input,
+                                       std::vector<Vec3>& radiosity);
 
 class BatchSolutions {
   public:
     /// There are at least two batches; each begins with the solution before the first step.
     BatchSolutions(const SolverInput& input, std::size_t batches, const Solution& before);
 
-    /// Finds the radiosity of a batch from its last one on, and says where its power goes.
-    using SolveBatch =
-        std::function<EnergyBalance(std::size_t batch, std::vector<Vec3>& radiosity)>;
+    /// Finds the radiosity of a batch from its last one on, and where its power goes.
+    using SolveBatch = std::function<SolvedBatch(std::size_t batch, std::vector<Vec3>& radiosity)>;
     /// Returns whether all were solved and not interrupted. Returns nothing where the rays of a
     /// batch have seen no way out for the light: all then begin anew from the `last` solution.
     /// Throws SolveError where a result is not finite.
@@ -36,11 +42,14 @@ class BatchSolutions {
     /// Sets the solution's radiosity, energy, variance and degrees of freedom. Returns the
     /// variance of the mean by patch and channel [(W/m2)^2], pooled with neighbours that are alike.
     [[nodiscard]] std::vector<Vec3> combine(Solution& solution) const;
+    /// Adds what the solver has left unsolved to the solution's errors, when these are known.
+    void add_unsolved_to(Solution& solution) const;
 
   private:
     SolverInput input_;
     std::vector<std::vector<Vec3>> radiosity_; ///< by batch and patch [W/m2]
     Vec3 absorbed_{0.0}, escaped_{0.0};        ///< power, mean of the batches, local units
+    double unsolved_ = 0;                      ///< mean of the batches
 };
 
 } // namespace hemilux

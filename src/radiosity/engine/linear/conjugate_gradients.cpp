@@ -11,7 +11,7 @@
 namespace hemilux {
 namespace {
 
-constexpr int most_iterations = 1000;
+constexpr int max_iterations = 1000;
 
 /// Returns the square of a residual relative to the light it belongs to. It is at most 1, also
 /// where there is no light yet. What is not reflected is left to the step after the last.
@@ -49,10 +49,10 @@ struct Sums {
 
 } // namespace
 
-int solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> area,
-                       std::span<const Vec3> reflectance, std::span<const Vec3> d,
-                       std::vector<Vec3>& h, const Workers& workers, double tolerance,
-                       const StopFlag* interrupted) {
+GradientsResult solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> area,
+                                   std::span<const Vec3> reflectance, std::span<const Vec3> d,
+                                   std::vector<Vec3>& h, const Workers& workers, double tolerance,
+                                   const StopFlag* interrupted) {
     const std::size_t n = h.size();
     // The arrays hold values of this rank's patches only; the others' are never touched.
     const auto of_patches = [n] { return std::make_unique_for_overwrite<Vec3[]>(n); };
@@ -103,7 +103,7 @@ int solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> ar
     };
     const auto is_interrupted = [&] { return interrupted && agree(*interrupted); };
     int iterations = 0;
-    for (; worst() > tolerance && iterations < most_iterations && !is_interrupted(); ++iterations) {
+    for (; worst() > tolerance && iterations < max_iterations && !is_interrupted(); ++iterations) {
         factors.for_rows(workers, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 p[i] = r[i] + more * p[i];
@@ -132,7 +132,8 @@ int solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> ar
     });
     rows.gather(h);
     factors.count_products(1 + iterations);
-    return iterations;
+    const double residual = worst();
+    return {iterations, residual, iterations < max_iterations || !(residual > tolerance)};
 }
 
 } // namespace hemilux

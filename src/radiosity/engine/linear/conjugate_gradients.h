@@ -13,15 +13,22 @@
 
 namespace hemilux {
 
+struct GradientsResult {
+    int iterations = 0;
+    double residual = 0;   ///< of the worst channel, relative to the light as below [-]
+    bool converged = true; ///< false where the iterations ended at their limit
+};
+
 /// Solves h = d + F rho h, the light that arrives [W/m2] by patch, from the guess in `h`; areas are
-/// local. Returns the number of iterations.
+/// local.
 ///
 /// The iterations end when the residual is below `tolerance` in each channel. It is relative to the
 /// light at the same patch, as root mean square over the area that is lit. So a faint room beside a
-/// bright one is solved to its own scale. They also end when interrupted; h is void then.
-int solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> area,
-                       std::span<const Vec3> reflectance, std::span<const Vec3> d,
-                       std::vector<Vec3>& h, const Workers& workers, double tolerance,
-                       const StopFlag* interrupted = nullptr);
+/// bright one is solved to its own scale. They also end at a limit, and when interrupted; h is void
+/// then.
+[[nodiscard]] GradientsResult
+solve_by_gradients(const ExchangeMatrix& factors, std::span<const double> area,
+                   std::span<const Vec3> reflectance, std::span<const Vec3> d, std::vector<Vec3>& h,
+                   const Workers& workers, double tolerance, const StopFlag* interrupted = nullptr);
 
 } // namespace hemilux

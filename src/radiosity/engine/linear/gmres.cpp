@@ -1,5 +1,6 @@
 #include "radiosity/engine/linear/gmres.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -7,6 +8,10 @@ namespace hemilux {
 namespace {
 
 using Vector = std::vector<double>;
+
+/// Residuals below the first, relative to b, can be rounding errors, and so can those below the
+/// second, relative to x. The latter are larger where x is: in a very bright room.
+constexpr double roughly_converged = 1e-10, rounding_of_products = 1e-14;
 
 double dot(const Vector& a, const Vector& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
@@ -44,17 +49,17 @@ struct Rotation {
 /// One cycle of Arnoldi's method from the residual r, which adds the correction to x.
 class Cycle {
   public:
-    Cycle(const LinearMap& multiply, std::size_t length) : multiply_(multiply), length_(length) {}
+    explicit Cycle(const LinearMap& multiply) : multiply_(multiply) {}
 
-    /// Runs the cycle and returns the number of products made.
-    std::size_t run(Vector& r, double beta, double goal, Vector& x) {
+    /// Runs the cycle with at most `length` vectors and returns the number of products made.
+    std::size_t run(std::size_t length, Vector& r, double beta, double goal, Vector& x) {
         basis_.clear();
         columns_.clear();
         rotations_.clear();
         scale(r, 1 / beta);
         basis_.push_back(r);
         rhs_.assign(1, beta);
-        while (columns_.size() < length_ && std::abs(rhs_.back()) > goal && extend()) {
+        while (columns_.size() < length && std::abs(rhs_.back()) > goal && extend()) {
         }
         add_correction(x);
         return columns_.size();
@@ -103,7 +108,6 @@ class Cycle {
     }
 
     const LinearMap& multiply_;
-    std::size_t length_;
     std::vector<Vector> basis_, columns_;
     std::vector<Rotation> rotations_;
     Vector rhs_;
@@ -119,8 +123,9 @@ GmresResult gmres(const LinearMap& multiply, const std::vector<double>& b, std::
         x.assign(b.size(), 0.0);
         return result;
     }
-    Cycle cycle(multiply, options.restart);
+    Cycle cycle(multiply);
     Vector r(b.size());
+    std::size_t length = options.restart;
     for (double before = INFINITY;;) {
         multiply(x, r);
         for (std::size_t i = 0; i < r.size(); ++i)
@@ -128,12 +133,18 @@ GmresResult gmres(const LinearMap& multiply, const std::vector<double>& b, std::
         const double beta = norm(r);
         result.residual = beta / size;
         // A residual within a factor of two of the last cycle's shows that only rounding errors are
-        // left.
-        if (!(result.residual > options.tolerance) || result.iterations >= options.most ||
-            (before < 1e-10 && result.residual > before / 2))
+        // left, where these can be as large.
+        const bool rounding = result.residual > before / 2 &&
+                              (before < roughly_converged || beta < rounding_of_products * norm(x));
+        result.converged = !(result.residual > options.tolerance) || rounding;
+        if (result.converged || result.iterations >= options.max_iterations)
             return result;
+        // A cycle that gains less than this would not get to the tolerance within the iterations.
+        const double share = double(length) / double(options.max_iterations);
+        if (result.residual > std::pow(options.tolerance, share) * before)
+            length = std::min(2 * length, std::max(options.max_restart, length));
         before = result.residual;
-        result.iterations += cycle.run(r, beta, options.tolerance * size / 2, x);
+        result.iterations += cycle.run(length, r, beta, options.tolerance * size / 2, x);
     }
 }
 

@@ -1,26 +1,51 @@
 #include "radiosity/engine/linear/radiosity_system.h"
 
 #include "radiosity/engine/linear/gmres.h"
+#include "radiosity/engine/linear/unsolved_light.h"
 #include "radiosity/paper/scene/mesh.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace hemilux {
 
-std::vector<Vec3> arriving_light(const FormFactorProduct& multiply, const Mesh& mesh,
-                                 std::span<const Vec3> radiosity, bool colours) {
+namespace {
+
+/// Returns the residual of R = rho F (E + R), relative to R, by area. `x` is E + R and `arriving`
+/// is F x.
+double residual_of(const Mesh& mesh, int channel, std::span<const double> x,
+                   std::span<const double> arriving) {
+    double squares = 0, size = 0;
+    for (std::uint32_t i = 0; i < x.size(); ++i) {
+        const double area = mesh.patches()[i].area;
+        const double reflected = x[i] - mesh.material(i).emission[channel];
+        const double off = mesh.material(i).reflectance[channel] * arriving[i] - reflected;
+        squares += area * off * off;
+        size += area * reflected * reflected;
+    }
+    return std::sqrt(squares / size);
+}
+
+} // namespace
+
+ArrivingLight arriving_light(const FormFactorProduct& multiply, const Mesh& mesh,
+                             std::span<const Vec3> radiosity, bool colours) {
     const std::size_t n = radiosity.size();
     std::vector<double> emission(n), rho(n), first(n), x(n), arriving(n);
-    std::vector<Vec3> incident(n);
+    ArrivingLight light{std::vector<Vec3>(n)};
     const int channels = colours ? 3 : 1;
     for (int c = 0; c < channels; ++c) {
+        double lost_at_least = 1;
         for (std::uint32_t i = 0; i < n; ++i) {
             emission[i] = mesh.material(i).emission[c];
             rho[i] = mesh.material(i).reflectance[c];
             x[i] = radiosity[i][c] - emission[i];
+            lost_at_least = std::min(lost_at_least, 1 - rho[i]);
         }
         multiply(emission, first);
         for (std::size_t i = 0; i < n; ++i)
             first[i] *= rho[i];
-        gmres(
+        const GmresResult result = gmres(
             [&](const std::vector<double>& b, std::vector<double>& y) {
                 multiply(b, y);
                 for (std::size_t i = 0; i < n; ++i)
@@ -31,12 +56,15 @@ std::vector<Vec3> arriving_light(const FormFactorProduct& multiply, const Mesh& 
             x[i] += emission[i];
         multiply(x, arriving);
         for (std::uint32_t i = 0; i < n; ++i)
-            incident[i][c] = arriving[i];
+            light.incident[i][c] = arriving[i];
+        if (!result.converged)
+            light.unsolved = std::max(
+                light.unsolved, unsolved_error(residual_of(mesh, c, x, arriving), lost_at_least));
     }
     if (channels == 1)
-        for (Vec3& all : incident)
+        for (Vec3& all : light.incident)
             all = Vec3(all.r);
-    return incident;
+    return light;
 }
 
 } // namespace hemilux

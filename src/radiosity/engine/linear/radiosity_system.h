@@ -14,11 +14,19 @@ class Mesh;
 /// Computes y = F x, by patch.
 using FormFactorProduct = std::function<void(std::span<const double> x, std::span<double> y)>;
 
-/// Returns what arrives at each patch, sum_j F_ij B_j [W/m2], where B = E + rho F B. It is found as
-/// B = E + R, R = rho F (E + R), channel by channel, by GMRES from `radiosity` on. The residual is
-/// relative to the reflected light R: beside a tiny emitter's light all of it could be too small to
-/// count. `colours` is false where all is grey, and one channel stands for three.
-[[nodiscard]] std::vector<Vec3> arriving_light(const FormFactorProduct& multiply, const Mesh& mesh,
-                                               std::span<const Vec3> radiosity, bool colours);
+struct ArrivingLight {
+    std::vector<Vec3> incident; ///< sum_j F_ij B_j, by patch [W/m2]
+    /// A bound of the relative error of the reflected light, in the worst channel, where the
+    /// iterations ended before the residual was small [-], which may be infinite; else 0
+    /// (unsolved_light.h).
+    double unsolved = 0;
+};
+
+/// Returns what arrives at each patch where B = E + rho F B. It is found as B = E + R, R = rho F (E
+/// + R), channel by channel, by GMRES from `radiosity` on. The residual is relative to the
+/// reflected light R: beside a tiny emitter's light all of it could be too small to count.
+/// `colours` is false where all is grey, and one channel stands for three.
+[[nodiscard]] ArrivingLight arriving_light(const FormFactorProduct& multiply, const Mesh& mesh,
+                                           std::span<const Vec3> radiosity, bool colours);
 
 } // namespace hemilux

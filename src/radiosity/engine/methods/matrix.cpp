@@ -65,7 +65,7 @@ class MatrixSolver final : public Solver {
         std::vector<std::uint32_t> emitters;
         if (input.options.own.of<FactorOptions>().kind == FactorKind::exact)
             exact_.emplace(input.mesh, workers_, input.monitor);
-        else
+        if (!exact_)
             emitters = few_emitters(input.mesh);
         rays_find_emission_ = emitters.empty();
         // Exact factors are put together with those of all patches.
@@ -125,8 +125,8 @@ class MatrixSolver final : public Solver {
 
     /// Solves one batch, from its last solution on. The lost shares are those of the rows as they
     /// are, of one kind or the other as rays tell; for emitters, they are what is known best.
-    EnergyBalance solve(const SampledFormFactors& factors, std::span<const EmitterLoss> losses,
-                        std::vector<Vec3>& radiosity) {
+    SolvedBatch solve(const SampledFormFactors& factors, std::span<const EmitterLoss> losses,
+                      std::vector<Vec3>& radiosity) {
         const SparseMatrix f = exact_ ? exact_->matrix(factors) : factors.matrix();
         const std::size_t n = radiosity.size();
         std::vector<double> rays(n, rays_of_step_);
@@ -162,6 +162,7 @@ class MatrixSolver final : public Solver {
             solution_.standard_error[i] =
                 glm::sqrt(variance[i] + level * level + missed[i] * missed[i]);
         }
+        batches_.add_unsolved_to(solution_);
     }
 
     /// Returns the share of all light that three rays stand for which were not lost and might have

@@ -17,14 +17,15 @@
 // needs ten to fifty times fewer rays than shooting, most where light is even and surfaces reflect
 // much. It costs 8 bytes per patch and patch that it saw, and twice as many more to solve.
 
+#include "radiosity/engine/stored_transport/page/stored_transport.h"
 #include "radiosity/engine/form_factors/exchange_matrix.h"
 #include "radiosity/engine/linear/energy_ledger.h"
+#include "radiosity/engine/linear/unsolved_light.h"
 #include "radiosity/engine/saving/solution_state.h"
 #include "radiosity/engine/saving/state.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/stored_transport/batch_light.h"
 #include "radiosity/engine/stored_transport/importance.h"
-#include "radiosity/engine/stored_transport/page/stored_transport.h"
 #include "radiosity/engine/stored_transport/ray_plan.h"
 #include "radiosity/engine/stored_transport/row_spread.h"
 #include "radiosity/engine/stored_transport/step_errors.h"
@@ -54,8 +55,8 @@ class StoredTransportSolver final : public Solver {
     explicit StoredTransportSolver(const SolverInput& input)
         : input_(input), solution_(solution_before_steps(input)), workers_(input.options.threads),
           rays_(input), system_(input.mesh, rays_.emitters(), input.needs.closed),
-          aim_(input.mesh, system_, input.target),
-          plan_(first_plan(input, !rays_.emitters().empty())), light_(input.mesh.patches().size()) {
+          aim_(input.mesh, input.target), plan_(first_plan(input, !rays_.emitters().empty())),
+          light_(input.mesh.patches().size()) {
         solution_.standard_error.assign(input.mesh.patches().size(), Vec3(0.0)); // can be saved
         plan_.aim(aim_.importance());
     }
@@ -119,7 +120,7 @@ class StoredTransportSolver final : public Solver {
         const double error = solution_.steps > 0 ? estimated_error(input_.mesh, solution_)
                                                  : std::numeric_limits<double>::quiet_NaN();
         std::vector<BatchLight::Light> found = light_.solved();
-        const ExchangeMatrix all =
+        const TransportSystem::Solved solved =
             system_.solve(rays_, error, found, workers_, input_.monitor.interrupted);
         if (input_.monitor.interrupted)
             return false;
@@ -128,11 +129,12 @@ class StoredTransportSolver final : public Solver {
             found, [&](const BatchLight::Light& light) { return search.is_drained(light.energy); });
         if (!drained_)
             return std::nullopt;
+        check_bounded(solved.unsolved);
         light_.solved() = std::move(found);
         for (std::size_t s = 0; s <= batches; ++s)
             check_finite(input_.mesh, light_.solved()[s].incident, "the light that reaches",
                          solution_.steps + 1);
-        combine(all);
+        combine(solved);
         return true;
     }
 
@@ -148,7 +150,7 @@ class StoredTransportSolver final : public Solver {
     }
 
     void renew_aim() {
-        aim_.renew(rays_.factors(system_.area(), workers_), workers_);
+        aim_.renew(input_.mesh, system_, rays_.factors(system_.area(), workers_), workers_);
         plan_.aim(aim_.importance());
     }
 
@@ -186,7 +188,8 @@ class StoredTransportSolver final : public Solver {
     }
 
     /// Sets what the step has found, how large its error may be, and what the next step depends on.
-    void combine(const ExchangeMatrix& all) {
+    void combine(const TransportSystem::Solved& solved) {
+        const ExchangeMatrix& all = solved.factors;
         const RowSpread rows = spread_of_rows(all, set_light(), workers_);
         const TransportResult result{input_.mesh, system_,        light_,       all,
                                      rows,        rays_.direct(), input_.target};
@@ -194,6 +197,7 @@ class StoredTransportSolver final : public Solver {
         const TransportErrors errors = errors_of(result, workers_);
         errors_ = StepErrors(errors, spread);
         report(errors, spread, input_.needs, solution_);
+        add_unsolved(solved.unsolved, input_.mesh, solution_);
         if (aim_.has_target()) {
             aim_.step_done(errors.part, errors.lit);
             solution_.figures.set(transport_figures::unneeded, aim_.unneeded());

@@ -38,7 +38,9 @@ std::vector<Vec3> importance_of(const ExchangeMatrix& factors, std::span<const d
     for (const double w : weight)
         source.emplace_back(w);
     std::vector<Vec3> importance(weight.size(), Vec3(0.0));
-    solve_by_gradients(factors, area, reflectance, source, importance, workers, tolerance);
+    // Rays are allocated by it, and right on average however they are: a rough one will do.
+    static_cast<void>(
+        solve_by_gradients(factors, area, reflectance, source, importance, workers, tolerance));
     return importance;
 }
 
@@ -63,10 +65,8 @@ std::vector<double> importance_of_rays(const Mesh& mesh, std::span<const Vec3> i
     return result;
 }
 
-TargetAim::TargetAim(const Mesh& mesh, const TransportSystem& system,
-                     std::span<const double> weight)
-    : mesh_(mesh), system_(system), weight_(weight), learned_(weight.size()),
-      of_rays_(weight.size()) {
+TargetAim::TargetAim(const Mesh& mesh, std::span<const double> weight)
+    : weight_(weight), learned_(weight.size()), of_rays_(weight.size()) {
     if (has_target()) {
         const WeightSums sums = sums_of(mesh, weight);
         unit_ = sums.second / sums.first;
@@ -75,11 +75,12 @@ TargetAim::TargetAim(const Mesh& mesh, const TransportSystem& system,
 
 /// Keeps a least importance: where light cannot leave for the target, as far as is known, it may
 /// yet turn out to.
-void TargetAim::renew(const ExchangeMatrix& factors, const Workers& workers) {
+void TargetAim::renew(const Mesh& mesh, const TransportSystem& system,
+                      const ExchangeMatrix& factors, const Workers& workers) {
     constexpr double least = 1e-9, roughly = .1; // numbers of rays are as its power 0.8
     learned_ = importance_of_rays(
-        mesh_,
-        importance_of(factors, system_.area(), system_.reflectance(), weight_, workers, roughly),
+        mesh,
+        importance_of(factors, system.area(), system.reflectance(), weight_, workers, roughly),
         weight_);
     for (double& each : learned_)
         each = std::max(each, least);

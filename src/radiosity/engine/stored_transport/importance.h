@@ -27,7 +27,7 @@ class StateWriter;
 class TransportSystem;
 
 /// Solves I = w + F rho I by channel; by patch, `weight` is w. `tolerance` is as in
-/// solve_by_gradients().
+/// solve_by_gradients(); where the iterations end before, the result is rougher.
 [[nodiscard]] std::vector<Vec3> importance_of(const ExchangeMatrix& factors,
                                               std::span<const double> area,
                                               std::span<const Vec3> reflectance,
@@ -58,9 +58,8 @@ class TransportSystem;
 /// Knows which patches the target depends on, and how much, as far as a run has found out.
 class TargetAim {
   public:
-    /// Aims at nothing where `weight` is empty: there is no target, and nothing is ever known. The
-    /// mesh, the system and the weights outlive this.
-    TargetAim(const Mesh& mesh, const TransportSystem& system, std::span<const double> weight);
+    /// Aims at nothing where `weight` is empty: there is no target, and nothing is ever known.
+    TargetAim(const Mesh& mesh, std::span<const double> weight);
 
     [[nodiscard]] bool has_target() const { return !weight_.empty(); }
     /// Takes note of a step. Parts of the scene (linked_parts.h) without a patch of the target are
@@ -71,7 +70,8 @@ class TargetAim {
     [[nodiscard]] bool is_outdated() const { return is_outdated_; }
     /// Computes importance from the rays so far. From the first few, only what is important is
     /// concluded.
-    void renew(const ExchangeMatrix& factors, const Workers& workers);
+    void renew(const Mesh& mesh, const TransportSystem& system, const ExchangeMatrix& factors,
+               const Workers& workers);
 
     /// Returns the importance of the rays of each patch (importance_of_rays); a patch with 0 needs
     /// no more rays.
@@ -89,8 +89,6 @@ class TargetAim {
   private:
     void leave_out_unneeded();
 
-    const Mesh& mesh_;
-    const TransportSystem& system_;
     std::span<const double> weight_; ///< by patch; empty: there is no target
     double unit_ = 0;                ///< of of_rays_, in weights
     std::vector<double> learned_;    ///< of rays, were all patches needed

@@ -2,6 +2,7 @@
 
 #include "radiosity/engine/emitters/direct_light.h"
 #include "radiosity/engine/linear/conjugate_gradients.h"
+#include "radiosity/engine/linear/unsolved_light.h"
 #include "radiosity/engine/stored_transport/stored_rays.h"
 
 #include <algorithm>
@@ -43,9 +44,10 @@ TransportSystem::TransportSystem(const Mesh& mesh, std::span<const std::uint32_t
 }
 
 /// Solves each batch by itself; then the whole by all threads, from where the batches' mean is.
-ExchangeMatrix TransportSystem::solve(const StoredRays& rays, double error,
-                                      std::vector<BatchLight::Light>& light, const Workers& workers,
-                                      const StopFlag& interrupted) const {
+TransportSystem::Solved TransportSystem::solve(const StoredRays& rays, double error,
+                                               std::vector<BatchLight::Light>& light,
+                                               const Workers& workers,
+                                               const StopFlag& interrupted) const {
     const std::size_t batches = rays.counts().size();
     std::vector<ExchangeMatrix> parts(batches);
     std::vector<std::vector<Vec3>> direct(batches);
@@ -60,16 +62,19 @@ ExchangeMatrix TransportSystem::solve(const StoredRays& rays, double error,
     // What a residual makes of the light is no larger than its sum over all reflections.
     const double known = std::fmin(left_of_batches * error, first_residual); // unknown: the latter
     const double residual = std::max(known * lost_at_least_, least_residual);
+    std::vector<double> left(batches + 1); // residuals that are too large
     for_batches(batches, ranks, workers, [&](std::size_t batch, const Workers& own) {
-        solve(parts[batch], std::move(direct[batch]), variance, light[batch], own, residual,
-              interrupted);
+        left[batch] = solve(parts[batch], std::move(direct[batch]), variance, light[batch], own,
+                            residual, interrupted);
     });
     ExchangeMatrix all(std::move(parts), workers);
     const double tolerance = left_of_all * average(light) * lost_at_least_;
-    solve(all, straight_light(all, rays.direct(), std::nullopt, workers),
-          variance / double(batches), light[batches], workers, std::max(tolerance, least_residual),
-          interrupted);
-    return all;
+    left[batches] = solve(all, straight_light(all, rays.direct(), std::nullopt, workers),
+                          variance / double(batches), light[batches], workers,
+                          std::max(tolerance, least_residual), interrupted);
+    const double most_left = *std::ranges::max_element(left);
+    const double unsolved = most_left > 0 ? unsolved_error(most_left, lost_at_least_) : 0;
+    return {std::move(all), unsolved};
 }
 
 Transport TransportSystem::transport(const ExchangeMatrix& factors) const {
@@ -78,13 +83,16 @@ Transport TransportSystem::transport(const ExchangeMatrix& factors) const {
 }
 
 /// Solves for what arrives at each patch in the end, from what `light` holds on.
-void TransportSystem::solve(const ExchangeMatrix& factors, std::vector<Vec3> direct,
-                            const Vec3& variance, BatchLight::Light& light, const Workers& workers,
-                            double residual, const StopFlag& interrupted) const {
+double TransportSystem::solve(const ExchangeMatrix& factors, std::vector<Vec3> direct,
+                              const Vec3& variance, BatchLight::Light& light,
+                              const Workers& workers, double residual,
+                              const StopFlag& interrupted) const {
     scale_direct_light(transport(factors), variance, direct);
-    solve_by_gradients(factors, surfaces_.area, surfaces_.reflectance, direct, light.incident,
-                       workers, residual, &interrupted);
+    const GradientsResult result =
+        solve_by_gradients(factors, surfaces_.area, surfaces_.reflectance, direct, light.incident,
+                           workers, residual, &interrupted);
     light.energy = balance_energy(transport(factors), light.incident);
+    return result.converged ? 0 : result.residual;
 }
 
 /// Sets the last to the mean of the batches. Returns the mean's relative standard error, of what is

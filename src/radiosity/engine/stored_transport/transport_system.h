@@ -49,20 +49,28 @@ class TransportSystem {
     /// Returns whether the geometry proves that no ray is lost.
     [[nodiscard]] bool closed() const { return closed_; }
 
+    /// The factors of all batches, and how well the system was solved.
+    struct Solved {
+        ExchangeMatrix factors;
+        /// A bound of the relative error of the light, of the batches or of all, where iterations
+        /// ended at their limit [-], which may be infinite; else 0 (unsolved_light.h).
+        double unsolved = 0;
+    };
     /// Solves for `light`, of each batch and at last of all, as exactly as the noise of these rays
-    /// allows. It starts from what `light` holds. Returns the factors of all. `error` is the
-    /// relative one of what is known so far; nan where it is unknown. Where solving is interrupted
-    /// `light` is of no use.
-    ExchangeMatrix solve(const StoredRays& rays, double error,
-                         std::vector<BatchLight::Light>& light, const Workers& workers,
-                         const StopFlag& interrupted) const;
+    /// allows. It starts from what `light` holds. `error` is the relative one of what is known so
+    /// far; nan where it is unknown. Where solving is interrupted `light` is of no use.
+    [[nodiscard]] Solved solve(const StoredRays& rays, double error,
+                               std::vector<BatchLight::Light>& light, const Workers& workers,
+                               const StopFlag& interrupted) const;
 
   private:
     /// Solves for one batch or for all. `direct` is the light that comes straight from the
-    /// emitters, and `variance` that of its power, by channel.
-    void solve(const ExchangeMatrix& factors, std::vector<Vec3> direct, const Vec3& variance,
-               BatchLight::Light& light, const Workers& workers, double residual,
-               const StopFlag& interrupted) const;
+    /// emitters, and `variance` that of its power, by channel. Returns the relative residual where
+    /// it is larger than `residual`, else 0.
+    [[nodiscard]] double solve(const ExchangeMatrix& factors, std::vector<Vec3> direct,
+                               const Vec3& variance, BatchLight::Light& light,
+                               const Workers& workers, double residual,
+                               const StopFlag& interrupted) const;
     [[nodiscard]] Transport transport(const ExchangeMatrix& factors) const;
     double average(std::vector<BatchLight::Light>& light) const;
     std::vector<Vec3> straight_light(const ExchangeMatrix& factors, const DirectLight& shadow_rays,

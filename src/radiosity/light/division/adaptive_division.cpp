@@ -26,7 +26,7 @@ namespace tuned {
 
 // Rounds of measuring and cutting.
 
-/// The rounds of a division [-]. A scene takes about five; more only end what does not converge.
+/// The rounds of a division at most [-]. They only end what does not converge.
 constexpr unsigned max_rounds = 20;
 /// How many times as many patches a round makes, at most and at least [-]. Less growth wastes fewer
 /// patches, as what varies is only known roughly; more takes fewer rounds. A round costs as much as

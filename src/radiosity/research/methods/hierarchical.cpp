@@ -191,8 +191,8 @@ class HierarchicalSolver final : public Solver {
     }
 
     /// Solves one batch, from its last solution on.
-    EnergyBalance solve(const LinkFactors& factors, const NormalisedRows& rows,
-                        std::vector<Vec3>& radiosity) const {
+    SolvedBatch solve(const LinkFactors& factors, const NormalisedRows& rows,
+                      std::vector<Vec3>& radiosity) const {
         return solve_closed(
             [&](auto x, auto y) {
                 factors.multiply(x, y);
@@ -216,6 +216,7 @@ class HierarchicalSolver final : public Solver {
         }
         note_errors(variance,
                     missed_over_links(tree_, links_, factors, points, solution_.radiosity));
+        batches_.add_unsolved_to(solution_);
     }
 
     /// Counts as the hits of a patch the points of all links by which it gathers.

@@ -117,13 +117,14 @@ TEST_CASE("A cube is solved exactly") {
     std::vector<double> emission(96, 0.0), x(96, 0.0);
     for (std::size_t i = 0; i < 16; ++i)
         emission[i] = 1;
-    gmres(
+    const GmresResult result = gmres(
         [&](const std::vector<double>& b, std::vector<double>& y) {
             cube.matrix.multiply(b, y, cube.workers);
             for (std::size_t i = 0; i < b.size(); ++i)
                 y[i] = b[i] - .5 * y[i];
         },
         emission, x);
+    CHECK(result.converged);
     const auto mean = [&](std::size_t face) {
         double sum = 0;
         for (std::size_t i = 0; i < 16; ++i)

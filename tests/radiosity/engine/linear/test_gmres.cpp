@@ -53,6 +53,34 @@ TEST_CASE("A very reflective room costs few iterations") {
         CHECK(v == Approx(1 / (1 - rho)).epsilon(1e-8));
 }
 
+TEST_CASE("A row of a hundred rooms is solved with more vectors, and without them it says so") {
+    constexpr std::size_t n = 100;
+    constexpr double rho = .999999, passed = .01;
+    const LinearMap multiply = [](const std::vector<double>& in, std::vector<double>& out) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const double before = in[i > 0 ? i - 1 : 0], after = in[i + 1 < n ? i + 1 : n - 1];
+            out[i] = in[i] - rho * (in[i] + passed * (before - 2 * in[i] + after));
+        }
+    };
+    std::vector<double> b(n), x(n), y(n);
+    b[0] = 1;
+    const GmresResult result = gmres(multiply, b, x);
+    CHECK(result.converged);
+    CHECK(result.iterations < 600);
+    double sum = 0;
+    for (const double v : x)
+        sum += v;
+    CHECK(sum == Approx(1 / (1 - rho)).epsilon(1e-6)); // of the columns
+    x.assign(n, 0.0);
+    const GmresResult few = gmres(multiply, b, x, {.max_restart = 40, .max_iterations = 200});
+    CHECK_FALSE(few.converged);
+    multiply(x, y);
+    double squares = 0;
+    for (std::size_t i = 0; i < n; ++i)
+        squares += (b[i] - y[i]) * (b[i] - y[i]);
+    CHECK(few.residual == Approx(std::sqrt(squares)));
+}
+
 TEST_CASE("Zero right-hand side, exact guess and singular systems end") {
     const LinearMap identity = [](const std::vector<double>& in, std::vector<double>& out) {
         out = in;
@@ -66,7 +94,8 @@ TEST_CASE("Zero right-hand side, exact guess and singular systems end") {
         out = {in[0] - in[1], in[1] - in[0]};
     };
     x = {0, 0};
-    const GmresResult result = gmres(singular, {1, 1}, x, {.most = 100});
+    const GmresResult result = gmres(singular, {1, 1}, x, {.max_iterations = 100});
     CHECK(result.residual > .1);
+    CHECK_FALSE(result.converged);
     CHECK(std::isfinite(x[0]));
 }

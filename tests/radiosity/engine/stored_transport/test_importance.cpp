@@ -69,7 +69,9 @@ TEST_CASE("Importance says what light at any patch does for the target") {
         std::vector<Vec3> first(n), incident(n);
         f.multiply(at.emission, first, workers);
         constexpr double exactly = 1e-13;
-        solve_by_gradients(f, at.area, at.reflectance, first, incident, workers, exactly);
+        const GradientsResult solved =
+            solve_by_gradients(f, at.area, at.reflectance, first, incident, workers, exactly);
+        REQUIRE(solved.converged);
         const std::vector<Vec3> importance =
             importance_of(f, at.area, at.reflectance, weight, workers, exactly);
         // sum w A B = sum A I E, B being E + rho h.

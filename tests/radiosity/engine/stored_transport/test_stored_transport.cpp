@@ -155,7 +155,8 @@ TEST_CASE("Conjugate gradients end where they are interrupted") {
         StopFlag flag;
         flag.set_wished(stopped);
         std::vector<Vec3> h(n);
-        CHECK((solve_by_gradients(f, area, half, d, h, workers, 1e-9, &flag) == 0) == stopped);
+        CHECK((solve_by_gradients(f, area, half, d, h, workers, 1e-9, &flag).iterations == 0) ==
+              stopped);
     }
 }
 
@@ -171,7 +172,8 @@ TEST_CASE("Conjugate gradients solve what was stored, however reflective") {
     for (const double rho : {0.0, .5, .99, .9999}) {
         const std::vector<Vec3> reflectance(n, Vec3(rho, .3, rho));
         std::vector<Vec3> h(n), reflected(n), fh(n);
-        const int iterations = solve_by_gradients(f, area, reflectance, d, h, workers, 1e-11);
+        const int iterations =
+            solve_by_gradients(f, area, reflectance, d, h, workers, 1e-11).iterations;
         CAPTURE(rho, iterations);
         CHECK(iterations < 60);
         for (std::size_t i = 0; i < n; ++i)

@@ -3,6 +3,7 @@
 #include "geometry/frame.h"
 #include "radiosity/light/layers/coplanar_layers.h"
 #include "radiosity/light/layers/coplanar_overlaps.h"
+#include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
@@ -142,7 +143,7 @@ TEST_CASE("Neighbours are not overlaps: nothing of a closed mesh or a floor of t
     }
     for (const Scene& scene : scenes) {
         CHECK(offsets_of(scene).empty());
-        const Mesh mesh(scene);
+        const Mesh mesh = layered_mesh(scene);
         REQUIRE(mesh.vertices().size() == scene.vertices.size());
         bool same = true;
         for (std::size_t v = 0; v < scene.vertices.size(); ++v)

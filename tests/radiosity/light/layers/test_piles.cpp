@@ -1,6 +1,7 @@
 // Piles of facets in one place cost no more than a few pairs, and the lit one stays on top.
 #include "radiosity/light/layers/coplanar_layers.h"
 #include "radiosity/light/layers/coplanar_overlaps.h"
+#include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/sampling/rng.h"
 #include "radiosity/paper/scene/mesh.h"
 #include "support/catch.h"
@@ -95,7 +96,7 @@ TEST_CASE("Facets in one place make no more pairs than the few that are kept") {
     CHECK(overlaps.buried.size() == 30'000 - 2 * kept_alike);
     CHECK(overlaps.pairs.size() == kept_alike * (2 * kept_alike - 1));
     CHECK(find_coplanar_layers(scene, local(scene)).covered == 30'000 - 2);
-    const Mesh mesh(scene);
+    const Mesh mesh = layered_mesh(scene);
     CHECK(mesh.all_layers_are_offset());
     CHECK(mesh.patches().size() == 30'001);
     CHECK(facets_out_of_reach(mesh) == 30'000 - 2 * kept_alike);
@@ -104,7 +105,7 @@ TEST_CASE("Facets in one place make no more pairs than the few that are kept") {
 TEST_CASE("Facets that are in one place but for rounding are as if they were in it exactly") {
     constexpr double by = 1e-7;
     const Scene scene = scattered_pile(3000, by);
-    const Mesh mesh(scene);
+    const Mesh mesh = layered_mesh(scene);
     CHECK(mesh.all_layers_are_offset());
     CHECK(facets_out_of_reach(mesh) >= 3000 - 8 * kept_alike);
     double farthest = 0;
@@ -160,6 +161,6 @@ TEST_CASE("Pairs of facets over each other end at their limit, which is reported
     const Overlaps overlaps = find_overlaps(scene, local(scene));
     CHECK(overlaps.pairs.size() <= limits.pairs);
     CHECK_FALSE(overlaps.complete);
-    CHECK_FALSE(Mesh(scene).all_layers_are_offset());
+    CHECK_FALSE(layered_mesh(scene).all_layers_are_offset());
     CHECK(find_overlaps(heap(500), local(heap(500))).complete);
 }
