@@ -55,8 +55,8 @@ class SphericalTriangle {
 
 template <class Uniform>
 Vec3 SphericalTriangle::sample_rejection(Uniform&& uniform) const {
-    constexpr int most_tries = 64;
-    for (int i = 0; i < most_tries; ++i) {
+    constexpr int max_tries = 64;
+    for (int i = 0; i < max_tries; ++i) {
         const double u = uniform(), v = uniform();
         // The second half is folded onto the first, without branches, which the processor would
         // mispredict.

@@ -14,7 +14,7 @@
 namespace hemilux {
 
 /// The largest number of patches; more would take very long.
-inline constexpr std::size_t most_patches_for_exact_factors = 2000;
+inline constexpr std::size_t max_patches_for_exact_factors = 2000;
 
 class ExactFormFactors {
   public:

@@ -41,7 +41,7 @@ namespace {
 
 constexpr std::size_t batches = 8;
 /// The rays per patch and batch at which the run ends whatever the error.
-constexpr std::uint32_t most_rays = 1u << 20;
+constexpr std::uint32_t max_rays = 1u << 20;
 /// The share of a row of exact factors that may be missing by rounding [-].
 constexpr double rounding_of_rows = 1e-8;
 
@@ -114,14 +114,14 @@ class MatrixSolver final : public Solver {
     }
 
     [[nodiscard]] bool finished() const override {
-        return rays_ >= most_rays || (rays_ > 0 && !input_.needs.bounces);
+        return rays_ >= max_rays || (rays_ > 0 && !input_.needs.bounces);
     }
     [[nodiscard]] const Solution& solution() const override { return solution_; }
 
   private:
     /// Returns a power of two, for which the points are best distributed.
     [[nodiscard]] std::uint32_t first_rays() const {
-        const double asked = std::clamp(input_.options.rays, 1.0, double(most_rays));
+        const double asked = std::clamp(input_.options.rays, 1.0, double(max_rays));
         return std::bit_ceil(static_cast<std::uint32_t>(std::ceil(asked)));
     }
 
@@ -257,7 +257,7 @@ extern const Method matrix_method{
     .make = make_matrix,
     .work = {.pairs = true, .linear_systems = true, .passes = true},
     .plain = plain::matrix,
-    .most_plain_patches = plain::most_patches_of_matrix,
+    .max_plain_patches = plain::max_patches_of_matrix,
     .role = Role::reference,
     .options = options,
     .check = check_exact,

@@ -26,7 +26,7 @@ struct SolveError : std::runtime_error {
 inline constexpr double largest_radiosity = 1e145;
 /// Emission of a channel that is everywhere less than this, and not 0, is refused too: squares
 /// would vanish [W/m2].
-inline constexpr double least_radiosity = 1e-145;
+inline constexpr double min_radiosity = 1e-145;
 
 /// Returns the face of the file that a patch is part of, counted from 0.
 [[nodiscard]] std::uint32_t face_of(const Mesh& mesh, std::uint32_t patch);
