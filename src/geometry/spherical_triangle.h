@@ -49,7 +49,7 @@ class SphericalTriangle {
     [[nodiscard]] double reach(std::size_t edge, Vec2 towards) const;
 
     std::array<Vec3, 3> vertex_{};
-    std::array<Vec3, 3> normal_{}; ///< of the planes of the edges, unit, inwards
+    std::array<Vec3, 3> normal_{}; ///< unit normals of the planes of the edges, inwards
     Hull hull_;
 };
 

@@ -10,7 +10,7 @@ namespace {
 /// ray then strays by far less than the boxes are widened by, and no slab's plane gives 0 times
 /// infinity.
 constexpr double min_slope = 1e-18;
-constexpr double too_far = 0x1p20; ///< in sizes of the scene
+constexpr double too_far = 0x1p20; ///< distance in sizes of the scene
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

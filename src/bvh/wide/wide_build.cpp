@@ -59,7 +59,7 @@ class Builder {
     struct Job {
         Range range;
         unsigned depth;
-        std::uint32_t node, child; ///< of the upper tree, where it hangs
+        std::uint32_t node, child; ///< place in the upper tree where it hangs
     };
 
     void find_bounds(Built& built) {

@@ -139,7 +139,7 @@ class Matrix final : public Solver {
 
     SolverInput input_;
     std::span<const Patch> patches_;
-    std::vector<FormFactors> factors_; ///< of each batch, then of all
+    std::vector<FormFactors> factors_; ///< those of each batch, then of all
     Solution solution_;
 };
 

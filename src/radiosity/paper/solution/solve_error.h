@@ -19,7 +19,7 @@ class Mesh;
 struct SolveError : std::runtime_error {
     SolveError(const std::string& message, std::uint32_t first_face)
         : std::runtime_error(message), face(first_face) {}
-    std::uint32_t face; ///< of the file, from 0: one of those it is about
+    std::uint32_t face; ///< a face of the file it is about, from 0
 };
 
 /// Larger radiosities are refused, so that sums of their squares remain finite [W/m2].
