@@ -34,6 +34,7 @@ const std::vector<std::string> rooms{
     "radiosity/engine/needs",
     "radiosity/engine/solving",
     "radiosity/engine/saving",
+    "radiosity/engine/sparse",
     "radiosity/engine/form_factors",
     "radiosity/engine/linear",
     "radiosity/engine/densities",

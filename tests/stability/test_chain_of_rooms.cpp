@@ -8,6 +8,7 @@
 #include "radiosity/engine/linear/surfaces.h"
 #include "support/catch.h"
 #include "support/families/builders.h"
+#include "support/layered_model.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -15,7 +16,7 @@
 #include <cmath>
 
 using namespace hemilux;
-using test::Model;
+using Model = test::LayeredModel;
 
 namespace {
 

@@ -3,6 +3,7 @@
 #include "geometry/compensated_sum.h"
 #include "radiosity/engine/solving/one_shot.h"
 #include "support/catch.h"
+#include "support/layered_model.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -10,7 +11,7 @@
 #include <cmath>
 
 using namespace hemilux;
-using test::Model;
+using Model = test::LayeredModel;
 
 namespace {
 

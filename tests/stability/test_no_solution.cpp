@@ -3,6 +3,7 @@
 #include "radiosity/paper/solution/solve_error.h"
 #include "radiosity/paper/solving/lossless_component.h"
 #include "support/catch.h"
+#include "support/layered_model.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -13,7 +14,7 @@
 
 using namespace hemilux;
 using Catch::Contains;
-using test::Model;
+using Model = test::LayeredModel;
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/one_shot.h"
 #include "support/catch.h"
+#include "support/layered_model.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -12,7 +13,7 @@
 
 using namespace hemilux;
 using test::add_quad;
-using test::Model;
+using Model = test::LayeredModel;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include "radiosity/engine/form_factors/exchange_area.h"
 #include "radiosity/engine/sampling/sobol.h"
 #include "support/catch.h"
+#include "support/layered_model.h"
 #include "support/scenes.h"
 #include "support/sobol.h"
 #include "support/solve.h"
@@ -12,7 +13,7 @@
 
 using namespace hemilux;
 using test::add_quad;
-using test::Model;
+using Model = test::LayeredModel;
 using test::sobol4;
 
 namespace {

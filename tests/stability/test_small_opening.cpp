@@ -2,6 +2,7 @@
 // small it is. There is a solution, brighter than the emission by the surface over the slit.
 #include "radiosity/paper/solution/solve_error.h"
 #include "support/catch.h"
+#include "support/layered_model.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
@@ -10,7 +11,7 @@
 
 using namespace hemilux;
 using Catch::Contains;
-using test::Model;
+using Model = test::LayeredModel;
 
 namespace {
 

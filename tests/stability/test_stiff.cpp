@@ -2,13 +2,14 @@
 // and the smallest loss of energy between patches would be multiplied by 1 / (1 - rho).
 #include "radiosity/engine/form_factors/factor_options.h"
 #include "support/catch.h"
+#include "support/layered_model.h"
 #include "support/scenes.h"
 #include "support/solve.h"
 
 #include <cmath>
 
 using namespace hemilux;
-using test::Model;
+using Model = test::LayeredModel;
 
 namespace {
 

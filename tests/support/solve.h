@@ -18,8 +18,9 @@ namespace hemilux::test {
 struct Model {
     Mesh mesh;
     WideBvh bvh;
+    explicit Model(Mesh made) : mesh(std::move(made)), bvh(mesh.soup()) {}
     explicit Model(Scene scene, const MeshOptions& options = {})
-        : mesh(std::move(scene), options), bvh(mesh.soup()) {}
+        : Model(Mesh(std::move(scene), options)) {}
 };
 
 /// The solution after some steps, or at an error.

@@ -6,7 +6,7 @@
 #include "app/terminal/log.h"
 #include "app/terminal/summary.h"
 #include "parallel/workers.h"
-#include "radiosity/engine/stored_transport/transport_figures.h"
+#include "radiosity/engine/solving/transport_figures.h"
 #include "radiosity/light/sides/light_paths.h"
 #include "radiosity/paper/hemisphere/hemisphere.h"
 #include "radiosity/paper/scene/mesh.h"

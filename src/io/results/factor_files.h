@@ -1,7 +1,7 @@
 #pragma once
 // A sparse matrix of form factors as a file.
 
-#include "radiosity/engine/form_factors/sparse_matrix.h"
+#include "radiosity/engine/sparse/sparse_matrix.h"
 
 #include <atomic>
 #include <string>

@@ -4,6 +4,7 @@
 #include "radiosity/engine/rays/make_tracer.h"
 #include "radiosity/engine/solving/method.h"
 #include "radiosity/engine/solving/run.h"
+#include "radiosity/light/layers/layered_mesh.h"
 #include "support/example_scenes.h"
 #include "support/families/builders.h"
 #include "support/families/families.h"
@@ -19,7 +20,7 @@ HardScene with_long_runs(Scene scene, double error) {
     constexpr int runs = 3;
     HardScene hard;
     hard.scene = std::move(scene);
-    const Mesh mesh(hard.scene);
+    const Mesh mesh = layered_mesh(hard.scene);
     const MadeTracer made = make_tracer(mesh, true);
     const std::size_t n = mesh.patches().size();
     hard.reference.resize(n);

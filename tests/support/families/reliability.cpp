@@ -3,6 +3,7 @@
 #include "geometry/compensated_sum.h"
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/run.h"
+#include "radiosity/light/layers/layered_mesh.h"
 #include "radiosity/paper/solution/solve_error.h"
 #include "support/families/watchdog.h"
 
@@ -87,7 +88,7 @@ double median(std::vector<double> values) {
 } // namespace
 
 PreparedScene::PreparedScene(const HardScene& hard)
-    : hard_(hard), mesh_(hard.scene, hard.options), needs_(find_needs(mesh_)),
+    : hard_(hard), mesh_(layered_mesh(hard.scene, hard.options)), needs_(find_needs(mesh_)),
       made_(make_tracer(mesh_, needs_.tree)) {}
 
 void Coverage::add(double score) {

@@ -14,8 +14,8 @@
 #include "parallel/ranks.h"
 #include "radiosity/engine/form_factors/escape_fraction.h"
 #include "radiosity/engine/form_factors/ray_counts.h"
-#include "radiosity/engine/form_factors/sparse_rows.h"
 #include "radiosity/engine/sampling/sampling_kernels.h"
+#include "radiosity/engine/sparse/sparse_rows.h"
 
 #include <cstdint>
 #include <span>

@@ -64,16 +64,21 @@ MethodOption factors_option(bool with_exact) {
 }
 
 MethodOption exact_option() {
-    return {
-        .name = "--exact",
-        .help = "form factors without chance where patches see each other fully; for up to " +
-                std::to_string(max_patches_for_exact_factors) + " patches",
-        .values = {},
-        .set = [](SolveOptions& options,
-                  std::string_view text) { return text == "yes" && set_factors(options, "exact"); },
-        .get = [](const SolveOptions& options) { return is_exact(options) ? "yes" : "no"; },
-        .on_page = false,
-        .excludes = "--factors"};
+    return {.name = "--exact",
+            .help = "form factors without chance where patches see each other fully; for up to " +
+                    std::to_string(max_patches_for_exact_factors) + " patches",
+            .values = {},
+            .set =
+                [](SolveOptions& options, std::string_view text) {
+                    const bool is_yes = text == "yes";
+                    if (!is_yes && text != "no")
+                        return false;
+                    return is_yes == is_exact(options) ||
+                           set_factors(options, is_yes ? "exact" : "rays");
+                },
+            .get = [](const SolveOptions& options) { return is_exact(options) ? "yes" : "no"; },
+            .on_page = false,
+            .excludes = "--factors"};
 }
 
 void check_exact(const SolveOptions& options, std::size_t patches) {

@@ -18,7 +18,7 @@
 
 #include "bvh/tracer.h"
 #include "radiosity/engine/form_factors/escape_fraction.h"
-#include "radiosity/engine/form_factors/sparse_matrix.h"
+#include "radiosity/engine/sparse/sparse_matrix.h"
 
 #include <cstdint>
 #include <vector>

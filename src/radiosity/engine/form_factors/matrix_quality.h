@@ -2,7 +2,7 @@
 // Measures how well a matrix of form factors obeys what all form factors obey.
 
 #include "radiosity/engine/form_factors/escape_fraction.h"
-#include "radiosity/engine/form_factors/sparse_matrix.h"
+#include "radiosity/engine/sparse/sparse_matrix.h"
 
 #include <cstdint>
 #include <span>

@@ -14,7 +14,7 @@
 #include "parallel/workers.h"
 #include "radiosity/engine/form_factors/escape_fraction.h"
 #include "radiosity/engine/form_factors/ray_counts.h"
-#include "radiosity/engine/form_factors/sparse_matrix.h"
+#include "radiosity/engine/sparse/sparse_matrix.h"
 #include "radiosity/paper/scene/needs.h"
 
 #include <atomic>

@@ -1,7 +1,7 @@
 #include "radiosity/engine/saving/solution_state.h"
 
 #include "radiosity/engine/saving/state.h"
-#include "radiosity/engine/stored_transport/transport_figures.h"
+#include "radiosity/engine/solving/transport_figures.h"
 #include "radiosity/paper/solution/solve_error.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "radiosity/engine/needs/find_needs.h"
 #include "radiosity/engine/solving/method.h"
-#include "radiosity/engine/stored_transport/transport_figures.h"
+#include "radiosity/engine/solving/transport_figures.h"
 
 namespace hemilux {
 namespace {

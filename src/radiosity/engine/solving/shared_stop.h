@@ -6,8 +6,8 @@
 
 namespace hemilux {
 
-/// What a flag answers is, while this lives, what all ranks have agreed on last. A single rank keeps
-/// its own flag. The flag and the ranks outlive this.
+/// What a flag answers is, while this lives, what all ranks have agreed on last. A single rank
+/// keeps its own flag. The flag and the ranks outlive this.
 class SharedStop : private StopFlag::Agreed {
   public:
     SharedStop(StopFlag& flag, const Ranks& ranks);

@@ -2,10 +2,10 @@
 
 #include "radiosity/engine/emitters/direct_light.h"
 #include "radiosity/engine/saving/state.h"
+#include "radiosity/engine/solving/transport_figures.h"
 #include "radiosity/engine/stored_transport/batch_light.h"
 #include "radiosity/engine/stored_transport/importance.h"
 #include "radiosity/engine/stored_transport/stored_rays.h"
-#include "radiosity/engine/stored_transport/transport_figures.h"
 #include "radiosity/engine/stored_transport/transport_system.h"
 #include "radiosity/paper/scene/needs.h"
 #include "radiosity/paper/solution/error_spread.h"

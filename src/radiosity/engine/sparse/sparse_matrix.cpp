@@ -1,4 +1,4 @@
-#include "radiosity/engine/form_factors/sparse_matrix.h"
+#include "radiosity/engine/sparse/sparse_matrix.h"
 
 namespace hemilux {
 

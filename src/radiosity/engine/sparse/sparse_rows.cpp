@@ -1,4 +1,4 @@
-#include "radiosity/engine/form_factors/sparse_rows.h"
+#include "radiosity/engine/sparse/sparse_rows.h"
 
 #include <algorithm>
 #include <numeric>

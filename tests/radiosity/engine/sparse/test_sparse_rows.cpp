@@ -1,5 +1,5 @@
 // Sparse matrices by rows: their mean against sums over dense ones.
-#include "radiosity/engine/form_factors/sparse_rows.h"
+#include "radiosity/engine/sparse/sparse_rows.h"
 
 #include "radiosity/paper/sampling/rng.h"
 #include "support/catch.h"
