@@ -65,10 +65,13 @@ done | sort -u | while read -r file; do
     if [ ! -d "$file" ] || [ -L "$file" ]; then echo "$file"; fi
 done >"$work/files.txt"
 root=$work/root
-mkdir "$root"
-# Links of the whole system, as /bin -> usr/bin, and what the loader and /etc/alternatives link to.
-tar -C / -cf - --ignore-failed-read --no-recursion -T "$work/files.txt" \
-    bin lib lib64 sbin etc/ld.so.cache etc/alternatives/c++ 2>/dev/null | tar -C "$root" -xf -
+mkdir -p "$root/usr"
+for folder in bin lib lib64 sbin; do # links to folders of /usr
+    [ ! -L "/$folder" ] || { mkdir -p "$root/usr/$folder" && ln -s "usr/$folder" "$root/$folder"; }
+done
+# The links of /etc/alternatives are made as packages are installed: no package owns them.
+tar -C / -cf - --ignore-failed-read --no-recursion -T "$work/files.txt" etc/alternatives/c++ 2>/dev/null |
+    tar -C "$root" --keep-directory-symlink -xf -
 mkdir -p "$root/tmp" "$root/dev" "$root/hemilux"
 : >"$root/dev/null"
 git ls-files -z | xargs -0 tar -cf - | tar -C "$root/hemilux" -xf -
